@@ -1,0 +1,5 @@
+"""Everything that needs no screen: from device bytes to a contact point and the exported config."""
+
+from importlib.metadata import version
+
+__version__ = version("contactbench")

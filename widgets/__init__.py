@@ -1,0 +1,1 @@
+"""Reusable Qt widgets that know the types of :mod:`pipeline` and nothing of :mod:`app`."""

@@ -1,0 +1,192 @@
+"""Defects of a triangle mesh, counted, and put in words for the person who has to mend them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+# Volumes below this share of the bounding cube are rounding: a folded sheet has no inside.
+_FLAT = 1e-12
+
+
+@dataclass(frozen=True)
+class MeshHealth:
+    """
+    What is sound and what is not about a mesh.
+
+    Attributes
+    ----------
+    watertight : bool
+        Every edge belongs to exactly two facets.
+    winding_consistent : bool
+        No two neighbouring facets disagree about which side is outside.
+    outward : bool or None
+        Whether the facets face outwards (positive signed volume); None where the mesh cannot tell:
+        inconsistent winding, no volume, or so open that the sign depends on where one stands.
+    components : int
+        Separate parts; facets that share a vertex belong to the same part.
+    boundary_edges : int
+        Edges of one facet only: the rims of holes.
+    nonmanifold_edges : int
+        Edges of more than two facets.
+    duplicate_facets : int
+        Facets beyond the first with the same three vertices and the same winding.
+    dropped_facets : int
+        Facets without area that were left out when the file was read.
+    """
+
+    watertight: bool
+    winding_consistent: bool
+    outward: bool | None
+    components: int
+    boundary_edges: int
+    nonmanifold_edges: int
+    duplicate_facets: int
+    dropped_facets: int = 0
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What is wrong, why it matters and what to do, in sentences per defect; empty when sound."""
+        found: list[str] = []
+        if self.boundary_edges > 0:
+            found.append(
+                f"The surface is open (edges at a hole or gap: {self.boundary_edges}). A line of force can"
+                " pass through and end on an inner wall. Close the outer shell before use."
+            )
+        if self.nonmanifold_edges > 0:
+            found.append(
+                f"More than two facets meet at an edge (edges: {self.nonmanifold_edges}), so inside and"
+                " outside cannot be told apart there. Keep the outer shell only."
+            )
+        if not self.winding_consistent:
+            found.append(
+                "Neighbouring facets disagree about which side is outside. Contacts on the facets that are"
+                " turned over are missed. Make the normals consistent in the CAD program."
+            )
+        if self.outward is False:
+            found.append(
+                "The mesh is inside out: its facets face inwards, so every contact would be refused. Flip all"
+                " normals in the CAD program."
+            )
+        if self.components > 1:
+            found.append(
+                f"The mesh has {self.components} separate parts. A part inside the housing can be taken for"
+                " the surface. Keep the outer shell only."
+            )
+        if self.duplicate_facets > 0:
+            found.append(
+                f"Facets occur more than once (surplus: {self.duplicate_facets}). They slow the search and"
+                " answer twice. Remove duplicate facets in the CAD program."
+            )
+        if self.dropped_facets > 0:
+            found.append(
+                f"Facets without area were left out (facets: {self.dropped_facets}). They cannot be touched,"
+                " but may have closed a seam. Export again with cleaner triangles if the surface is open."
+            )
+        return tuple(found)
+
+
+def measure_health(
+    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], dropped_facets: int = 0
+) -> MeshHealth:
+    """
+    Count the defects of a mesh.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Finite; any length unit, any frame.
+    faces : (m, 3) int32
+        At least one facet, indices in range, no index twice in a row.
+    dropped_facets : int
+        Passed through to the result.
+
+    Returns
+    -------
+    MeshHealth
+        In O(m log m); about 0.5 s for a million facets.
+    """
+    uses, balance = _edges(faces, len(vertices))
+    # An even number of facets round an edge must run along it equally often in both directions.
+    consistent = bool(np.all(np.abs(balance)[uses > 1] <= (uses % 2)[uses > 1]))
+    return MeshHealth(
+        watertight=bool(np.all(uses == 2)),
+        winding_consistent=consistent,
+        outward=_outward(vertices, faces) if consistent else None,
+        components=_components(faces, len(vertices)),
+        boundary_edges=int(np.count_nonzero(uses == 1)),
+        nonmanifold_edges=int(np.count_nonzero(uses > 2)),
+        duplicate_facets=_duplicates(faces, len(vertices)),
+        dropped_facets=dropped_facets,
+    )
+
+
+def _edges(
+    faces: npt.NDArray[np.int32], vertex_count: int
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Per undirected edge: how many facets use it, and uses in one direction minus uses in the other."""
+    start = faces.T.astype(np.int64)
+    end = np.roll(start, -1, axis=0)
+    # One integer per directed edge, direction in the lowest bit: a plain sort then groups the edges,
+    # and costs a fifth of a row-wise unique.
+    key = (np.minimum(start, end) * vertex_count + np.maximum(start, end)) * 2 + (start < end)
+    key = np.sort(key.ravel())
+    first = np.flatnonzero(np.diff(key >> 1, prepend=-1))
+    uses = np.diff(first, append=len(key))
+    forward = np.add.reduceat(key & 1, first)
+    return uses, 2 * forward - uses
+
+
+def _components(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
+    rows = np.concatenate((faces[:, 0], faces[:, 1]))
+    columns = np.concatenate((faces[:, 1], faces[:, 2]))
+    links = coo_array(
+        (np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=(vertex_count, vertex_count)
+    )
+    _, label = connected_components(links, directed=False)
+    # Vertices that no facet uses are parts of their own in the graph, but not in the mesh.
+    used = np.zeros(len(label), dtype=bool)
+    used[label[faces[:, 0]]] = True
+    return int(np.count_nonzero(used))
+
+
+def _duplicates(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
+    # Turn every facet so that its smallest index comes first; that keeps the winding.
+    lowest = np.argmin(faces, axis=1)
+    a, b, c = (faces[np.arange(len(faces)), (lowest + k) % 3].astype(np.int64) for k in range(3))
+    pair = a * vertex_count + b
+    order = np.lexsort((c, pair))
+    return int(np.count_nonzero((np.diff(pair[order]) == 0) & (np.diff(c[order]) == 0)))
+
+
+def _outward(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> bool | None:
+    """
+    Sign of the volume that the facets enclose, as far as it can be told.
+
+    Seen from o the signed volume is V(o) = V(0) - o . a / 3, where a is the vector area, zero for a closed
+    mesh. With holes it depends on o; where it has one sign over the whole bounding box the sign is still
+    certain (so it is for an open box), otherwise the answer is None.
+    """
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
+    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
+    size = float((high - low).max())
+    # Centred and to unit size: no cancellation far from the origin, no underflow for tiny meshes.
+    a, b, c = (((vertices - (low + high) / 2) / size).T[:, faces[:, corner]] for corner in range(3))
+    (ux, uy, uz), (vx, vy, vz) = b - a, c - a
+    cross = np.stack((uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx))
+    volume = float(np.vdot(a, cross)) / 6
+    area = cross.sum(axis=1) / 2
+    half = (high - low) / (2 * size)
+    seen = [volume - float(np.dot(half * signs, area)) / 3 for signs in product((-1.0, 1.0), repeat=3)]
+    if min(seen) > _FLAT:
+        return True
+    return False if max(seen) < -_FLAT else None

@@ -1,0 +1,210 @@
+"""From a mesh file to a probe in S: units, mount, merging, and refusing what cannot be right."""
+
+from __future__ import annotations
+
+import stat
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+from pipeline.mesh.clean import merge_vertices
+from pipeline.mesh.errors import MeshError, MeshWarning
+from pipeline.mesh.obj import read_obj
+from pipeline.mesh.ply import read_ply
+from pipeline.mesh.probe import (
+    Probe,
+    build_probe,
+    check_faces,
+    check_region,
+    check_vertices,
+    degenerate_facets,
+    extent,
+    refuse_size,
+)
+from pipeline.mesh.stl import read_stl
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+    from pipeline.mesh.parse import RawMesh
+
+Units = Literal["m", "cm", "mm", "in"]
+
+# Metres per unit as a fraction: 120 / 1000 is the float nearest to 0.12, 120 * 0.001 need not be.
+_METRES: dict[Units, tuple[int, int]] = {"m": (1, 1), "cm": (1, 100), "mm": (1, 1000), "in": (127, 5000)}
+
+# A probe is between these for the sake of guessing which unit was meant.
+_LIKELY_M = (0.03, 0.6)
+
+# The vertices of one corner differ by float32 rounding between facets, 6e-8 of the coordinate.
+_MERGE = 1e-7
+
+# A few facets without area are slivers; a larger share says that the file was exported or read wrongly.
+_DROPPABLE = 0.01
+
+_RIGID = 1e-6
+_FARTHEST_MOUNT_M = 10.0
+_LARGEST_FILE = 2**30
+
+_READERS: dict[str, Callable[[bytes], RawMesh]] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj}
+
+
+def load_probe(
+    path: str | os.PathLike[str],
+    units: Units = "mm",
+    mount: npt.ArrayLike | None = None,
+    *,
+    name: str | None = None,
+) -> Probe:
+    """
+    Read a probe from an STL (binary or text), PLY or OBJ file.
+
+    Vertices that coincide within 1e-7 of the size are merged, those that no facet uses are left out, and so
+    are facets without area as long as they are at most 1 % of all. A file written by `save_probe` is taken
+    as it is. Defects that remain are told in one `MeshWarning`; the same sentences are in ``probe.health``.
+
+    Parameters
+    ----------
+    path : str or path
+        The file; its suffix says the format.
+    units : {"mm", "m", "cm", "in"}
+        What the file's numbers are. Files do not say; most CAD programs write millimetres.
+    mount : (4, 4) array_like, optional
+        T_SP, the rigid transform from the mesh's frame P to the sensor frame S, translation in metres:
+        p_S = T_SP @ p_P, after the units are converted. Left out, P is taken to be S.
+    name : str, optional
+        For people; the file's name without suffix when left out.
+
+    Returns
+    -------
+    Probe
+        In metres and S. A PLY face property `region` of integers becomes ``probe.region``.
+
+    Raises
+    ------
+    MeshError
+        The file is missing, not a complete mesh, or holds bad numbers; the size is under 5 mm or over 2 m
+        with these units; more than 1 % of the facets have no area; the mount is not rigid. The message names
+        the file.
+    """
+    if units not in get_args(Units):
+        raise MeshError(f"units={units!r} is not known: pass one of 'm', 'cm', 'mm', 'in'.")
+    T_SP = None if mount is None else _rigid(mount)
+    file = Path(path)
+    try:
+        probe = _settle(_read(file), units, T_SP, file.stem if name is None else name)
+    except MeshError as error:
+        raise MeshError(f"{file}: {error}") from error
+    if probe.health.sentences:
+        warnings.warn(f"{file}: " + " ".join(probe.health.sentences), MeshWarning, stacklevel=2)
+    return probe
+
+
+def _read(file: Path) -> RawMesh:
+    try:
+        status = file.stat()
+    except FileNotFoundError:
+        raise MeshError("there is no such file: check the path.") from None
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        raise MeshError(f"the file cannot be reached ({error}): check the path.") from error
+    _check_file(status.st_mode, status.st_size)
+    reader = _READERS.get(file.suffix.lower())
+    if reader is None:
+        raise MeshError(
+            f"the suffix {file.suffix!r} is not one of .stl, .ply, .obj: export the part as one of them."
+        )
+    try:
+        data = file.read_bytes()
+    except OSError as error:
+        raise MeshError(f"the file cannot be read ({error}): check its permissions.") from error
+    return reader(data)
+
+
+def _check_file(mode: int, size: int) -> None:
+    if stat.S_ISDIR(mode):
+        raise MeshError("this is a folder: choose a mesh file inside it.")
+    if not stat.S_ISREG(mode):
+        raise MeshError("this is a device or a pipe, not a file: choose a mesh file.")
+    if size == 0:
+        raise MeshError("the file is empty: copy or export it again.")
+    if size > _LARGEST_FILE:
+        raise MeshError(f"the file has {size} bytes, more than 1 GiB: export the part with fewer facets.")
+
+
+def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Copy T_SP to (4, 4) float64, or say why it is not a rigid transform in metres."""
+    try:
+        T_SP = np.array(mount, dtype=np.float64)
+    except (ValueError, TypeError) as error:
+        raise MeshError(
+            f"mount is not a matrix of numbers ({error}): give a 4 x 4 transform T_SP."
+        ) from error
+    if T_SP.shape != (4, 4):
+        raise MeshError(f"mount has shape {T_SP.shape}: give a 4 x 4 transform T_SP.")
+    if not np.isfinite(T_SP).all():
+        raise MeshError("mount holds NaN or infinity: give a finite 4 x 4 transform T_SP.")
+    if np.abs(T_SP[3] - (0, 0, 0, 1)).max() > _RIGID:
+        raise MeshError(f"mount has the last row {T_SP[3].tolist()}, not [0, 0, 0, 1]: is it transposed?")
+    R_SP, p_SP_S = T_SP[:3, :3], T_SP[:3, 3]
+    if np.abs(R_SP).max() > 1e3 or np.abs(R_SP.T @ R_SP - np.eye(3)).max() > _RIGID:
+        raise MeshError(
+            "mount scales or shears: its 3 x 3 part is not a rotation within 1e-6. Convert lengths with"
+            " units, and give rotations with at least seven digits."
+        )
+    if np.linalg.det(R_SP) < 0:
+        raise MeshError("mount mirrors the mesh (determinant -1): one axis has the wrong sign.")
+    if np.abs(p_SP_S).max() > _FARTHEST_MOUNT_M:
+        raise MeshError(f"mount moves the mesh by {p_SP_S.tolist()} m: give the translation in metres.")
+    return T_SP
+
+
+def _settle(raw: RawMesh, units: Units, T_SP: npt.NDArray[np.float64] | None, name: str) -> Probe:
+    """Check, convert, merge, clean and move what a file holds."""
+    vertices = check_vertices(raw.vertices)
+    faces = check_faces(raw.faces, len(vertices))
+    region = check_region(raw.region, len(faces))
+    _check_units(extent(vertices, faces), units)
+    numerator, denominator = _METRES[units]
+    vertices = vertices * numerator / denominator
+    if not raw.settled:
+        vertices, faces = merge_vertices(vertices, faces, _MERGE * extent(vertices, faces))
+    moved = vertices if T_SP is None else vertices @ T_SP[:3, :3].T + T_SP[:3, 3]
+    # Moving rounds: a facet that is flat in the file may not be flat after it, and the other way round.
+    flat = degenerate_facets(vertices, faces) | degenerate_facets(moved, faces)
+    dropped = int(np.count_nonzero(flat))
+    _refuse_many(dropped, len(faces))
+    if dropped:
+        faces, region = faces[~flat], region[~flat]
+    return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped)
+
+
+def _refuse_many(dropped: int, total: int) -> None:
+    if dropped > _DROPPABLE * total:
+        raise MeshError(
+            f"{dropped} of {total} facets have no area, more than 1 %: the export is too coarse or damaged."
+            " Export the part again with a finer tolerance."
+        )
+
+
+def _check_units(size: float, units: Units) -> None:
+    def metres(unit: Units) -> float:
+        numerator, denominator = _METRES[unit]
+        return size * numerator / denominator
+
+    def remedy(_: bool) -> str:
+        low, high = _LIKELY_M
+        likely = sorted(
+            (unit for unit in _METRES if unit != units and low <= metres(unit) <= high),
+            key=("mm", "m", "cm", "in").index,
+        )
+        if not likely:
+            return f"with units={units!r} that cannot be a probe. Check the part that was exported."
+        names = {"mm": "millimetres", "m": "metres", "cm": "centimetres", "in": "inches"}
+        return f"did the file hold {names[likely[0]]}? pass units={likely[0]!r} instead of {units!r}."
+
+    refuse_size(metres(units), remedy)

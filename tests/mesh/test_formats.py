@@ -1,0 +1,402 @@
+"""What is particular to one format, above all what trimesh by itself would read wrongly without a word."""
+
+from __future__ import annotations
+
+import struct
+import time
+
+import numpy as np
+import pytest
+import trimesh
+
+from pipeline.mesh import MeshError, MeshWarning, load_probe
+
+TETRAHEDRON = ["0 0 0", "50 0 0", "0 50 0", "0 0 50"]
+OUTWARD = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+
+
+def refuse(path, message: str) -> None:
+    with pytest.raises(MeshError, match=message) as caught:
+        load_probe(path)
+    assert str(path) in str(caught.value)
+
+
+# ---------------------------------------------------------------- STL
+
+
+def stl_text(names: tuple[str, ...] = ("part",), newline: str = "\n") -> str:
+    lines = []
+    for n, name in enumerate(names):
+        lines.append(f"solid {name}")
+        for facet in OUTWARD:
+            lines += ["  facet normal 0 0 0", "    outer loop"]
+            points = [[float(x) + 100 * n for x in TETRAHEDRON[i].split()] for i in facet]
+            lines += [f"      vertex {x:e} {y:E} {z:g}" for x, y, z in points]
+            lines += ["    endloop", "  endfacet"]
+        lines.append(f"endsolid {name}")
+    return newline.join(lines) + newline
+
+
+@pytest.mark.parametrize("newline", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize(
+    "name", ["", "SOLIDWORKS part", "vertex 1 2 3", "facet normal", "endsolid loop", "\xb5"]
+)
+def test_stl_text_with_any_name(write, newline, name):
+    probe = load_probe(write("a.stl", stl_text((name,), newline)))
+    assert (len(probe.faces), len(probe.vertices)) == (4, 4)
+    assert probe.health.sentences == ()
+
+
+def test_stl_text_in_upper_case(write):
+    assert len(load_probe(write("a.stl", stl_text().upper())).faces) == 4
+
+
+def test_stl_solids_become_one_mesh(write):
+    with pytest.warns(MeshWarning, match="2 separate parts"):
+        probe = load_probe(write("a.stl", stl_text(("solid one", "solid two"))))
+    assert len(probe.faces) == 8
+    assert probe.vertices[probe.faces[:4]].max() == pytest.approx(0.05)
+    assert probe.health.outward is True
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("endsolid part", "", "ends before 'endsolid'"),
+        (
+            "vertex 5.000000e+01 0.000000E+00 0\n",
+            "vertex 5.0 0.0\n",
+            "the facet on line 2 .*is not three 'vertex",
+        ),
+        ("vertex 5.000000e+01 0.000000E+00 0\n", "vertex 5,0 0,0 0\n", "the facet on line 2 "),
+        ("vertex 5.000000e+01 0.000000E+00 0\n", "vertex 5.0x 0.0 0\n", "the facet on line 2 "),
+        ("      vertex 5.000000e+01 0.000000E+00 0\n", "", "the facet on line 2 "),
+        ("  endfacet\n", "", "the facet on line 2 "),
+        ("5.000000e+01", "nan", r"vertices: row \d .* is not a finite point"),
+        ("5.000000e+01", "1e999", r"vertices: row \d .* is not a finite point"),
+        ("5.000000e+01", "1e20", r"vertices: row \d .* is absurdly far away"),
+    ],
+)
+def test_stl_text_that_is_damaged(write, old, new, message):
+    refuse(write("a.stl", stl_text().replace(old, new, 1)), message)
+
+
+def test_stl_text_without_facets(write):
+    refuse(write("a.stl", "solid nothing\nendsolid nothing\n"), "the STL text holds no facets")
+
+
+def test_stl_text_whose_last_solid_is_cut_off(write):
+    # trimesh returns the first solid and says nothing.
+    text = stl_text(("one", "two"))
+    refuse(write("a.stl", text[: int(len(text) * 0.8)]), "ends before 'endsolid': it is cut short")
+
+
+def binary_stl(mesh: trimesh.Trimesh, count: int | None = None, header: bytes = b"") -> bytes:
+    data = bytearray(mesh.export(file_type="stl"))
+    data[: len(header)] = header
+    if count is not None:
+        data[80:84] = struct.pack("<I", count)
+    return bytes(data)
+
+
+def test_binary_stl_that_begins_like_a_text(ball, write):
+    assert len(load_probe(write("a.stl", binary_stl(ball, header=b"solid SOLIDWORKS facet "))).faces) == 320
+
+
+@pytest.mark.parametrize("header", [b"", b"solid "])
+def test_binary_stl_with_an_absurd_count(ball, write, header):
+    data = binary_stl(ball, 2**32 - 1, header)
+    refuse(write("a.stl", data), "announces 4294967295 facets, which take 214748364834 bytes.*cut short")
+
+
+def test_binary_stl_with_bytes_after_its_end(ball, write):
+    refuse(write("a.stl", binary_stl(ball) + b"extra"), "announces 320 facets.*has bytes after its end")
+
+
+def test_binary_stl_without_facets(write):
+    refuse(write("a.stl", b"\0" * 84), "the STL file holds no facets")
+
+
+def test_short_stl(write):
+    refuse(write("a.stl", b"\1" * 83), "83 bytes are too few for an STL file")
+
+
+# ---------------------------------------------------------------- OBJ
+
+OBJ = "".join(f"v {row}\n" for row in TETRAHEDRON)
+FACETS = "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in OUTWARD)
+
+
+def corners(probe) -> list[list[list[float]]]:
+    return (probe.vertices[probe.faces] * 1000).round(9).tolist()
+
+
+def test_obj_facets_keep_their_order_over_groups_and_materials(write):
+    lines = FACETS.splitlines()
+    mixed = (
+        "mtllib none.mtl\n"
+        + OBJ
+        + "\n".join(
+            f"o part{i}\ng side{i}\nusemtl colour{i % 2}\ns off\n{line}" for i, line in enumerate(lines)
+        )
+    )
+    assert corners(load_probe(write("a.obj", mixed))) == corners(load_probe(write("b.obj", OBJ + FACETS)))
+
+
+@pytest.mark.parametrize("form", ["{0}/{0}", "{0}//{0}", "{0}/{0}/{0}", "{0}/", "{0}//"])
+def test_obj_texture_and_normal_indices_are_ignored(write, form):
+    extra = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n" + "vn 0 0 1\n" * 4
+    facets = "".join("f " + " ".join(form.format(i + 1) for i in facet) + "\n" for facet in OUTWARD)
+    probe = load_probe(write("a.obj", OBJ + extra + facets))
+    assert corners(probe) == corners(load_probe(write("b.obj", OBJ + FACETS)))
+
+
+def test_obj_hexagon_beside_textured_triangles(write):
+    # Both kinds of line hold six numbers; trimesh takes them for the same kind.
+    ring = [(50, 0), (25, 43), (-25, 43), (-50, 0), (-25, -43), (25, -43)]
+    text = "".join(f"v {x} {y} 0\n" for x, y in ring) + "v 0 0 50\nvt 0 0\nf 6 5 4 3 2 1\n"
+    text += "".join(f"f {i + 1}/1 {(i + 1) % 6 + 1}/1 7/1\n" for i in range(6))
+    probe = load_probe(write("a.obj", text))
+    assert len(probe.faces) == 10
+    assert probe.health.sentences == ()
+
+
+def test_obj_negative_indices_count_back_from_where_they_stand(write):
+    # trimesh counts back from the end of the file.
+    first = OBJ + "f -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n"
+    moved = "".join(
+        f"v {100 + int(row.split()[0])} {row.split()[1]} {row.split()[2]}\n" for row in TETRAHEDRON
+    )
+    with pytest.warns(MeshWarning, match="2 separate parts"):
+        probe = load_probe(write("a.obj", first + moved + first[len(OBJ) :]))
+    assert probe.health.watertight
+    assert probe.vertices[probe.faces[:4]].max() == pytest.approx(0.05)
+
+
+def test_obj_with_comments_continuations_colours_and_weights(write):
+    text = "# head\n" + OBJ.replace("v 0 0 0\n", "v 0 0 0 1.0 # weight\n").replace(
+        "v 50 0 0", "v 50 0 0 1 0.5 0.5"
+    )
+    probe = load_probe(write("a.obj", text + FACETS.replace("f 1 3 2", "f 1 \\\n3 2 # bottom")))
+    assert corners(probe) == corners(load_probe(write("b.obj", OBJ + FACETS)))
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (OBJ, "holds no facets"),
+        (FACETS, "line 1 .* refers to a vertex that is not there .the file has 0"),
+        (OBJ + FACETS + "f 1 2 9\n", "line 9 .* refers to a vertex that is not there .the file has 4"),
+        (OBJ + FACETS + "f -1 -2 -9\n", "line 9 .* refers to a vertex that is not there"),
+        (OBJ + FACETS + "f 0 1 2\n", "line 9 .* does not list three or more vertices, counted from 1"),
+        (OBJ + FACETS + "f 1 2\n", "line 9 .* does not list three or more"),
+        (OBJ + FACETS + "f 1 2 x\n", "line 9 .* does not list three or more"),
+        (OBJ + FACETS + "f 1 2 3.0\n", "line 9 .* does not list three or more"),
+        (OBJ + FACETS + "f 1 2 99999999999999999999999\n", "line 9 .* does not list three or more"),
+        (OBJ + FACETS + "f 1 2 99999999999999999\n", "line 9 .* refers to a vertex that is not there"),
+        (OBJ + "v 1 2\n" + FACETS, "line 5 .* is a vertex without three numbers"),
+        (OBJ + "v 1 2 3x\n" + FACETS, "line 5 .* is a vertex without three numbers"),
+        (OBJ + "v 1,5 2 3\n" + FACETS, "line 5 .* is a vertex without three numbers"),
+        (OBJ.replace("50 0 0", "inf 0 0") + FACETS, "vertices: row 1 .* is not a finite point"),
+    ],
+)
+def test_obj_that_is_damaged(write, text, message):
+    refuse(write("a.obj", text), message)
+
+
+# ---------------------------------------------------------------- PLY
+
+TRIANGLES = [f"3 {a} {b} {c}" for a, b, c in OUTWARD]
+INDICES = "list uchar int vertex_indices"
+
+
+def test_ply_text_with_regions(write, ply_text):
+    rows = [f"{row} {i}" for i, row in enumerate(TRIANGLES)]
+    probe = load_probe(write("a.ply", ply_text(TETRAHEDRON, rows, face_properties=(INDICES, "int region"))))
+    assert probe.region.tolist() == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("kind", ["char", "uchar", "short", "uint8", "int32", "uint"])
+def test_ply_region_may_stand_anywhere_and_be_any_integer(write, ply_text, kind):
+    rows = [f"255 {i} {row} 0.5 2 7 8" for i, row in enumerate(TRIANGLES)]
+    properties = (
+        "uchar red",
+        f"{kind} region",
+        "list uchar int vertex_index",
+        "float quality",
+        "list uchar int extra",
+    )
+    probe = load_probe(write("a.ply", ply_text(TETRAHEDRON, rows, face_properties=properties)))
+    assert probe.region.tolist() == [0, 1, 2, 3]
+
+
+def test_ply_polygons_share_their_region(write, ply_text):
+    vertices = ["0 0 0", "50 0 0", "50 50 0", "0 50 0", "25 25 40"]
+    rows = ["4 3 2 1 0 7", "3 0 1 4 1", "3 1 2 4 2", "3 2 3 4 3", "3 3 0 4 4"]
+    text = ply_text(vertices, rows, face_properties=(INDICES, "int region"))
+    probe = load_probe(write("a.ply", text))
+    assert probe.region.tolist() == [7, 7, 1, 2, 3, 4]
+    assert probe.health.sentences == ()
+
+
+def test_ply_region_survives_leaving_facets_out(ball, write, ply_text):
+    rows = [f"3 {a} {b} {c} {i}" for i, (a, b, c) in enumerate(ball.faces.tolist())]
+    rows.insert(100, "3 5 5 6 9999")
+    vertices = [" ".join(map(repr, row)) for row in ball.vertices.tolist()]
+    text = ply_text(vertices, rows, face_properties=(INDICES, "int region"))
+    with pytest.warns(MeshWarning, match=r"left out \(facets: 1\)"):
+        probe = load_probe(write("a.ply", text))
+    assert probe.region.tolist() == list(range(320))
+
+
+def test_ply_with_edges_and_other_elements(write, ply_text):
+    before = (
+        "element thing 2\nproperty list uchar int numbers\nproperty float x\nelement none 0\nproperty int a\n"
+    )
+    text = ply_text(TETRAHEDRON, TRIANGLES, before=before, rows_before=("2 1 2 0.5", "0 0.25"))
+    text = text.replace(
+        "end_header", "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header"
+    )
+    assert len(load_probe(write("a.ply", text + "0 1\n")).faces) == 4
+
+
+@pytest.mark.parametrize("order", ["<", ">"])
+@pytest.mark.parametrize("corners", [3, 4])
+def test_ply_binary_of_either_byte_order(write, order, corners):
+    box = trimesh.creation.box(extents=(60, 40, 20))
+    quads = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
+    polygons = quads if corners == 4 else np.asarray(box.faces)
+    region = np.arange(len(polygons))
+    rows = np.zeros(len(polygons), [("r", order + "u2"), ("n", "u1"), ("i", order + "u4", (corners,))])
+    rows["r"], rows["n"], rows["i"] = region, corners, polygons
+    encoding = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
+    head = (
+        f"ply\r\nformat {encoding} 1.0\r\nelement vertex 8\r\nproperty float x\r\nproperty float y\r\n"
+        f"property float z\r\nelement face {len(polygons)}\r\nproperty ushort region\r\n"
+        "property list uchar uint vertex_indices\r\nend_header\r\n"
+    )
+    data = head.encode() + np.asarray(box.vertices).astype(order + "f4").tobytes() + rows.tobytes()
+    probe = load_probe(write("a.ply", data))
+    assert probe.region.tolist() == np.repeat(region, corners - 2).tolist()
+    assert probe.areas.sum() == pytest.approx(2e-6 * (60 * 40 + 60 * 20 + 40 * 20))
+    assert probe.health.watertight
+
+
+def test_ply_binary_with_a_wrong_list_length_inside(ball, write):
+    # trimesh uses the first row's length for all and ignores the others.
+    data = bytearray(ball.export(file_type="ply"))
+    data[-13 * 7] = 4
+    refuse(write("a.ply", bytes(data)), "facets have different numbers of vertices")
+
+
+@pytest.mark.parametrize("count", [-1, 0, 2, 200])
+def test_ply_binary_with_a_wrong_first_list_length(ball, write, count):
+    data = bytearray(ball.export(file_type="ply"))
+    data[-13 * 320] = count % 256
+    refuse(write("a.ply", bytes(data)), "triangles only|cut short")
+
+
+def test_ply_binary_with_an_absurd_list_length(ball, write):
+    head, _, body = ball.export(file_type="ply").partition(b"end_header\n")
+    vertices, faces = body[: 12 * len(ball.vertices)], np.asarray(ball.faces)
+    rows = np.zeros(len(faces), [("n", "<u4"), ("i", "<i4", (3,))])
+    rows["n"], rows["i"] = 2**32 - 1, faces
+    head = head.replace(b"list uchar int", b"list uint int")
+    refuse(write("a.ply", head + b"end_header\n" + vertices + rows.tobytes()), "not a readable PLY file")
+
+
+@pytest.mark.parametrize("element", ["vertex", "face"])
+@pytest.mark.parametrize("count", ["4000000000", "999999999999999999"])
+def test_ply_with_an_absurd_count(ball, encode, write, element, count):
+    for name in ("binary.ply", "text.ply"):
+        head, mark, body = encode(ball, name).partition(b"end_header\n")
+        number = len(ball.vertices if element == "vertex" else ball.faces)
+        head = head.replace(f"element {element} {number}".encode(), f"element {element} {count}".encode())
+        refuse(write(name, head + mark + body), f"header announces .*{count[:9]}.*the file is.* cut short")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("ply\n", "plywood\n", "the first line is not 'ply'"),
+        ("end_header\n", "", "has no 'end_header' line"),
+        ("format ascii 1.0\n", "", "has no 'format' line"),
+        (
+            "format ascii 1.0",
+            "format ascii 9.9",
+            "line 2 of the PLY header, 'format ascii 9.9', cannot be used",
+        ),
+        ("format ascii", "format morse", "line 2 of the PLY header"),
+        ("element vertex 4", "element vertex four", "line 4 of the PLY header"),
+        ("element vertex 4", "element vertex -4", "line 4 of the PLY header"),
+        ("property double x", "property quaternion x", "line 5 of the PLY header"),
+        ("property double x\n", "property double x\nproperty double x\n", "has no property, or one twice"),
+        ("element face", "element vertex", "has no property, or one twice|names an element twice"),
+        ("property double z\n", "", "no vertices with a number 'z'"),
+        ("property double z\n", "property list uchar double z\n", "no vertices with a number 'z'"),
+        ("element vertex 4", "element point 4", "no vertices with a number 'x'"),
+        ("element face 4", "element cell 4", "holds no facets"),
+        (f"property {INDICES}", "property list uchar float vertex_indices", "is not a list of integers"),
+        (f"property {INDICES}", "property int vertex_indices", "is not a list of integers"),
+        (f"property {INDICES}", "property list uchar int corners", "holds no facets"),
+        ("element vertex 4\n", "", "line 4 of the PLY header"),
+        ("50 0 0\n", "50 0\n", "row 1 of the PLY element 'vertex'"),
+        ("50 0 0\n", "50 0 0 0\n", "row 1 of the PLY element 'vertex'"),
+        ("50 0 0\n", "50 0 zero\n", "row 1 of the PLY element 'vertex'"),
+        ("50 0 0\n", "", "announces 4 rows of 'vertex', 4 rows of 'face', but 7 rows follow"),
+        ("50 0 0\n", "50 0 0\n50 0 0\n", "announces 4 rows of 'vertex', 4 rows of 'face', but 9 rows follow"),
+        ("50 0 0\n", "50 0 nan\n", "vertices: row 1 .* is not a finite point"),
+        ("3 0 1 3", "3 0 1 4", "faces: row 1 refers to vertex 4"),
+        ("3 0 1 3", "3 0 1 -1", "faces: row 1 refers to vertex -1"),
+        ("3 0 1 3", "3 0 1 3.5", "row 1 of the PLY element 'face'"),
+        ("3 0 1 3", "3 0 1 1e3", "row 1 of the PLY element 'face'"),
+        ("3 0 1 3", "3 0 1 nan", "row 1 of the PLY element 'face'"),
+        ("3 0 1 3", "3 0 1 99999999999999999999", "row 1 of the PLY element 'face'"),
+        ("3 0 1 3", "3 0 1 9999999999", "faces: row 1 refers to vertex"),
+        ("3 0 1 3", "4 0 1 3", "row 1 of the PLY element 'face'"),
+        ("50 0 0", "1e300 0 0", "vertices: row 1 .* is absurdly far away"),
+        ("3 0 1 3", "2 0 1 3", "row 1 of the PLY element 'face'"),
+        ("3 0 1 3", "2 0 1", "row 1 of the PLY element 'face' has fewer than three vertices"),
+        ("3 0 1 3", "-3 0 1 3", "row 1 of the PLY element 'face'"),
+        ("3 0 1 3", "999999999999999 0 1 3", "row 1 of the PLY element 'face'"),
+    ],
+)
+def test_ply_that_is_damaged(write, ply_text, old, new, message):
+    text = ply_text(TETRAHEDRON, TRIANGLES)
+    assert old in text
+    refuse(write("a.ply", text.replace(old, new, 1)), message)
+
+
+@pytest.mark.parametrize(
+    ("kind", "value", "message"),
+    [
+        ("float region", "1", "face property 'region' is float: save it as int"),
+        ("list uchar int region", "1 1", "face property 'region' is a list"),
+        ("int region", "-2", "region: row 0 is -2"),
+        ("int64 region", "3000000000", "region: row 0 is 3000000000"),
+        ("int region", "3000000000", "region: row 0 is"),
+    ],
+)
+def test_ply_with_a_bad_region(write, ply_text, kind, value, message):
+    rows = [f"{row} {value}" for row in TRIANGLES]
+    refuse(write("a.ply", ply_text(TETRAHEDRON, rows, face_properties=(INDICES, kind))), message)
+
+
+def test_ply_comments_may_hold_any_character(write, ply_text):
+    text = ply_text(TETRAHEDRON, TRIANGLES).replace("made by hand", "made by \u00c5sa\u2028on\x0bpaper")
+    assert len(load_probe(write("a.ply", text)).faces) == 4
+
+
+@pytest.mark.parametrize("filler", ["1" * 300_000, " " * 300_000, "\n" * 300_000, "\t\n " * 100_000])
+def test_long_runs_cost_no_more_than_their_length(write, ply_text, filler):
+    # Minutes, were the patterns ambiguous; milliseconds as they are.
+    began = time.perf_counter()
+    refuse(write("a.stl", stl_text().replace("vertex 5", f"vertex {filler}x5", 1)), "the facet on line 2 ")
+    refuse(write("b.stl", stl_text().replace("endloop", f"{filler}x", 1)), "the facet on line 2 ")
+    refuse(write("a.obj", OBJ + f"v 1 2 {filler}x\n" + FACETS), "vertex without three numbers")
+    refuse(write("a.ply", ply_text([*TETRAHEDRON[:3], f"0 0 {filler}x"], TRIANGLES)), "row 3 of|rows follow")
+    assert time.perf_counter() - began < 10
+
+
+def test_ply_point_cloud(write, ply_text):
+    refuse(write("a.ply", ply_text(TETRAHEDRON, [])), r"holds no facets \(a point cloud\?\)")

@@ -1,0 +1,48 @@
+"""The compiled core: header-only C++20 in ``include/``, bound once per instruction set.
+
+The headers know neither Python nor any other library. This package loads the variant that the
+processor can run; ``CONTACTBENCH_KERNEL=base`` forces the portable one. All variants give the same
+bits: no operation is contracted or reordered.
+"""
+
+import importlib
+import os
+
+from pipeline.errors import InputError
+from pipeline.kernel import _cpu
+
+
+def _variant() -> str:
+    wanted = os.environ.get("CONTACTBENCH_KERNEL", "")
+    available = [name for name in ("avx2",) if _cpu.features().get(name)] + ["base"]
+    if wanted and wanted not in available:
+        msg = f"CONTACTBENCH_KERNEL={wanted}: this machine can run {', '.join(available)}; unset it to choose by itself"
+        raise InputError(msg)
+    return wanted or available[0]
+
+
+_module = importlib.import_module(f"pipeline.kernel._kernel_{_variant()}")
+
+variant: str = _module.variant
+compiler: str = _module.compiler
+Algorithm1 = _module.Algorithm1
+Batch = _module.Batch
+Candidate = _module.Candidate
+Contact = _module.Contact
+Iterative = _module.Iterative
+Reason = _module.Reason
+Scan = _module.Scan
+Solver = _module.Solver
+
+__all__ = [
+    "Algorithm1",
+    "Batch",
+    "Candidate",
+    "Contact",
+    "Iterative",
+    "Reason",
+    "Scan",
+    "Solver",
+    "compiler",
+    "variant",
+]

@@ -1,0 +1,159 @@
+// Contact, its candidates and the reason codes.
+#include <nanobind/stl/string.h>
+
+#include "bindings.hpp"
+
+namespace contactbench::bindings {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+const char* why_text(Why why) {
+    switch (why) {
+        case Why::chosen: return "chosen";
+        case Why::region: return "outside the priority region";
+        case Why::friction: return "outside the friction cone";
+        case Why::previous: return "far from the previous contact";
+        case Why::torque: return "larger local torque";
+        case Why::noise: return "within the noise of the wrench";
+    }
+    return "unknown";
+}
+
+nb::object index_or_none(std::int32_t i) { return i < 0 ? nb::none() : nb::cast(i); }
+
+double degrees_of(double cosine) { return std::acos(std::min(1.0, cosine)) * 180.0 / M_PI; }
+
+// Every candidate but the chosen one, best first: nearest to being chosen is smallest |k|.
+nb::list candidates_of(const Contact& c) {
+    std::vector<const Candidate*> others;
+    for (std::size_t i = 0; i < c.answer.hits.size(); ++i)
+        if (std::int32_t(i) != c.answer.chosen) others.push_back(&c.answer.hits[i]);
+    std::stable_sort(others.begin(), others.end(), [](const Candidate* a, const Candidate* b) {
+        if (std::fabs(a->torque) != std::fabs(b->torque)) return std::fabs(a->torque) < std::fabs(b->torque);
+        return a->face != b->face ? a->face < b->face : a->vertex < b->vertex;
+    });
+    nb::list out;
+    const Candidate* chosen = c.chosen();
+    for (const Candidate* o : others)
+        out.append(nb::cast(ContactCandidate{*o, chosen ? norm(o->point - chosen->point) : nan}));
+    return out;
+}
+
+Mat3 covariance_of(const Contact& c) {
+    return contact_covariance(*c.chosen(), c.wrench.F, c.context->noise());
+}
+
+nb::object repr(const Contact& c) {
+    nb::object reason = nb::cast(c.answer.reason).attr("name");
+    const Candidate* p = c.chosen();
+    if (!p) return nb::str("Contact({}, no point, {} candidates)").format(reason, c.answer.hits.size());
+    return nb::str("Contact({}, point=({:.2f}, {:.2f}, {:.2f}) mm, k={:.2f} mN·m, face={}, {} other candidates)")
+        .format(reason, 1e3 * p->point.x, 1e3 * p->point.y, 1e3 * p->point.z, 1e3 * p->torque, p->face,
+                c.answer.hits.size() - 1);
+}
+
+[[noreturn]] void wrong_input(const char* what) {
+    PyErr_Clear();
+    throw nb::type_error(what);
+}
+
+}  // namespace
+
+Rows6 to_rows(nb::handle wrenches) {
+    try {
+        nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(wrenches, "float64");
+        Rows6 rows;
+        if (nb::try_cast(array, rows)) return rows;
+    } catch (nb::python_error&) {  // the message below says more than the conversion's own
+    }
+    wrong_input("wrenches must have shape (n, 6): Fx Fy Fz Mx My Mz in S, N and N*m, as numbers");
+}
+
+Wrench to_wrench(nb::handle wrench) {
+    double v[6];
+    std::size_t n = 0;
+    try {
+        for (nb::handle item : wrench) {
+            if (n == 6) wrong_input("a wrench has six numbers, this one has more: Fx Fy Fz Mx My Mz in S, N and N*m");
+            v[n++] = nb::cast<double>(item);
+        }
+    } catch (nb::python_error&) {
+        wrong_input("a wrench is six numbers: Fx Fy Fz Mx My Mz in S, N and N*m");
+    } catch (nb::cast_error&) {
+        wrong_input("a wrench is six numbers, and one of these is none: Fx Fy Fz Mx My Mz in S, N and N*m");
+    }
+    if (n != 6) wrong_input("a wrench has six numbers, this one has fewer: Fx Fy Fz Mx My Mz in S, N and N*m");
+    return to_wrench(v);
+}
+
+void bind_contact(nb::module_& m) {
+    nb::enum_<Reason>(m, "Reason", nb::is_arithmetic(), "Why a contact was, or was not, given.")
+        .value("OK", Reason::ok, "One contact on a facet.")
+        .value("VERTEX", Reason::vertex, "One contact on a vertex, between the facets' own solutions.")
+        .value("AMBIGUOUS", Reason::ambiguous, "Candidates further apart than the tolerance; the likeliest is given.")
+        .value("LOW_FORCE", Reason::low_force, "Force under its gate.")
+        .value("TANGENTIAL", Reason::tangential, "The axis only grazes the probe: outside the friction cone.")
+        .value("OFF_SURFACE", Reason::off_surface, "The axis misses the probe: torque, geometry or two contacts.")
+        .value("OUTSIDE_REGION", Reason::outside_region, "On the probe, but outside every declared region.")
+        .value("SATURATED", Reason::saturated, "A channel is at its limit.")
+        .value("STALE", Reason::stale, "The sample is too old.")
+        .value("NOT_FINITE", Reason::not_finite, "NaN or infinity in the wrench.");
+
+    nb::class_<ContactCandidate>(m, "Candidate", "A facet or vertex that also answers the wrench, and why it lost.")
+        .def_prop_ro("point", [](const ContactCandidate& c) { return to_array(c.candidate.point); }, "(3,) S, m.")
+        .def_prop_ro("normal", [](const ContactCandidate& c) { return to_array(c.candidate.normal); }, "(3,) S, outward.")
+        .def_prop_ro("torque", [](const ContactCandidate& c) { return c.candidate.torque; }, "Local torque k, N·m.")
+        .def_prop_ro("face", [](const ContactCandidate& c) { return c.candidate.face; }, "Face number.")
+        .def_prop_ro("vertex", [](const ContactCandidate& c) { return index_or_none(c.candidate.vertex); },
+                     "Vertex number, None on a facet.")
+        .def_prop_ro("region", [](const ContactCandidate& c) { return c.candidate.region; }, "Region rank, 0 for none.")
+        .def_prop_ro("friction_angle", [](const ContactCandidate& c) { return degrees_of(c.candidate.cosine); },
+                     "Between -F and the normal, degrees.")
+        .def_prop_ro("distance", [](const ContactCandidate& c) { return c.distance; },
+                     "From the chosen point, m; NaN when none was chosen.")
+        .def_prop_ro("why", [](const ContactCandidate& c) { return why_text(c.candidate.why); }, "Why it lost.");
+
+    nb::class_<Contact>(m, "Contact", "Where the probe is touched, why that is believed, and how sure it is.")
+        .def_prop_ro("reason", [](const Contact& c) { return c.answer.reason; }, "Reason code.")
+        .def_prop_ro("accepted", [](const Contact& c) { return accepted(c.answer.reason); },
+                     "True for OK and VERTEX: safe to act on.")
+        .def_prop_ro("point", [](const Contact& c) -> nb::object {
+            return c.chosen() ? to_array(c.chosen()->point) : nb::none(); }, "(3,) S, m, or None.")
+        .def_prop_ro("normal", [](const Contact& c) -> nb::object {
+            return c.chosen() ? to_array(c.chosen()->normal) : nb::none(); }, "(3,) S, outward unit normal, or None.")
+        .def_prop_ro("torque", [](const Contact& c) { return c.chosen() ? c.chosen()->torque : nan; },
+                     "Local torque k about the normal, N·m; NaN without a point.")
+        .def_prop_ro("face", [](const Contact& c) { return index_or_none(c.chosen() ? c.chosen()->face : -1); },
+                     "Face number; on a vertex the lowest one around it; None without a point.")
+        .def_prop_ro("vertex", [](const Contact& c) { return index_or_none(c.chosen() ? c.chosen()->vertex : -1); },
+                     "Vertex number when the contact is on one, else None.")
+        .def_prop_ro("region", [](const Contact& c) { return c.chosen() ? c.chosen()->region : 0; },
+                     "Rank of the region touched, 0 for none.")
+        .def_prop_ro("friction_angle", [](const Contact& c) {
+            return c.chosen() ? degrees_of(c.chosen()->cosine) : nan; }, "Between -F and the normal, degrees.")
+        .def_prop_ro("candidates", &candidates_of, "Every other candidate, smallest local torque first.")
+        .def_prop_ro("covariance", [](const Contact& c) -> nb::object {
+            return c.chosen() ? to_array(covariance_of(c)) : nb::none(); },
+            "(3, 3) S, m²: first-order, from the wrench noise; None without a point.")
+        .def_prop_ro("sigma_max", [](const Contact& c) {
+            if (!c.chosen()) return nan;
+            return norm(ellipse_axes(covariance_of(c), c.chosen()->normal)[0]); },
+            "Largest standard deviation of the point, m; NaN without a point.")
+        .def_prop_ro("ellipse", [](const Contact& c) -> nb::object {
+            if (!c.chosen()) return nb::none();
+            const auto axes = ellipse_axes(covariance_of(c), c.chosen()->normal);
+            return make_array<double>({axes[0].x, axes[0].y, axes[0].z, axes[1].x, axes[1].y, axes[1].z}, {2, 3}); },
+            "(2, 3) S, m: half axes of the one-sigma ellipse in the tangent plane, longest first, or None.")
+        .def_prop_ro("linear", [](const Contact& c) {
+            return c.chosen() && is_linear(*c.context, c.wrench, *c.chosen()); },
+            "True when the covariance describes what the noise will do: checked with four further solves.")
+        .def_prop_ro("wrench", [](const Contact& c) {
+            const Wrench& w = c.wrench;
+            return make_array<double>({w.F.x, w.F.y, w.F.z, w.M.x, w.M.y, w.M.z}, {6}); },
+            "(6,) the wrench it was computed from, S, N and N·m.")
+        .def("__repr__", &repr);
+}
+
+}  // namespace contactbench::bindings

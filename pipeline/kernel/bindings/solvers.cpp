@@ -1,0 +1,345 @@
+// The solver, its rivals, and batches of answers.
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <chrono>
+
+#include "bindings.hpp"
+
+namespace contactbench::bindings {
+
+namespace {
+
+// ---- answers, many at once -------------------------------------------------------------------
+
+struct Rows {
+    explicit Rows(std::size_t n)
+        : points(3 * n), normals(3 * n), forces(3 * n), torques(n), faces(n), vertices(n), candidates(n), reasons(n) {}
+
+    void set(std::size_t i, const Wrench& w, const Answer& a) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        Candidate c;
+        c.point = c.normal = {nan, nan, nan};
+        c.torque = nan;
+        if (a.chosen >= 0) c = a.hits[std::size_t(a.chosen)];
+        put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F);
+        torques[i] = c.torque;
+        faces[i] = c.face, vertices[i] = c.vertex;
+        candidates[i] = std::int32_t(a.hits.size());
+        reasons[i] = std::uint8_t(a.reason);
+    }
+
+    static void put(std::vector<double>& to, std::size_t i, Vec3 v) {
+        to[3 * i] = v.x, to[3 * i + 1] = v.y, to[3 * i + 2] = v.z;
+    }
+    static Vec3 get(const std::vector<double>& from, std::size_t i) {
+        return {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
+    }
+
+    std::vector<double> points, normals, forces, torques;
+    std::vector<std::int32_t> faces, vertices, candidates;
+    std::vector<std::uint8_t> reasons;
+};
+
+struct Batch {
+    std::shared_ptr<const Solver> context;
+    std::shared_ptr<Rows> rows;
+
+    std::size_t size() const { return rows->torques.size(); }
+};
+
+template <class T>
+nb::object view(const Batch& b, std::vector<T> Rows::*member, std::initializer_list<std::size_t> shape) {
+    // The array keeps the rows alive, not the batch object.
+    nb::capsule owner(new std::shared_ptr<Rows>(b.rows),
+                      [](void* p) noexcept { delete static_cast<std::shared_ptr<Rows>*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, T>((*b.rows.*member).data(), shape.size(), shape.begin(), owner));
+}
+
+nb::object batch_covariances(const Batch& b) {
+    std::vector<double> out(9 * b.size(), std::numeric_limits<double>::quiet_NaN());
+    {
+        nb::gil_scoped_release release;
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            if (!has_point(Reason(b.rows->reasons[i]))) continue;
+            Candidate c;
+            c.point = Rows::get(b.rows->points, i), c.normal = Rows::get(b.rows->normals, i);
+            const Mat3 s = contact_covariance(c, Rows::get(b.rows->forces, i), b.context->noise());
+            std::copy(&s.m[0][0], &s.m[0][0] + 9, out.begin() + std::ptrdiff_t(9 * i));
+        }
+    }
+    return make_array(std::move(out), {b.size(), 3, 3});
+}
+
+nb::object batch_sigma_max(const Batch& b) {
+    std::vector<double> out(b.size(), std::numeric_limits<double>::quiet_NaN());
+    {
+        nb::gil_scoped_release release;
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            if (!has_point(Reason(b.rows->reasons[i]))) continue;
+            Candidate c;
+            c.point = Rows::get(b.rows->points, i), c.normal = Rows::get(b.rows->normals, i);
+            const Mat3 s = contact_covariance(c, Rows::get(b.rows->forces, i), b.context->noise());
+            out[i] = norm(ellipse_axes(s, c.normal)[0]);
+        }
+    }
+    return make_array(std::move(out), {b.size()});
+}
+
+// ---- methods: each has solve(wrench) -> Answer and a context ----------------------------------
+
+struct Main {
+    std::shared_ptr<const Solver> context;
+    Solver live;  // shares the model; holds the tracker
+    Answer solve(const Wrench& w) const { return context->locate(w); }
+};
+
+struct Scan {
+    std::shared_ptr<const Solver> context;
+    ScanTable table;
+    explicit Scan(const Main& m) : context(m.context), table(m.context->model()) {}
+    Answer solve(const Wrench& w) const {
+        Answer a;
+        a.reason = gate(w, context->gates());
+        if (a.reason != Reason::ok) return a;
+        const Query q = make_query(context->model().frame, w);
+        scan(table, context->model(), q, context->gates().cos_friction, a.hits);
+        choose(a, context->gates(), nullptr);
+        return a;
+    }
+};
+
+// A rival that knows one answer and no doubt: the gates are the same, the reason is ok or off_surface.
+template <class Find>
+Answer only_answer(const Solver& context, const Wrench& w, Find&& find) {
+    Answer a;
+    a.reason = gate(w, context.gates());
+    if (a.reason != Reason::ok) return a;
+    Candidate c;
+    a.reason = Reason::off_surface;
+    if (!find(c)) return a;
+    c.why = Why::chosen;
+    a.hits.add(c);
+    a.chosen = 0;
+    a.reason = Reason::ok;
+    return a;
+}
+
+struct Algorithm1 {
+    std::shared_ptr<const Solver> context;
+    PlaneLoop loop;
+    explicit Algorithm1(const Main& m) : context(m.context), loop(m.context->model()) {}
+    Answer solve(const Wrench& w) const {
+        return only_answer(*context, w, [&](Candidate& c) { return loop.locate(w, c); });
+    }
+};
+
+struct Iterative {
+    std::shared_ptr<const Solver> context;
+    Paraboloid surface;
+    Answer solve(const Wrench& w) const {
+        return only_answer(*context, w, [&](Candidate& c) { return locate_iteratively(surface, w, c); });
+    }
+};
+
+template <class Solve>
+Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wrenches, Solve&& solve) {
+    const std::size_t n = wrenches.shape(0);
+    Batch b{context, std::make_shared<Rows>(n)};
+    const double* data = wrenches.data();
+    nb::gil_scoped_release release;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Wrench w = to_wrench(data + 6 * i);
+        b.rows->set(i, w, solve(i, w));
+    }
+    return b;
+}
+
+// Nanoseconds of each solve, clock included (about 20 ns): for the speed study's percentiles.
+template <class Solve>
+nb::object time_rows(const Rows6& wrenches, Solve&& solve) {
+    const std::size_t n = wrenches.shape(0);
+    std::vector<double> ns(n);
+    const double* data = wrenches.data();
+    std::int64_t answers = 0;
+    {
+        nb::gil_scoped_release release;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Wrench w = to_wrench(data + 6 * i);
+            const auto start = std::chrono::steady_clock::now();
+            const Answer a = solve(w);
+            const auto stop = std::chrono::steady_clock::now();
+            answers += a.chosen;  // used, so that no solve can be optimised away
+            ns[i] = std::chrono::duration<double, std::nano>(stop - start).count();
+        }
+    }
+    if (answers == std::numeric_limits<std::int64_t>::min()) throw std::runtime_error("unreachable");
+    return make_array(std::move(ns), {n});
+}
+
+template <class Method>
+void bind_method(nb::class_<Method>& c) {
+    c.def("locate", [](const Method& m, Vector6 w) {
+        const Wrench wrench = to_wrench(w.data());
+        return Contact{m.context, wrench, m.solve(wrench)};
+    }, nb::arg("wrench"), "Locate the contact of one wrench (6,): Fx Fy Fz Mx My Mz in S, N and N·m.");
+    c.def("locate", [](const Method& m, nb::handle w) {
+        const Wrench wrench = to_wrench(w);
+        return Contact{m.context, wrench, m.solve(wrench)};
+    }, nb::arg("wrench"));
+    c.def("locate_batch", [](const Method& m, nb::handle rows) {
+        return solve_rows(m.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return m.solve(w); });
+    }, nb::arg("wrenches"), "Locate each row of (n, 6) on its own, without the interpreter's lock.");
+    c.def("time_each", [](const Method& m, Rows6 rows) {
+        return time_rows(rows, [&](const Wrench& w) { return m.solve(w); });
+    }, nb::arg("wrenches"), "Nanoseconds of each compiled solve (n,).");
+}
+
+// ---- construction -----------------------------------------------------------------------------
+
+std::vector<Vec3> to_points(const Rows3& a) {
+    std::vector<Vec3> out(a.shape(0));
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
+    return out;
+}
+
+void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Gates gates) {
+    std::vector<Triangle> triangles(faces.shape(0));
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (std::size_t c = 0; c < 3; ++c) triangles[f][c] = faces.data()[3 * f + c];
+    std::vector<std::int32_t> ranks(region.data(), region.data() + region.shape(0));
+    WrenchCovariance s;
+    std::copy(noise.data(), noise.data() + 36, &s.s[0][0]);
+    std::vector<Vec3> points = to_points(vertices);
+    nb::gil_scoped_release release;
+    auto model = std::make_shared<const Model>(make_model(std::move(points), triangles, std::move(ranks)));
+    auto context = std::make_shared<const Solver>(std::move(model), s, gates);
+    new (self) Main{context, *context};
+}
+
+// Any contact that a method outside the kernel worked out, in the same wrapping.
+Contact foreign_contact(const Main& m, Vector6 w, nb::object point, std::int32_t face, double torque) {
+    const Wrench wrench = to_wrench(w.data());
+    if (face >= std::int32_t(m.context->model().normals.size()))
+        throw nb::index_error("face number out of range");
+    return {m.context, wrench, only_answer(*m.context, wrench, [&](Candidate& c) {
+                if (face < 0 || point.is_none()) return false;
+                const auto p = nb::cast<Vector3>(point);
+                c.point = {p.data()[0], p.data()[1], p.data()[2]};
+                c.normal = m.context->model().normals[std::size_t(face)];
+                c.face = face;
+                c.region = m.context->model().region[std::size_t(face)];
+                c.torque = torque;
+                c.cosine = -dot(c.normal, wrench.F) / norm(wrench.F);
+                return true;
+            })};
+}
+
+void bind_batch(nb::module_& m) {
+    nb::class_<Batch>(m, "Batch", "Answers to many wrenches, one row each; NaN and -1 where there is none.")
+        .def("__len__", &Batch::size)
+        .def_prop_ro("points", [](const Batch& b) { return view(b, &Rows::points, {b.size(), 3}); }, "(n, 3) S, m.")
+        .def_prop_ro("normals", [](const Batch& b) { return view(b, &Rows::normals, {b.size(), 3}); }, "(n, 3) S.")
+        .def_prop_ro("torques", [](const Batch& b) { return view(b, &Rows::torques, {b.size()}); }, "(n,) k, N·m.")
+        .def_prop_ro("faces", [](const Batch& b) { return view(b, &Rows::faces, {b.size()}); }, "(n,) int32.")
+        .def_prop_ro("vertices", [](const Batch& b) { return view(b, &Rows::vertices, {b.size()}); }, "(n,) int32.")
+        .def_prop_ro("reasons", [](const Batch& b) { return view(b, &Rows::reasons, {b.size()}); }, "(n,) uint8, see Reason.")
+        .def_prop_ro("candidates", [](const Batch& b) { return view(b, &Rows::candidates, {b.size()}); },
+                     "(n,) int32: how many candidates there were, the chosen one included.")
+        .def_prop_ro("covariances", &batch_covariances, "(n, 3, 3) S, m²; worked out at each access.")
+        .def_prop_ro("sigma_max", &batch_sigma_max, "(n,) m: largest standard deviation of each point.");
+}
+
+void bind_main(nb::module_& m) {
+    auto solver = nb::class_<Main>(m, "Solver", "The pruned, complete solver over one mesh.");
+    solver.def("__init__", [](Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, double min_force,
+                              double cos_friction, double ambiguity_distance, double torque_ratio, double rival_sigmas,
+                              double follow_distance, std::int64_t recent_samples, double max_age,
+                              Vector6 saturation, bool region_only) {
+        Gates g{min_force, cos_friction, ambiguity_distance, torque_ratio, rival_sigmas, follow_distance,
+                recent_samples, max_age, {}, region_only};
+        std::copy(saturation.data(), saturation.data() + 6, g.saturation);
+        construct(self, vertices, faces, region, noise, g);
+    }, nb::arg("vertices"), nb::arg("faces"), nb::arg("region"), nb::arg("noise"), nb::kw_only(),
+       nb::arg("min_force"), nb::arg("cos_friction"), nb::arg("ambiguity_distance"), nb::arg("torque_ratio"), nb::arg("rival_sigmas"),
+       nb::arg("follow_distance"), nb::arg("recent_samples"), nb::arg("max_age"), nb::arg("saturation"),
+       nb::arg("region_only"));
+    bind_method(solver);
+    solver.def("locate", [](const Main& s, nb::handle w, nb::handle previous) {
+        const Wrench wrench = to_wrench(w);
+        Vector3 given;
+        if (previous.is_none()) return Contact{s.context, wrench, s.context->locate(wrench)};
+        if (!nb::try_cast(previous, given))
+            throw nb::type_error("previous must be the point of a contact: three float64 numbers, S, m, or None");
+        const Vec3 p{given.data()[0], given.data()[1], given.data()[2]};
+        return Contact{s.context, wrench, s.context->locate(wrench, &p)};
+    }, nb::arg("wrench"), nb::arg("previous").none(),
+       "The same, with the last accepted contact point (3,), S, m, or None.");
+    solver.def("track", [](Main& s, Vector6 w) {
+        const Wrench wrench = to_wrench(w.data());
+        return Contact{s.context, wrench, s.live.track(wrench)};
+    }, nb::arg("wrench"), "The next sample of one stream: equal to locate with the last accepted contact.");
+    solver.def("track", [](Main& s, nb::handle w) {
+        const Wrench wrench = to_wrench(w);
+        return Contact{s.context, wrench, s.live.track(wrench)};
+    }, nb::arg("wrench"));
+    solver.def("track", [](Main& s, nb::handle w, double age) {
+        const Wrench wrench = to_wrench(w);
+        return Contact{s.context, wrench, s.live.track(wrench, age)};
+    }, nb::arg("wrench"), nb::arg("age"), "The same, with the sample's age in seconds.");
+    solver.def("track_batch", [](Main& s, nb::handle rows) {
+        return solve_rows(s.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); });
+    }, nb::arg("wrenches"), "A stretch of one stream (n, 6), in order.");
+    solver.def("track_batch", [](Main& s, nb::handle wrenches, nb::ndarray<const double, nb::shape<-1>, nb::c_contig,
+                                                                nb::device::cpu> ages) {
+        const Rows6 rows = to_rows(wrenches);
+        if (ages.shape(0) != rows.shape(0)) throw nb::value_error("ages must have one entry per wrench");
+        const double* age = ages.data();
+        return solve_rows(s.context, rows, [&](std::size_t i, const Wrench& w) { return s.live.track(w, age[i]); });
+    }, nb::arg("wrenches"), nb::arg("ages"), "The same, with each sample's age in seconds (n,).");
+    solver.def("reset", [](Main& s) { s.live.reset(); }, "Forget the stream: the next sample is a first one.");
+    solver.def_prop_ro("previous", [](const Main& s) -> nb::object {
+        return s.live.previous() ? to_array(*s.live.previous()) : nb::none();
+    }, "(3,) the contact that track follows, S, m, or None.");
+    solver.def("locate_exhaustively", [](const Main& s, Vector6 w) {
+        const Wrench wrench = to_wrench(w.data());
+        return Contact{s.context, wrench, s.context->locate_exhaustively(wrench)};
+    }, nb::arg("wrench"), "The yardstick: every facet and vertex looked at, same answer.");
+    solver.def("time_tracking", [](Main& s, Rows6 rows) {
+        return time_rows(rows, [&](const Wrench& w) { return s.live.track(w); });
+    }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");
+    solver.def("foreign_contact", &foreign_contact, nb::arg("wrench"), nb::arg("point").none(), nb::arg("face"),
+               nb::arg("torque"), "A contact found by another method, given this solver's mesh and noise.");
+    solver.def_prop_ro("convex", [](const Main& s) { return s.context->model().convex; },
+                       "True when the mesh is closed and convex: every wrench then has at most one contact.");
+    solver.def_prop_ro("closed", [](const Main& s) { return s.context->model().topology.closed(); },
+                       "True when every edge joins two facets of matching winding.");
+}
+
+}  // namespace
+
+void bind_solvers(nb::module_& m) {
+    bind_batch(m);
+    bind_main(m);
+    auto scan = nb::class_<Scan>(m, "Scan", "Exhaustive scan over structure-of-arrays.").def(nb::init<const Main&>());
+    bind_method(scan);
+    auto one = nb::class_<Algorithm1>(m, "Algorithm1", "The paper's loop over planes, taken literally.")
+                   .def(nb::init<const Main&>());
+    bind_method(one);
+    auto iterative = nb::class_<Iterative>(m, "Iterative", "Levenberg-Marquardt on a fitted paraboloid.");
+    iterative.def("__init__", [](Iterative* self, const Main& s, Vector3 origin,
+                                 nb::ndarray<const double, nb::shape<3, 3>, nb::c_contig, nb::device::cpu> axes,
+                                 Vector6 coefficients, double reach) {
+        Paraboloid p;
+        p.origin = {origin.data()[0], origin.data()[1], origin.data()[2]};
+        for (std::size_t i = 0; i < 3; ++i)
+            p.axis[i] = {axes.data()[3 * i], axes.data()[3 * i + 1], axes.data()[3 * i + 2]};
+        std::copy(coefficients.data(), coefficients.data() + 6, p.c);
+        p.reach = reach;
+        new (self) Iterative{s.context, p};
+    }, nb::arg("solver"), nb::arg("origin"), nb::arg("axes"), nb::arg("coefficients"), nb::arg("reach"));
+    bind_method(iterative);
+}
+
+}  // namespace contactbench::bindings

@@ -1,0 +1,107 @@
+// A probe, ready to be searched: geometry, neighbours, regions and the hierarchy over them.
+//
+// Contract
+//   units      vertices in S-frame metres; `region` ranks facets: 0 none, 1 first priority, 2 next.
+//   errors     std::invalid_argument for bad indices, vertices that are not finite, facets without
+//              area, or a region list of the wrong length.
+//   complexity O(n log n) time, about 450 bytes a facet. Immutable afterwards: share it freely
+//              between threads.
+#pragma once
+
+#include "build.hpp"
+
+namespace contactbench {
+
+struct Model {
+    Frame frame;
+    std::vector<Vec3> vertices;    // S, m
+    std::vector<Vec3> normalised;  // about frame.centre, over frame.scale
+    std::vector<Vec3> normals;     // per face, unit, outward
+    std::vector<std::int32_t> region;
+    std::vector<std::int32_t> slot;  // face -> place in the hierarchy
+    Topology topology;
+    Hierarchy tree;
+    double reach = 0.0;     // largest distance of a vertex from the sensor origin, m
+    bool has_regions = false;
+    bool convex = false;    // closed and convex: at most one contact answers any wrench
+};
+
+namespace detail {
+
+inline Frame bounding_frame(const std::vector<Vec3>& points, const std::vector<Triangle>& faces) {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Vec3 lo{inf, inf, inf}, hi{-inf, -inf, -inf};
+    for (const Triangle& t : faces)
+        for (std::int32_t v : t) {
+            const Vec3& p = points[std::size_t(v)];
+            lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+            hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+        }
+    const Vec3 half = 0.5 * (hi - lo);
+    return {lo + half, std::max({half.x, half.y, half.z})};
+}
+
+// Convex when no facet rises above another's plane across their common edge, and there is one piece.
+inline bool is_convex(const Model& m, const std::vector<Triangle>& faces) {
+    if (!m.topology.closed()) return false;
+    for (std::size_t h = 0; h < 3 * faces.size(); ++h) {
+        const std::size_t t = std::size_t(m.topology.twin(std::int32_t(h)));
+        const Vec3 apex = m.normalised[std::size_t(faces[t / 3][(t % 3 + 2) % 3])];
+        const Vec3 base = m.normalised[std::size_t(faces[h / 3][h % 3])];
+        if (dot(m.normals[h / 3], apex - base) > 1e-12) return false;
+    }
+    std::vector<char> seen(faces.size(), 0);
+    std::vector<std::size_t> stack{0};
+    std::size_t count = 1;
+    for (seen[0] = 1; !stack.empty();) {
+        const std::size_t f = stack.back();
+        stack.pop_back();
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t g = std::size_t(m.topology.twin(std::int32_t(3 * f + c))) / 3;
+            if (!seen[g]) seen[g] = 1, ++count, stack.push_back(g);
+        }
+    }
+    return count == faces.size();
+}
+
+}  // namespace detail
+
+inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>& faces,
+                        std::vector<std::int32_t> region) {
+    check_triangles(faces, vertices.size());
+    if (region.empty()) region.assign(faces.size(), 0);
+    if (region.size() != faces.size())
+        throw std::invalid_argument("region has " + std::to_string(region.size()) + " entries for " +
+                                    std::to_string(faces.size()) + " facets");
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+        if (!finite(vertices[v]))
+            throw std::invalid_argument("vertex " + std::to_string(v) + " is not finite");
+    Model m;
+    m.vertices = std::move(vertices);
+    m.region = std::move(region);
+    for (std::int32_t r : m.region) m.has_regions |= r > 0;
+    m.frame = detail::bounding_frame(m.vertices, faces);
+    if (!(m.frame.scale > 0.0) || !std::isfinite(m.frame.scale))
+        throw std::invalid_argument("the mesh has no extent");
+    for (const Vec3& p : m.vertices) {
+        m.normalised.push_back((1.0 / m.frame.scale) * (p - m.frame.centre));
+        m.reach = std::max(m.reach, norm(p));
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto at = [&](std::size_t c) { return m.normalised[std::size_t(faces[f][c])]; };
+        const Vec3 n = cross(at(1) - at(0), at(2) - at(0));
+        const double length = norm(n);
+        if (!(length > 0.0))
+            throw std::invalid_argument("facet " + std::to_string(f) + " has no area");
+        m.normals.push_back((1.0 / length) * n);
+    }
+    m.topology = Topology(faces, m.vertices.size());
+    m.tree = detail::Builder(faces, m.normalised, m.normals, m.topology).build();
+    m.slot.assign(faces.size(), -1);
+    for (std::size_t s = 0; s < m.tree.face.size(); ++s)
+        if (m.tree.face[s] >= 0) m.slot[std::size_t(m.tree.face[s])] = std::int32_t(s);
+    m.convex = detail::is_convex(m, faces);
+    return m;
+}
+
+}  // namespace contactbench

@@ -1,0 +1,56 @@
+// Eight numbers at once, spelled with the vector extension of GCC and Clang.
+//
+// Contract: every lane gets the same IEEE operations as scalar code would, so results do not depend on
+// the instruction set; only the sign masks need a processor's own spelling. Left to
+// the auto-vectoriser the same loops were unrolled to scalar code (3x slower).
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+namespace contactbench {
+
+inline constexpr int lanes = 8;
+
+typedef float Float8 __attribute__((vector_size(32)));
+typedef double Double4 __attribute__((vector_size(32)));
+typedef std::int64_t Int4 __attribute__((vector_size(32)));
+
+#define CONTACTBENCH_INLINE inline __attribute__((always_inline))
+
+// Loads from arrays aligned to their own size.
+CONTACTBENCH_INLINE Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
+CONTACTBENCH_INLINE Double4 load4(const double* p) { return *reinterpret_cast<const Double4*>(p); }
+
+CONTACTBENCH_INLINE Float8 larger(Float8 a, Float8 b) { return a < b ? b : a; }
+CONTACTBENCH_INLINE Float8 smaller(Float8 a, Float8 b) { return b < a ? b : a; }
+
+CONTACTBENCH_INLINE Float8 magnitude(Float8 a) { return larger(a, -a); }
+
+// Bit l is set when lane l is not negative.
+CONTACTBENCH_INLINE unsigned nonnegative(Float8 a) {
+#if defined(__AVX__)
+    return unsigned(~_mm256_movemask_ps(__m256(a))) & 0xffu;
+#else
+    unsigned mask = 0;
+    for (int l = 0; l < lanes; ++l) mask |= unsigned(a[l] >= 0.0f) << l;
+    return mask;
+#endif
+}
+
+// Bit l is set when lane l is all ones, as a comparison leaves it.
+CONTACTBENCH_INLINE unsigned truth_mask(Int4 a) {
+#if defined(__AVX__)
+    return unsigned(_mm256_movemask_pd(__m256d(a)));
+#else
+    unsigned mask = 0;
+    for (int l = 0; l < 4; ++l) mask |= unsigned(a[l] & 1) << l;
+    return mask;
+#endif
+}
+
+}  // namespace contactbench

@@ -1,0 +1,125 @@
+// From a wrench to a contact, with a reason: everything above put together.
+//
+// Contract
+//   units      S frame, N, N*m, m, s.
+//   locate     const and thread-safe. The same wrench and previous contact give the same answer,
+//              bit for bit, whatever came before.
+//   track      one stream, not thread-safe. Equal to locate with the last accepted contact as
+//              `previous`, as long as that is recent; see tracking.hpp for why.
+//   cost       O(log n) for a bounded pitch; no allocation but for more than four candidates.
+#pragma once
+
+#include <memory>
+
+#include "rivals.hpp"
+#include "tracking.hpp"
+
+namespace contactbench {
+
+class Solver {
+public:
+    Solver(std::shared_ptr<const Model> model, const WrenchCovariance& noise, const Gates& gates)
+        : model_(std::move(model)), noise_(noise), gates_(gates), force_noise_(noise.force_bound()),
+          torque_noise_(noise.torque_bound()), lever_(norm(model_->frame.centre)) {}
+
+    const Model& model() const { return *model_; }
+    const std::shared_ptr<const Model>& shared_model() const { return model_; }
+    const WrenchCovariance& noise() const { return noise_; }
+    const Gates& gates() const { return gates_; }
+
+    // `previous`: where contact was last accepted (S, m), or null.
+    Answer locate(const Wrench& w, const Vec3* previous = nullptr) const {
+        return answer(w, previous, [&](const Query& q, Hits& hits) {
+            search(*model_, q, gates_.cos_friction, hits);
+        });
+    }
+
+    // The yardstick: the same answer without the hierarchy.
+    Answer locate_exhaustively(const Wrench& w, const Vec3* previous = nullptr) const {
+        return answer(w, previous, [&](const Query& q, Hits& hits) {
+            exhaust(*model_, q, gates_.cos_friction, hits);
+        });
+    }
+
+    // `age`: seconds since the sample was taken.
+    Answer track(const Wrench& w, double age = 0.0) {
+        if (!(age <= gates_.max_age)) {
+            Answer a;
+            a.reason = Reason::stale;
+            forget_old();
+            return a;
+        }
+        Answer a = answer(w, previous(), [&](const Query& q, Hits& hits) {
+            const double unit = 1.0 / q.force;
+            const double shift = (torque_noise_ + lever_ * force_noise_) * unit / model_->frame.scale;
+            tracker_.search(*model_, q, gates_.cos_friction, force_noise_ * unit, shift, hits);
+        });
+        if (accepted(a.reason)) {
+            last_ = a.hits[std::size_t(a.chosen)].point;
+            misses_ = 0;
+        } else {
+            forget_old();
+        }
+        return a;
+    }
+
+    // The contact that `track` will follow next, or null.
+    const Vec3* previous() const { return misses_ <= gates_.recent_samples ? &last_ : nullptr; }
+
+    void reset() {
+        tracker_.reset();
+        misses_ = std::numeric_limits<std::int64_t>::max();
+    }
+
+private:
+    template <class Search>
+    Answer answer(const Wrench& w, const Vec3* previous, Search&& search) const {
+        Answer a;
+        a.reason = gate(w, gates_);
+        if (a.reason != Reason::ok) return a;
+        const Query q = make_query(model_->frame, w);
+        search(q, a.hits);
+        choose(a, gates_, previous);
+        if (a.hits.size() == 0) look_past_the_cone(q, a);
+        if (accepted(a.reason) && !model_->convex) look_for_rival(w, q, previous, a);
+        return a;
+    }
+
+    // Nothing inside the friction cone: say whether the axis misses the probe or grazes it.
+    void look_past_the_cone(const Query& q, Answer& a) const {
+        search(*model_, q, 0.0, a.hits);
+        if (a.hits.size() == 0) return;
+        for (std::size_t i = 0; i < a.hits.size(); ++i) a.hits[i].why = Why::friction;
+        a.reason = Reason::tangential;
+    }
+
+    void look_for_rival(const Wrench& w, const Query& q, const Vec3* previous, Answer& a) const {
+        const Candidate& c = a.hits[std::size_t(a.chosen)];
+        const Mat3 s = contact_covariance(c, w.F, noise_);
+        const double spread = std::sqrt(std::max(0.0, s.m[0][0] + s.m[1][1] + s.m[2][2]));
+        // For one wrench |k| is inversely proportional to the cosine.
+        const RivalSearch how{gates_.rival_sigmas, gates_.ambiguity_distance + gates_.rival_sigmas * spread,
+                              std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
+        Candidate rival;
+        if (!find_rival(*model_, q, c, noise_, how, rival)) return;
+        const bool outranked = c.region > 0 && (rival.region == 0 || rival.region > c.region);
+        const bool followed = previous && norm(c.point - *previous) <= gates_.follow_distance &&
+                              norm(rival.point - *previous) > gates_.follow_distance;
+        a.hits.add(rival);
+        if (!outranked && !followed) a.reason = Reason::ambiguous;
+    }
+
+    void forget_old() {
+        if (misses_ < std::numeric_limits<std::int64_t>::max()) ++misses_;
+    }
+
+    std::shared_ptr<const Model> model_;
+    WrenchCovariance noise_;
+    Gates gates_;
+    double force_noise_, torque_noise_, lever_;
+    Tracker tracker_;
+    Vec3 last_;
+    std::int64_t misses_ = std::numeric_limits<std::int64_t>::max();
+};
+
+}  // namespace contactbench

@@ -1,0 +1,40 @@
+// Three-vectors and the few operations that contact sensing needs.
+//
+// Contract: plain values, double precision, no units of their own. Nothing here allocates or throws.
+// Every operation is a fixed sequence of IEEE operations; compiled with -ffp-contract=off it gives the
+// same bits on every processor, which the tests of the pruned search against the exhaustive one rely on.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace contactbench {
+
+struct Vec3 {
+    double x = 0.0, y = 0.0, z = 0.0;
+};
+
+inline Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec3 operator-(Vec3 a) { return {-a.x, -a.y, -a.z}; }
+inline Vec3 operator*(double s, Vec3 a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec3 cross(Vec3 a, Vec3 b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double norm2(Vec3 a) { return dot(a, a); }
+inline double norm(Vec3 a) { return std::sqrt(norm2(a)); }
+inline bool finite(Vec3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+// A force and a torque about the sensor origin, both in S, N and N*m: what acts on the probe.
+struct Wrench {
+    Vec3 F, M;
+};
+
+// Symmetric or not, row major.
+struct Mat3 {
+    double m[3][3] = {};
+};
+
+}  // namespace contactbench

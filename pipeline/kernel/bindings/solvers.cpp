@@ -14,7 +14,8 @@ namespace {
 
 struct Rows {
     explicit Rows(std::size_t n)
-        : points(3 * n), normals(3 * n), forces(3 * n), torques(n), faces(n), vertices(n), candidates(n), reasons(n) {}
+        : points(3 * n), normals(3 * n), forces(3 * n), moments(3 * n), torques(n), faces(n), vertices(n),
+          candidates(n), reasons(n) {}
 
     void set(std::size_t i, const Wrench& w, const Answer& a) {
         constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -22,7 +23,7 @@ struct Rows {
         c.point = c.normal = {nan, nan, nan};
         c.torque = nan;
         if (a.chosen >= 0) c = a.hits[std::size_t(a.chosen)];
-        put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F);
+        put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F), put(moments, i, w.M);
         torques[i] = c.torque;
         faces[i] = c.face, vertices[i] = c.vertex;
         candidates[i] = std::int32_t(a.hits.size());
@@ -36,7 +37,7 @@ struct Rows {
         return {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
     }
 
-    std::vector<double> points, normals, forces, torques;
+    std::vector<double> points, normals, forces, moments, torques;
     std::vector<std::int32_t> faces, vertices, candidates;
     std::vector<std::uint8_t> reasons;
 };
@@ -54,6 +55,22 @@ nb::object view(const Batch& b, std::vector<T> Rows::*member, std::initializer_l
     nb::capsule owner(new std::shared_ptr<Rows>(b.rows),
                       [](void* p) noexcept { delete static_cast<std::shared_ptr<Rows>*>(p); });
     return nb::cast(nb::ndarray<nb::numpy, T>((*b.rows.*member).data(), shape.size(), shape.begin(), owner));
+}
+
+Contact row_contact(const Batch& b, std::size_t i) {
+    Contact c{b.context, {Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)}, {}};
+    c.answer.reason = Reason(b.rows->reasons[i]);
+    if (!has_point(c.answer.reason)) return c;
+    Candidate k;
+    k.point = Rows::get(b.rows->points, i), k.normal = Rows::get(b.rows->normals, i);
+    k.torque = b.rows->torques[i];
+    k.cosine = -dot(k.normal, c.wrench.F) / norm(c.wrench.F);
+    k.face = b.rows->faces[i], k.vertex = b.rows->vertices[i];
+    k.region = b.context->model().region[std::size_t(k.face)];
+    k.why = Why::chosen;
+    c.answer.hits.add(k);
+    c.answer.chosen = 0;
+    return c;
 }
 
 nb::object batch_covariances(const Batch& b) {
@@ -218,27 +235,40 @@ void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noi
     new (self) Main{context, *context};
 }
 
-// Any contact that a method outside the kernel worked out, in the same wrapping.
-Contact foreign_contact(const Main& m, Vector6 w, nb::object point, std::int32_t face, double torque) {
-    const Wrench wrench = to_wrench(w.data());
-    if (face >= std::int32_t(m.context->model().normals.size()))
-        throw nb::index_error("face number out of range");
-    return {m.context, wrench, only_answer(*m.context, wrench, [&](Candidate& c) {
-                if (face < 0 || point.is_none()) return false;
-                const auto p = nb::cast<Vector3>(point);
-                c.point = {p.data()[0], p.data()[1], p.data()[2]};
-                c.normal = m.context->model().normals[std::size_t(face)];
-                c.face = face;
-                c.region = m.context->model().region[std::size_t(face)];
-                c.torque = torque;
-                c.cosine = -dot(c.normal, wrench.F) / norm(wrench.F);
-                return true;
-            })};
+// Contacts that a method outside the kernel worked out, in the same wrapping; face < 0: it found none.
+Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces,
+                    nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu> torques) {
+    const Rows6 rows = to_rows(wrenches);
+    const std::size_t n = rows.shape(0);
+    if (points.shape(0) != n || faces.shape(0) != n || torques.shape(0) != n)
+        throw nb::value_error("points, faces and torques must have one row per wrench");
+    const auto& model = m.context->model();
+    for (std::size_t i = 0; i < n; ++i)
+        if (faces.data()[i] >= std::int32_t(model.normals.size()))
+            throw nb::index_error("face number out of range");
+    return solve_rows(m.context, rows, [&](std::size_t i, const Wrench& w) {
+        return only_answer(*m.context, w, [&](Candidate& c) {
+            const std::int32_t face = faces.data()[i];
+            if (face < 0) return false;
+            c.point = {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
+            c.normal = model.normals[std::size_t(face)];
+            c.face = face;
+            c.region = model.region[std::size_t(face)];
+            c.torque = torques.data()[i];
+            c.cosine = -dot(c.normal, w.F) / norm(w.F);
+            return true;
+        });
+    });
 }
 
 void bind_batch(nb::module_& m) {
     nb::class_<Batch>(m, "Batch", "Answers to many wrenches, one row each; NaN and -1 where there is none.")
         .def("__len__", &Batch::size)
+        .def("__getitem__", [](const Batch& b, std::int64_t i) {
+            if (i < 0) i += std::int64_t(b.size());
+            if (i < 0 || i >= std::int64_t(b.size())) throw nb::index_error("row out of range");
+            return row_contact(b, std::size_t(i));
+        }, nb::arg("row"), "One row as a Contact, without the candidates that lost.")
         .def_prop_ro("points", [](const Batch& b) { return view(b, &Rows::points, {b.size(), 3}); }, "(n, 3) S, m.")
         .def_prop_ro("normals", [](const Batch& b) { return view(b, &Rows::normals, {b.size(), 3}); }, "(n, 3) S.")
         .def_prop_ro("torques", [](const Batch& b) { return view(b, &Rows::torques, {b.size()}); }, "(n,) k, N·m.")
@@ -309,8 +339,8 @@ void bind_main(nb::module_& m) {
     solver.def("time_tracking", [](Main& s, Rows6 rows) {
         return time_rows(rows, [&](const Wrench& w) { return s.live.track(w); });
     }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");
-    solver.def("foreign_contact", &foreign_contact, nb::arg("wrench"), nb::arg("point").none(), nb::arg("face"),
-               nb::arg("torque"), "A contact found by another method, given this solver's mesh and noise.");
+    solver.def("foreign_batch", &foreign_batch, nb::arg("wrenches"), nb::arg("points"), nb::arg("faces"),
+               nb::arg("torques"), "Contacts found by another method, given this solver's mesh, gates and noise.");
     solver.def_prop_ro("convex", [](const Main& s) { return s.context->model().convex; },
                        "True when the mesh is closed and convex: every wrench then has at most one contact.");
     solver.def_prop_ro("closed", [](const Main& s) { return s.context->model().topology.closed(); },

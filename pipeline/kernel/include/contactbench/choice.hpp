@@ -61,6 +61,11 @@ inline Reason gate(const Wrench& w, const Gates& g) {
     return force > 0.0 && force >= g.min_force ? Reason::ok : Reason::low_force;
 }
 
+// Regions are numbered from 1 by priority; no region comes last.
+inline std::int32_t region_rank(const Candidate& c) {
+    return c.region > 0 ? c.region : std::numeric_limits<std::int32_t>::max();
+}
+
 namespace detail {
 
 struct Rank {
@@ -72,7 +77,7 @@ struct Rank {
 
 inline Rank rank(const Candidate& c, const Gates& g, const Vec3* previous) {
     const double d = previous ? norm(c.point - *previous) : HUGE_VAL;
-    return {c.region > 0 ? c.region : std::numeric_limits<std::int32_t>::max(),
+    return {region_rank(c),
             d <= g.follow_distance ? d : HUGE_VAL, std::fabs(c.torque), c.face, c.vertex};
 }
 

@@ -35,17 +35,22 @@ inline double edge_variance(const double edge[6], const Model& m, const Query& q
     return sum / (unit * unit);
 }
 
+// `miss`: by how many sigma the worst edge refuses.
 inline bool nearly_accepts(const Model& m, std::size_t slot, const Query& q, const WrenchCovariance& noise,
-                           double sigmas, Candidate& out) {
+                           double sigmas, Candidate& out, double& miss) {
     const FacetEdges& facet = m.tree.edges[slot];
     double w[3];
     EdgeMoments exact;
     if (accepts(facet, m.tree.triangle[slot], q, exact)) return false;  // a candidate already
+    double worst = 0.0;  // squared
     for (int e = 0; e < 3; ++e) {
         w[e] = exact.w[e];
-        if (w[e] > 0.0 && w[e] * w[e] > sigmas * sigmas * edge_variance(facet.edge[e], m, q, noise))
-            return false;
+        if (w[e] <= 0.0) continue;
+        const double variance = edge_variance(facet.edge[e], m, q, noise);
+        if (!(w[e] * w[e] <= sigmas * sigmas * variance)) return false;
+        worst = std::max(worst, w[e] * w[e] / variance);
     }
+    miss = std::sqrt(worst);
     for (double& value : w) value = std::min(value, 0.0);
     if (w[0] + w[1] + w[2] >= 0.0) w[0] = w[1] = w[2] = -1.0;
     out = facet_contact(m, slot, w, q);  // the point of the facet next to where the axis passed
@@ -85,7 +90,7 @@ CONTACTBENCH_INLINE unsigned rival_sieve(const Leaf& leaf, const NodeQuery& q, c
 
 }  // namespace detail
 
-// True, with the first rival met in `out`.
+// True, with the best rival in `out`: highest priority region, then nearest to being accepted.
 inline bool find_rival(const Model& m, const Query& q, const Candidate& chosen,
                        const WrenchCovariance& noise, const RivalSearch& how, Candidate& out) {
     if (!prunable(q)) return false;
@@ -106,23 +111,31 @@ inline bool find_rival(const Model& m, const Query& q, const Candidate& chosen,
     const float point[3] = {float(centre.x), float(centre.y), float(centre.z)};
     const float radius = float(how.clearance * scale);
     bool found = false;
+    double best = 0.0;
+    const auto consider = [&](std::size_t slot) {
+        Candidate c;
+        double miss = 0.0;
+        if (m.tree.face[slot] < 0 || !detail::nearly_accepts(m, slot, q, noise, how.sigmas, c, miss) ||
+            c.cosine < how.cos_friction || norm(c.point - chosen.point) <= how.clearance)
+            return;
+        const bool higher = region_rank(c) < region_rank(out), same = region_rank(c) == region_rank(out);
+        if (found && !higher && !(same && (miss < best || (miss == best && c.face < out.face)))) return;
+        found = true;
+        best = miss;
+        out = c;
+        out.why = Why::noise;
+    };
     NodeStack stack;
     stack.item[stack.size++] = 0;
     descend(
         m.tree.nodes.data(), stack,
-        [&](const Node& n) {
-            return found ? 0u : node_mask(n, wide) & detail::rival_mask(n, wide, point, radius);
-        },
+        [&](const Node& n) { return node_mask(n, wide) & detail::rival_mask(n, wide, point, radius); },
         [&](std::int32_t leaf) {
             const Leaf& place = m.tree.leaves[std::size_t(leaf)];
             unsigned mask = detail::rival_sieve(place, wide, point, radius) & detail::facet_sieve(place, wide);
-            for (; !found && mask != 0; mask &= mask - 1) {
-                const std::size_t s = std::size_t(leaf) * lanes + std::size_t(std::countr_zero(mask));
-                found = m.tree.face[s] >= 0 && detail::nearly_accepts(m, s, q, noise, how.sigmas, out) &&
-                        out.cosine >= how.cos_friction && norm(out.point - chosen.point) > how.clearance;
-            }
+            for (; mask != 0; mask &= mask - 1)
+                consider(std::size_t(leaf) * lanes + std::size_t(std::countr_zero(mask)));
         });
-    out.why = Why::noise;
     return found;
 }
 

@@ -94,19 +94,30 @@ private:
     }
 
     void look_for_rival(const Wrench& w, const Query& q, const Vec3* previous, Answer& a) const {
-        const Candidate& c = a.hits[std::size_t(a.chosen)];
+        Candidate& c = a.hits[std::size_t(a.chosen)];
         const Mat3 s = contact_covariance(c, w.F, noise_);
         const double spread = std::sqrt(std::max(0.0, s.m[0][0] + s.m[1][1] + s.m[2][2]));
-        // For one wrench |k| is inversely proportional to the cosine.
+        // For one wrench |k| is inversely proportional to the cosine. A rival in a region of higher
+        // priority need not be as head-on: the region, not |k|, would have decided for it.
+        const bool by_region = model_->has_regions && c.region != 1;
         const RivalSearch how{gates_.rival_sigmas, gates_.ambiguity_distance + gates_.rival_sigmas * spread,
-                              std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
+                              by_region ? gates_.cos_friction
+                                        : std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
         Candidate rival;
         if (!find_rival(*model_, q, c, noise_, how, rival)) return;
-        const bool outranked = c.region > 0 && (rival.region == 0 || rival.region > c.region);
+        const std::int32_t mine = region_rank(c), theirs = region_rank(rival);
         const bool followed = previous && norm(c.point - *previous) <= gates_.follow_distance &&
                               norm(rival.point - *previous) > gates_.follow_distance;
+        if (mine == theirs && c.cosine > gates_.torque_ratio * rival.cosine) return;
+        if (theirs < mine) {  // what the operator expects to touch, missed by no more than noise
+            c.why = Why::region;
+            rival.why = Why::chosen;
+            a.chosen = std::int32_t(a.hits.size());
+            a.reason = Reason::ambiguous;
+        } else if (theirs == mine && !followed) {
+            a.reason = Reason::ambiguous;
+        }
         a.hits.add(rival);
-        if (!outranked && !followed) a.reason = Reason::ambiguous;
     }
 
     void forget_old() {

@@ -1,0 +1,14 @@
+"""Ultrasound probes of true size whose surfaces are known exactly.
+
+Each probe is a smooth closed surface with analytic points, normals and curvatures, meshed on demand with any
+number of facets, so that an error measured on a mesh can be told from an error of the mesh. Lengths are in
+metres in frame S: origin on the flange plane, +z from the flange to the probe's tip.
+"""
+
+from __future__ import annotations
+
+from assets.meshing import tessellate
+from assets.probes import PROBE_NAMES, contact_region, make, surface
+from assets.surface import Station, Surface
+
+__all__ = ["PROBE_NAMES", "Station", "Surface", "contact_region", "make", "surface", "tessellate"]

@@ -1,0 +1,137 @@
+"""The methods that every speed-against-error report compares, behind one signature.
+
+Each takes a probe, the noise and the gates, and gives a :class:`Method`. Rivals answer with one contact
+or none and no doubt: only the complete solver says ``ambiguous``.
+
+=============  ========================================================================================
+algorithm1     the paper's loop taken literally: one 4x4 solve a plane, priority planes first, first accepted
+               wins; compiled
+wrench_axis    k = 0: the wrench axis as a ray against the mesh, by Embree (extra ``rivals``)
+iterative      Levenberg-Marquardt on a paraboloid fitted to the contact face; compiled, or by SciPy
+scan           closed form over every facet and vertex, chosen among like contactbench; compiled
+contactbench   the pruned, complete solver
+=============  ========================================================================================
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pipeline import kernel
+from pipeline.contact.gates import Gates
+from pipeline.contact.noise import WrenchNoise
+from pipeline.contact.paraboloid import fit_contact_face, locate_with_scipy
+from pipeline.contact.solver import ContactSolver
+from pipeline.contact.wrench_axis import EmbreeAxis
+from pipeline.errors import InputError
+from pipeline.kernel import Batch, Contact
+from pipeline.mesh import Probe
+
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to locate contacts.
+
+    Attributes
+    ----------
+    name : str
+        As in :data:`METHODS`.
+    locate : callable
+        (6,) wrench in S, N and N·m -> Contact.
+    locate_batch : callable
+        (n, 6) wrenches -> Batch, each row on its own.
+    engine : object
+        What does the work; compiled ones have ``time_each(wrenches)`` -> nanoseconds of each solve.
+    """
+
+    name: str
+    locate: Callable[[ArrayLike], Contact]
+    locate_batch: Callable[[ArrayLike], Batch]
+    engine: Any = field(repr=False, compare=False, default=None)
+
+
+def _compiled(name: str, engine: Any) -> Method:  # noqa: ANN401  (any of the kernel's classes)
+    return Method(name, engine.locate, engine.locate_batch, engine)
+
+
+def contactbench(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+    """Return the pruned, complete solver: every candidate, with reasons and uncertainty."""
+    return _compiled("contactbench", ContactSolver(probe, noise, gates))
+
+
+def scan(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+    """Return the exhaustive scan: same candidates as contactbench, no pruning, no look at near misses."""
+    return _compiled("scan", kernel.Scan(ContactSolver(probe, noise, gates)))
+
+
+def algorithm1(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+    """Return Algorithm 1 of Cao et al. (2023), literally."""
+    return _compiled("algorithm1", kernel.Algorithm1(ContactSolver(probe, noise, gates)))
+
+
+def wrench_axis(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+    """Return the wrench-axis method: no local torque, the first facet that the axis enters.
+
+    Raises
+    ------
+    InputError
+        Embree's bindings are not installed.
+    """
+    axis = EmbreeAxis(ContactSolver(probe, noise, gates))
+    return Method("wrench_axis", axis.locate, axis.locate_batch, axis)
+
+
+def iterative(
+    probe: Probe,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    *,
+    library: Literal["compiled", "scipy"] = "compiled",
+) -> Method:
+    """Return Levenberg-Marquardt on a paraboloid fitted to the contact face.
+
+    Parameters
+    ----------
+    library : {"compiled", "scipy"}
+        Our own compiled iteration, or ``scipy.optimize.least_squares``: the same equations, so that the
+        difference between the two is what an interpreter costs.
+
+    Raises
+    ------
+    InputError
+        There is no contact face to fit.
+    """
+    solver = ContactSolver(probe, noise, gates)
+    surface = fit_contact_face(probe)
+    if library == "scipy":
+        by_scipy = locate_with_scipy(solver, surface)
+        return Method("iterative", lambda w: by_scipy(np.reshape(w, (1, 6)))[0], by_scipy, by_scipy)
+    engine = kernel.Iterative(solver, surface.origin_S, surface.axes_S, surface.coefficients, surface.reach)
+    return _compiled("iterative", engine)
+
+
+METHODS: dict[str, Callable[[Probe, WrenchNoise | None, Gates | None], Method]] = {
+    "contactbench": contactbench,
+    "scan": scan,
+    "algorithm1": algorithm1,
+    "wrench_axis": wrench_axis,
+    "iterative": iterative,
+}
+
+
+def make(name: str, probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+    """Build a method by name.
+
+    Raises
+    ------
+    InputError
+        There is no method of this name.
+    """
+    if name not in METHODS:
+        raise InputError(f"there is no method {name!r}; choose one of {', '.join(METHODS)}")
+    return METHODS[name](probe, noise, gates)

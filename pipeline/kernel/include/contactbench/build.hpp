@@ -66,8 +66,9 @@ inline float half_extent(double lo, double hi, float centre) {
 class Builder {
 public:
     Builder(const std::vector<Triangle>& faces, const std::vector<Vec3>& normalised,
-            const std::vector<Vec3>& normals, const Topology& topology)
-        : faces_(faces), points_(normalised), normals_(normals), topology_(topology) {}
+            const std::vector<Vec3>& normals, const std::vector<std::int32_t>& region,
+            const Topology& topology)
+        : faces_(faces), points_(normalised), normals_(normals), region_(region), topology_(topology) {}
 
     Hierarchy build() {
         const std::size_t n = faces_.size();
@@ -224,6 +225,7 @@ private:
         constexpr double inf = std::numeric_limits<double>::infinity();
         Vec3 lo{inf, inf, inf}, hi{-inf, -inf, -inf};
         std::vector<Vec3> normals;
+        std::int32_t rank = std::numeric_limits<std::int32_t>::max();
         const auto include = [&](const Vec3& p) {
             lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
             hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
@@ -232,6 +234,8 @@ private:
             if (out_.face[i] < 0) continue;
             for (std::int32_t v : out_.triangle[i]) include(points_[std::size_t(v)]);
             normals.push_back(normals_[std::size_t(out_.face[i])]);
+            const std::int32_t region = region_[std::size_t(out_.face[i])];
+            if (region > 0) rank = std::min(rank, region);
         }
         for (std::size_t b = blocks.first; b < blocks.second; ++b)
             for (std::int32_t v : out_.leaves[b].vertex) {
@@ -246,6 +250,7 @@ private:
         n.ex[lane] = half_extent(lo.x, hi.x, n.cx[lane]);
         n.ey[lane] = half_extent(lo.y, hi.y, n.cy[lane]);
         n.ez[lane] = half_extent(lo.z, hi.z, n.cz[lane]);
+        n.rank[lane] = float(rank);
         const Cone cone = bound_directions(normals);
         n.ax[lane] = cone.ax, n.ay[lane] = cone.ay, n.az[lane] = cone.az;
         n.cos_a[lane] = cone.cos_a, n.cos2_a[lane] = cone.cos_a * cone.cos_a, n.sin_a[lane] = cone.sin_a;
@@ -255,6 +260,7 @@ private:
     const std::vector<Triangle>& faces_;
     const std::vector<Vec3>& points_;
     const std::vector<Vec3>& normals_;
+    const std::vector<std::int32_t>& region_;
     const Topology& topology_;
     std::vector<std::int32_t> order_, owned_;
     std::vector<Vec3> centroid_;

@@ -30,6 +30,7 @@ struct alignas(64) Node {
     float ax[lanes] = {}, ay[lanes] = {}, az[lanes] = {};  // cone axis
     float radius[lanes] = {};                              // of the box's corners about its centre
     float cos2_a[lanes] = {}, cos_a[lanes] = {}, sin_a[lanes] = {};  // cone half angle
+    float rank[lanes] = {};                                // highest priority region inside
     std::int32_t child[lanes];                             // node, or ~block for a leaf
 };
 
@@ -38,7 +39,7 @@ inline constexpr float slack = 2e-6f;  // eight times the worst rounding of the 
 
 inline constexpr float free_direction = 1e15f;  // see NodeQuery::free
 
-// What a node is tested against. `reach` widens every test: for all wrenches near this one (cut.hpp).
+// What a node is tested against. `reach`, `turn` and `free` widen the tests to wrenches near this one.
 struct NodeQuery {
     float fx, fy, fz;           // sign * f, so that v = m + c x f with the next line
     float mx, my, mz;           // -sign * (m - h f)
@@ -68,22 +69,6 @@ inline NodeQuery make_node_query(const Query& q, double cos_cap, double sign) {
     n.cos_t = float(c), n.sin_t = float(s);
     n.capsule = c > 1e-6 ? float(std::fabs(q.h) * s / c) : 1e15f;
     n.margin = slack * (1.0f + float(norm(q.m)));
-    return n;
-}
-
-// The same for every wrench whose f is within `turn` and whose m is within `shift` of this one's: a node
-// that this query drops can hold no contact of any of them. With |p| <= sqrt(3) for every p of the mesh,
-// m - p x f moves by at most shift + sqrt(3) turn, and the share of it across f by |m - p x f| turn more.
-inline NodeQuery widen(NodeQuery n, const Query& q, double cos_cap, double turn, double shift) {
-    constexpr double corner = 1.7320508075688772;
-    const double size = norm(q.m);
-    const double pitch = shift + (size + shift) * turn;
-    const double c = std::max(cos_cap, 0.0), s = std::sqrt(std::max(0.0, 1.0 - c * c));
-    n.reach = float(shift + corner * turn + (size + corner) * turn);
-    n.turn = float(turn);
-    n.capsule = c > 1e-6 ? float((std::fabs(q.h) + pitch) * s / c) : 1e15f;
-    n.free = std::fabs(q.h) <= pitch ? free_direction : 0.0f;
-    n.margin *= 2.0f;
     return n;
 }
 

@@ -96,7 +96,7 @@ inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>&
         m.normals.push_back((1.0 / length) * n);
     }
     m.topology = Topology(faces, m.vertices.size());
-    m.tree = detail::Builder(faces, m.normalised, m.normals, m.topology).build();
+    m.tree = detail::Builder(faces, m.normalised, m.normals, m.region, m.topology).build();
     m.slot.assign(faces.size(), -1);
     for (std::size_t s = 0; s < m.tree.face.size(); ++s)
         if (m.tree.face[s] >= 0) m.slot[std::size_t(m.tree.face[s])] = std::int32_t(s);

@@ -3,8 +3,9 @@
 // plausible. So: is there a facet, far from the chosen point, that would accept the wrench if it were
 // off by no more than z sigma, and by no much larger local torque than the chosen one?
 //
-// Contract: S frame, SI. The answer is conservative (each edge may use its own z sigma). O(log n): the
-// nodes that the widened axis meets far from the chosen point; on a convex probe not needed at all.
+// Contract: S frame, SI. The answer is conservative (each edge may use its own z sigma). Patches much
+// smaller than the noise are judged as one, so the cost depends on neither the mesh nor the force; on a
+// convex probe there is no need to ask.
 #pragma once
 
 #include "choice.hpp"
@@ -57,27 +58,37 @@ inline bool nearly_accepts(const Model& m, std::size_t slot, const Query& q, con
     return true;
 }
 
-// Bit l is set when part of child l lies further than `radius` from the point, and part of it within
-// the capsule: node_mask takes that by component, which is loose where the capsule is wide.
-CONTACTBENCH_INLINE unsigned rival_mask(const Node& n, const NodeQuery& q, const float point[3], float radius) {
+struct RivalQuery {
+    NodeQuery wide;
+    float point[3];    // the chosen point, normalised
+    float radius = 0;  // the clearance
+    float rank = 0;    // only subtrees with a region of rank at most this
+    float coarse = 0;  // a subtree smaller than this is judged by its middle, to save its facets
+};
+
+// Bit l is set when part of child l lies further than the clearance from the point, and part of it within
+// the capsule (node_mask takes that by component, which is loose where the capsule is wide).
+CONTACTBENCH_INLINE unsigned rival_mask(const Node& n, const RivalQuery& r) {
+    const NodeQuery& q = r.wide;
     const Float8 cx = load8(n.cx), cy = load8(n.cy), cz = load8(n.cz);
-    const Float8 ex = load8(n.ex), ey = load8(n.ey), ez = load8(n.ez);
-    const Float8 dx = magnitude(cx - point[0]) + ex, dy = magnitude(cy - point[1]) + ey,
-                 dz = magnitude(cz - point[2]) + ez;
-    const Float8 beyond = (dx * dx + dy * dy + dz * dz) - radius * radius;
+    const Float8 dx = magnitude(cx - r.point[0]) + load8(n.ex), dy = magnitude(cy - r.point[1]) + load8(n.ey),
+                 dz = magnitude(cz - r.point[2]) + load8(n.ez);
+    const Float8 beyond = (dx * dx + dy * dy + dz * dz) - r.radius * r.radius;
     const Float8 vx = q.mx + (cy * q.fz - cz * q.fy);
     const Float8 vy = q.my + (cz * q.fx - cx * q.fz);
     const Float8 vz = q.mz + (cx * q.fy - cy * q.fx);
     const Float8 wide = load8(n.radius) + (q.capsule + q.reach + q.margin);
-    return nonnegative(smaller(beyond, wide * wide - (vx * vx + vy * vy + vz * vz)));
+    const Float8 near = wide * wide - (vx * vx + vy * vy + vz * vz);
+    return nonnegative(smaller(smaller(beyond, near), r.rank - load8(n.rank)));
 }
 
-// Facets of the leaf with a corner further than `radius` from the point and facing the force.
-CONTACTBENCH_INLINE unsigned rival_sieve(const Leaf& leaf, const NodeQuery& q, const float point[3], float radius) {
+// Facets of the leaf with a corner beyond the clearance and facing the force.
+CONTACTBENCH_INLINE unsigned rival_sieve(const Leaf& leaf, const RivalQuery& r) {
+    const NodeQuery& q = r.wide;
     Float8 p[3][3], farthest{};
     for (int c = 0; c < 3; ++c) {
         for (int i = 0; i < 3; ++i) p[c][i] = load8(leaf.corner[c][i]);
-        const Float8 dx = p[c][0] - point[0], dy = p[c][1] - point[1], dz = p[c][2] - point[2];
+        const Float8 dx = p[c][0] - r.point[0], dy = p[c][1] - r.point[1], dz = p[c][2] - r.point[2];
         farthest = larger(farthest, dx * dx + dy * dy + dz * dz);
     }
     const Float8 ax = p[1][0] - p[0][0], ay = p[1][1] - p[0][1], az = p[1][2] - p[0][2];
@@ -85,58 +96,137 @@ CONTACTBENCH_INLINE unsigned rival_sieve(const Leaf& leaf, const NodeQuery& q, c
     const Float8 nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
     const Float8 push = nx * q.nx + ny * q.ny + nz * q.nz;
     const Float8 facing = push * magnitude(push) - (0.98f * q.cos_t * q.cos_t) * (nx * nx + ny * ny + nz * nz);
-    return nonnegative(smaller(farthest - radius * radius, facing));
+    return nonnegative(smaller(farthest - r.radius * r.radius, facing));
 }
+
+// How far z sigma moves the axis, and the pitch, at the far end of the probe, over the mesh scale.
+inline double rival_shift(const Model& m, const WrenchCovariance& noise, double sigmas, double force) {
+    return sigmas * std::hypot(noise.torque_bound(), noise.force_bound() * m.reach) / (force * m.frame.scale);
+}
+
+// The axis' offset and its pitch vary independently: their z sigma add as squares.
+inline double rival_capsule(double pitch, double shift, double cos_friction) {
+    const double tan_friction = std::sqrt(1.0 - cos_friction * cos_friction) / cos_friction;
+    return pitch * tan_friction + shift * (std::hypot(1.0, tan_friction) - 1.0);
+}
+
+// A search for the best rival: highest priority region, then nearest to being accepted.
+class RivalFinder {
+public:
+    RivalFinder(const Model& m, const Query& q, const Candidate& chosen, const WrenchCovariance& noise,
+                const RivalSearch& how, Candidate& out)
+        : m_(m), q_(q), chosen_(chosen), noise_(noise), how_(how), out_(out) {
+        const double scale = 1.0 / m.frame.scale;
+        shift_ = rival_shift(m, noise, how.sigmas, q.force);
+        NodeQuery& wide = r_.wide;
+        wide = make_node_query(q, how.cos_friction, push_sign(q));
+        wide.reach = float(shift_);
+        wide.turn = float(how.sigmas * noise.force_bound() / q.force);
+        wide.capsule = float(rival_capsule(std::fabs(q.h), shift_, how.cos_friction));
+        wide.free = std::fabs(q.h) <= shift_ ? free_direction : 0.0f;
+        const Vec3 centre = scale * (chosen.point - m.frame.centre);
+        r_.point[0] = float(centre.x), r_.point[1] = float(centre.y), r_.point[2] = float(centre.z);
+        r_.radius = float(how.clearance * scale);
+        r_.rank = float(region_rank(chosen));  // what the chosen one outranks is no rival
+        r_.coarse = float(shift_);
+    }
+
+    bool run() {
+        std::int32_t stack[lanes * 12];
+        int size = 0;
+        for (stack[size++] = 0; size > 0;) {
+            const Node& node = m_.tree.nodes[std::size_t(stack[--size])];
+            for (unsigned mask = node_mask(node, r_.wide) & rival_mask(node, r_); mask != 0; mask &= mask - 1) {
+                const int l = std::countr_zero(mask);
+                const std::int32_t child = node.child[l];
+                if (child == empty_child) continue;
+                if (node.radius[l] < r_.coarse)
+                    judge_middle(node, l);
+                else if (child < 0)
+                    judge_facets(std::size_t(~child));
+                else
+                    stack[size++] = child;
+            }
+        }
+        return found_;
+    }
+
+private:
+    void judge_facets(std::size_t leaf) {
+        const Leaf& place = m_.tree.leaves[leaf];
+        unsigned mask = rival_sieve(place, r_) & facet_sieve(place, r_.wide);
+        for (; mask != 0; mask &= mask - 1) {
+            const std::size_t slot = leaf * lanes + std::size_t(std::countr_zero(mask));
+            Candidate c;
+            double miss = 0.0;
+            if (m_.tree.face[slot] >= 0 && nearly_accepts(m_, slot, q_, noise_, how_.sigmas, c, miss)) offer(c, miss);
+        }
+    }
+
+    // A patch much smaller than the noise: how far is the contact that its middle would make from the
+    // axis? That keeps the cost the same for a fine mesh and a coarse one.
+    void judge_middle(const Node& n, int l) {
+        const Vec3 c{n.cx[l], n.cy[l], n.cz[l]}, a{n.ax[l], n.ay[l], n.az[l]};
+        const double back = -dot(a, q_.f);
+        if (back < how_.cos_friction) return;
+        const Vec3 v = -push_sign(q_) * (q_.m - q_.h * q_.f - cross(c, q_.f));
+        const Vec3 wanted = (std::fabs(q_.h) / back) * (a + back * q_.f);
+        const double off = norm(v - wanted);
+        if (off > shift_) return;
+        std::int32_t child = n.child[l];
+        while (child >= 0) {
+            const Node& below = m_.tree.nodes[std::size_t(child)];
+            child = below.child[0];
+        }
+        const std::size_t slot = std::size_t(~child) * lanes;
+        Candidate rival;
+        rival.face = m_.tree.face[slot];
+        if (rival.face < 0) return;
+        rival.normal = m_.normals[std::size_t(rival.face)];
+        rival.region = m_.region[std::size_t(rival.face)];
+        const auto corner = [&](std::size_t i) { return m_.vertices[std::size_t(m_.tree.triangle[slot][i])]; };
+        rival.point = (1.0 / 3.0) * (corner(0) + corner(1) + corner(2));
+        rival.cosine = -dot(rival.normal, q_.f);
+        if (rival.cosine <= 0.0) return;
+        rival.torque = -q_.force * m_.frame.scale * (q_.h / rival.cosine);
+        offer(rival, how_.sigmas * off / shift_);
+    }
+
+    void offer(const Candidate& c, double miss) {
+        if (c.cosine < how_.cos_friction || norm(c.point - chosen_.point) <= how_.clearance) return;
+        const std::int32_t rank = region_rank(c), best = region_rank(out_);
+        if (found_ && !(rank < best || (rank == best && (miss < miss_ || (miss == miss_ && c.face < out_.face)))))
+            return;
+        found_ = true;
+        miss_ = miss;
+        out_ = c;
+        out_.why = Why::noise;
+        r_.rank = float(rank);
+    }
+
+    const Model& m_;
+    const Query& q_;
+    const Candidate& chosen_;
+    const WrenchCovariance& noise_;
+    const RivalSearch& how_;
+    Candidate& out_;
+    RivalQuery r_;
+    double shift_ = 0.0, miss_ = 0.0;
+    bool found_ = false;
+};
 
 }  // namespace detail
 
-// True, with the best rival in `out`: highest priority region, then nearest to being accepted.
+// Beyond half a radian the noise says nothing about where the axis is; the covariance says that.
+inline bool rivals_matter(const Query& q, const WrenchCovariance& noise, double sigmas) {
+    return prunable(q) && sigmas * noise.force_bound() < 0.5 * q.force;
+}
+
+// True, with the best rival in `out`.
 inline bool find_rival(const Model& m, const Query& q, const Candidate& chosen,
                        const WrenchCovariance& noise, const RivalSearch& how, Candidate& out) {
-    if (!prunable(q)) return false;
-    const double scale = 1.0 / m.frame.scale;
-    const double turn = how.sigmas * noise.force_bound() / q.force;
-    // Beyond half a radian the noise says nothing about where the axis is; the covariance says that.
-    if (!(turn < 0.5)) return false;
-    // How far z sigma moves the axis, and the pitch, at the far end of the probe.
-    const double shift = std::hypot(how.sigmas * noise.torque_bound() / q.force, turn * m.reach) * scale;
-    NodeQuery wide = make_node_query(q, how.cos_friction, push_sign(q));
-    wide.reach = float(shift);
-    wide.turn = float(turn);
-    const double tan_friction = std::sqrt(1.0 - how.cos_friction * how.cos_friction) / how.cos_friction;
-    // The axis' offset and its pitch vary independently: their z sigma add as squares.
-    wide.capsule = float(std::fabs(q.h) * tan_friction + shift * (std::hypot(1.0, tan_friction) - 1.0));
-    wide.free = std::fabs(q.h) <= shift ? free_direction : 0.0f;
-    const Vec3 centre = scale * (chosen.point - m.frame.centre);
-    const float point[3] = {float(centre.x), float(centre.y), float(centre.z)};
-    const float radius = float(how.clearance * scale);
-    bool found = false;
-    double best = 0.0;
-    const auto consider = [&](std::size_t slot) {
-        Candidate c;
-        double miss = 0.0;
-        if (m.tree.face[slot] < 0 || !detail::nearly_accepts(m, slot, q, noise, how.sigmas, c, miss) ||
-            c.cosine < how.cos_friction || norm(c.point - chosen.point) <= how.clearance)
-            return;
-        const bool higher = region_rank(c) < region_rank(out), same = region_rank(c) == region_rank(out);
-        if (found && !higher && !(same && (miss < best || (miss == best && c.face < out.face)))) return;
-        found = true;
-        best = miss;
-        out = c;
-        out.why = Why::noise;
-    };
-    NodeStack stack;
-    stack.item[stack.size++] = 0;
-    descend(
-        m.tree.nodes.data(), stack,
-        [&](const Node& n) { return node_mask(n, wide) & detail::rival_mask(n, wide, point, radius); },
-        [&](std::int32_t leaf) {
-            const Leaf& place = m.tree.leaves[std::size_t(leaf)];
-            unsigned mask = detail::rival_sieve(place, wide, point, radius) & detail::facet_sieve(place, wide);
-            for (; mask != 0; mask &= mask - 1)
-                consider(std::size_t(leaf) * lanes + std::size_t(std::countr_zero(mask)));
-        });
-    return found;
+    if (!rivals_matter(q, noise, how.sigmas)) return false;
+    return detail::RivalFinder(m, q, chosen, noise, how, out).run();
 }
 
 }  // namespace contactbench

@@ -20,7 +20,7 @@ class Solver {
 public:
     Solver(std::shared_ptr<const Model> model, const WrenchCovariance& noise, const Gates& gates)
         : model_(std::move(model)), noise_(noise), gates_(gates), force_noise_(noise.force_bound()),
-          torque_noise_(noise.torque_bound()), lever_(norm(model_->frame.centre)) {}
+          torque_noise_(noise.torque_bound()) {}
 
     const Model& model() const { return *model_; }
     const std::shared_ptr<const Model>& shared_model() const { return model_; }
@@ -29,36 +29,28 @@ public:
 
     // `previous`: where contact was last accepted (S, m), or null.
     Answer locate(const Wrench& w, const Vec3* previous = nullptr) const {
-        return answer(w, previous, [&](const Query& q, Hits& hits) {
-            search(*model_, q, gates_.cos_friction, hits);
-        });
+        const auto pruned = [&](const Query& q, Hits& hits) { search(*model_, q, gates_.cos_friction, hits); };
+        return answer(w, previous, pruned);
     }
 
     // The yardstick: the same answer without the hierarchy.
     Answer locate_exhaustively(const Wrench& w, const Vec3* previous = nullptr) const {
-        return answer(w, previous, [&](const Query& q, Hits& hits) {
-            exhaust(*model_, q, gates_.cos_friction, hits);
-        });
+        const auto all = [&](const Query& q, Hits& hits) { exhaust(*model_, q, gates_.cos_friction, hits); };
+        return answer(w, previous, all);
     }
 
     // `age`: seconds since the sample was taken.
     Answer track(const Wrench& w, double age = 0.0) {
-        if (!(age <= gates_.max_age)) {
-            Answer a;
+        Answer a;
+        if (age <= gates_.max_age)
+            a = follow(w);
+        else
             a.reason = Reason::stale;
-            forget_old();
-            return a;
-        }
-        Answer a = answer(w, previous(), [&](const Query& q, Hits& hits) {
-            const double unit = 1.0 / q.force;
-            const double shift = (torque_noise_ + lever_ * force_noise_) * unit / model_->frame.scale;
-            tracker_.search(*model_, q, gates_.cos_friction, force_noise_ * unit, shift, hits);
-        });
         if (accepted(a.reason)) {
             last_ = a.hits[std::size_t(a.chosen)].point;
             misses_ = 0;
-        } else {
-            forget_old();
+        } else if (misses_ < std::numeric_limits<std::int64_t>::max()) {
+            ++misses_;
         }
         return a;
     }
@@ -72,6 +64,7 @@ public:
     }
 
 private:
+    // `search(query, hits)` finds the candidates.
     template <class Search>
     Answer answer(const Wrench& w, const Vec3* previous, Search&& search) const {
         Answer a;
@@ -82,6 +75,28 @@ private:
         choose(a, gates_, previous);
         if (a.hits.size() == 0) look_past_the_cone(q, a);
         if (accepted(a.reason) && !model_->convex) look_for_rival(w, q, previous, a);
+        return a;
+    }
+
+    Answer follow(const Wrench& w) {
+        bool covered = false;
+        Query query;
+        Answer a = answer(w, previous(), [&](const Query& q, Hits& hits) {
+            query = q;
+            covered = tracker_.covers(q);
+            if (covered)
+                search_from(tracker_.cut(), *model_, q, gates_.cos_friction, hits);
+            else
+                search(*model_, q, gates_.cos_friction, hits);
+        });
+        if (covered) {
+            tracker_.served();
+        } else if (a.chosen >= 0) {
+            const Candidate& c = a.hits[std::size_t(a.chosen)];
+            const double turn = force_noise_ / query.force;
+            const double shift = std::hypot(torque_noise_ / query.force, turn * norm(c.point)) / model_->frame.scale;
+            tracker_.follow(*model_, query, gates_.cos_friction, c, turn, shift);
+        }
         return a;
     }
 
@@ -97,18 +112,17 @@ private:
         Candidate& c = a.hits[std::size_t(a.chosen)];
         const Mat3 s = contact_covariance(c, w.F, noise_);
         const double spread = std::sqrt(std::max(0.0, s.m[0][0] + s.m[1][1] + s.m[2][2]));
-        // For one wrench |k| is inversely proportional to the cosine. A rival in a region of higher
-        // priority need not be as head-on: the region, not |k|, would have decided for it.
-        const bool by_region = model_->has_regions && c.region != 1;
-        const RivalSearch how{gates_.rival_sigmas, gates_.ambiguity_distance + gates_.rival_sigmas * spread,
-                              by_region ? gates_.cos_friction
-                                        : std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
+        // For one wrench |k| is inversely proportional to the cosine.
+        const RivalSearch how{gates_.rival_sigmas, 2.0 * gates_.ambiguity_distance + gates_.rival_sigmas * spread,
+                              std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
+        // Contact was here a moment ago: whatever is too far away to be followed is no rival.
+        const double moved = previous ? norm(c.point - *previous) : HUGE_VAL;
+        if (moved + gates_.follow_distance <= how.clearance) return;
         Candidate rival;
         if (!find_rival(*model_, q, c, noise_, how, rival)) return;
         const std::int32_t mine = region_rank(c), theirs = region_rank(rival);
-        const bool followed = previous && norm(c.point - *previous) <= gates_.follow_distance &&
+        const bool followed = moved <= gates_.follow_distance &&
                               norm(rival.point - *previous) > gates_.follow_distance;
-        if (mine == theirs && c.cosine > gates_.torque_ratio * rival.cosine) return;
         if (theirs < mine) {  // what the operator expects to touch, missed by no more than noise
             c.why = Why::region;
             rival.why = Why::chosen;
@@ -120,14 +134,10 @@ private:
         a.hits.add(rival);
     }
 
-    void forget_old() {
-        if (misses_ < std::numeric_limits<std::int64_t>::max()) ++misses_;
-    }
-
     std::shared_ptr<const Model> model_;
     WrenchCovariance noise_;
     Gates gates_;
-    double force_noise_, torque_noise_, lever_;
+    double force_noise_, torque_noise_;
     Tracker tracker_;
     Vec3 last_;
     std::int64_t misses_ = std::numeric_limits<std::int64_t>::max();

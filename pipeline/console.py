@@ -1,0 +1,105 @@
+"""What every command shares: sentences on standard error, one JSON object on standard output, progress."""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from types import TracebackType
+
+_JSON = "contactbench.json"
+_PATIENCE_S = 0.5
+
+
+def _remember(ctx: typer.Context, value: bool) -> bool:
+    ctx.meta[_JSON] = value  # shared by all levels of commands
+    return value
+
+
+JsonOption = Annotated[
+    bool,
+    typer.Option(
+        "--json", help="Print one JSON object on standard output.", callback=_remember, is_eager=True
+    ),
+]
+
+
+def wants_json(ctx: Any) -> bool:
+    """Tell whether the command that runs was given ``--json``."""
+    return bool(ctx.meta.get(_JSON))
+
+
+def print_json(value: Mapping[str, Any]) -> None:
+    """Write one JSON object on standard output."""
+    typer.echo(json.dumps(value, allow_nan=False))
+
+
+def say(text: str, style: str = "") -> None:
+    """Write one line on standard error, styled where that is a terminal."""
+    from rich.console import Console
+    from rich.text import Text
+
+    # File names need be neither printable nor UTF-8.
+    line = " ".join(text.encode("utf-8", "replace").decode().splitlines())
+    Console(stderr=True).print(Text(line, style=style), soft_wrap=True)
+
+
+def report_error(message: str, *, as_json: bool) -> None:
+    """Write a red line on standard error and, when asked for, ``{"error": ...}`` on standard output."""
+    say(f"error: {message}", "red")
+    if as_json:
+        print_json({"error": message})
+
+
+class Bar:
+    """A progress bar by bytes, on a terminal only, and only once the work has taken half a second.
+
+    Parameters
+    ----------
+    what : str
+        The word in front of it.
+    """
+
+    def __init__(self, what: str) -> None:
+        self._what = what
+        self._begin = time.perf_counter()
+        self._progress: Any = None
+        self._task: Any = None
+
+    def __enter__(self) -> Bar:
+        return self
+
+    def __call__(self, done: int, total: int) -> None:
+        """Show that `done` of `total` bytes are through; a total of 0 is unknown."""
+        late = time.perf_counter() - self._begin > _PATIENCE_S
+        if self._progress is None and late and sys.stderr.isatty():
+            self._start(total)
+        if self._progress is not None:
+            self._progress.update(self._task, completed=done)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._progress is not None:
+            self._progress.stop()
+
+    def _start(self, total: int) -> None:
+        from rich import progress
+        from rich.console import Console
+
+        self._progress = progress.Progress(
+            progress.TextColumn("{task.description}"),
+            progress.BarColumn(),
+            progress.DownloadColumn(),
+            progress.TimeRemainingColumn(),
+            console=Console(stderr=True),
+            transient=True,
+        )
+        self._task = self._progress.add_task(self._what, total=total or None)
+        self._progress.start()

@@ -1,0 +1,102 @@
+"""Contacts as CSV rows, a block at a time."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+
+from pipeline.contact.shortest import WIDTH, shortest
+from pipeline.kernel import Reason
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm\n"
+
+REASONS: tuple[str, ...] = tuple(reason.name.lower() for reason in Reason)
+_REASON_TEXTS = np.array(REASONS, dtype=np.bytes_)
+
+
+class Answers(Protocol):
+    """What a method says about n wrenches: :class:`pipeline.kernel.Batch` or the like."""
+
+    @property
+    def points(self) -> npt.NDArray[np.float64]:
+        """(n, 3) S, m; NaN where there is no point."""
+
+    @property
+    def torques(self) -> npt.NDArray[np.float64]:
+        """(n,) k, N·m; NaN where there is no point."""
+
+    @property
+    def faces(self) -> npt.NDArray[np.int32]:
+        """(n,) facet, or -1."""
+
+    @property
+    def reasons(self) -> npt.NDArray[np.uint8]:
+        """(n,) values of Reason."""
+
+    @property
+    def candidates(self) -> npt.NDArray[np.int32]:
+        """(n,) how many there were."""
+
+    @property
+    def sigma_max(self) -> npt.NDArray[np.float64]:
+        """(n,) largest standard deviation of the point, m; NaN where there is no point."""
+
+
+class ContactRows:
+    """Turns answers into CSV text.
+
+    Rows are laid side by side in a byte matrix, each column as wide as its longest cell, with NUL bytes in
+    the gaps; taking these out leaves the text. No Python object is made per row.
+    """
+
+    def __init__(self) -> None:
+        self._integers = np.array([b""], dtype=np.bytes_)  # the texts of -1, 0, 1, ...
+
+    def encode(
+        self, times: npt.NDArray[np.bytes_], answers: Answers, sigma_mm: npt.NDArray[np.float64]
+    ) -> bytes:
+        """
+        Write one line per answer, columns as in `HEADER`.
+
+        Parameters
+        ----------
+        times : (n,) bytes
+            What stands in the first column, without NUL bytes.
+        answers : Answers
+            Of n wrenches.
+        sigma_mm : (n,) float64
+            Largest standard deviation of each point, mm; NaN where there is none.
+        """
+        columns = [
+            times,
+            *answers.points.T,
+            answers.torques,
+            self._integer_texts(answers.faces),
+            _REASON_TEXTS.take(answers.reasons),
+            self._integer_texts(answers.candidates),
+            sigma_mm,
+        ]
+        widths = [WIDTH if column.dtype.kind == "f" else column.itemsize for column in columns]
+        rows = np.empty((len(times), sum(widths) + len(widths)), dtype=np.uint8)
+        end = -1
+        for column, width in zip(columns, widths, strict=True):
+            start, end = end + 1, end + 1 + width
+            if column.dtype.kind == "f":
+                rows[:, start:end] = shortest(column)
+            else:
+                rows[:, start:end] = column.view(np.uint8).reshape(-1, width)
+            rows[:, end] = ord(",")
+        rows[:, end] = ord("\n")
+        return rows.tobytes().translate(None, b"\0")
+
+    def _integer_texts(self, values: npt.NDArray[np.int32]) -> npt.NDArray[np.bytes_]:
+        """Decimal text of integers from -1, which is written as nothing: looked up, as facets recur."""
+        need = int(values.max(initial=0)) + 2
+        if need > len(self._integers):
+            texts = [b"", *(str(i).encode() for i in range(max(need, 2 * len(self._integers))))]
+            self._integers = np.array(texts, dtype=np.bytes_)
+        return self._integers.take(values + 1)

@@ -1,0 +1,363 @@
+"""Locate the contact of every wrench in a file, whatever its size, and write a file of contacts."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import time
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
+
+import numpy as np
+
+from pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
+from pipeline.contact.wrench_csv import BLOCK_BYTES, WrenchFileError, WrenchReader, WrenchRows
+from pipeline.errors import InputError
+from pipeline.kernel import Reason
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import numpy.typing as npt
+
+__all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting"]
+
+Progress = Callable[[int, int], None]
+
+
+class Locator(Protocol):
+    """A solver or a method."""
+
+    def locate_batch(self, wrenches: npt.NDArray[np.float64], /) -> Answers:
+        """Locate each row of (n, 6) on its own."""
+
+
+@dataclass(frozen=True)
+class LocateSummary:
+    """
+    What came of a file.
+
+    Attributes
+    ----------
+    rows : int
+        Wrenches read and answered.
+    reasons : dict of str to int
+        Answers per reason, every reason named, in lower case.
+    method : str
+        Who answered.
+    median_sigma_max_mm : float or None
+        Median of the largest standard deviation of the points, mm, to four digits; None without points.
+    seconds : float
+        From the first byte read to the last one written.
+    warnings : tuple of str
+        What should make one doubt the answers: sentences with a remedy.
+    """
+
+    rows: int
+    reasons: dict[str, int]
+    method: str
+    median_sigma_max_mm: float | None
+    seconds: float
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def rows_per_second(self) -> float:
+        """Rows per second of wall time."""
+        return self.rows / max(self.seconds, 1e-9)
+
+    def facts(self) -> dict[str, Any]:
+        """Return everything as values that JSON knows."""
+        return {**asdict(self), "rows_per_second": self.rows_per_second, "warnings": list(self.warnings)}
+
+
+def locate_file(
+    solver_or_method: Locator,
+    source: Path | BinaryIO,
+    out: Path | BinaryIO,
+    *,
+    track: bool = False,
+    allow_nan: bool = False,
+    progress: Progress | None = None,
+    block_bytes: int = BLOCK_BYTES,
+) -> LocateSummary:
+    """
+    Locate the contact of each row of a CSV file.
+
+    The file is read in blocks, so that it may be larger than the memory. The output appears as a whole or
+    not at all: a file that was there stays untouched until the last row is written.
+
+    Parameters
+    ----------
+    solver_or_method : ContactSolver or Method
+        Whose ``locate_batch`` answers.
+    source : path or binary file
+        Columns t, fx, fy, fz, mx, my, mz in any order, others are ignored; s, N and N·m about the sensor
+        origin, in S.
+    out : path or binary file
+        Gets columns t, x, y, z (S, m), k (N·m), face, reason, candidates, sigma_max_mm; cells are empty where
+        there is no point, t is the text of the input, numbers are as ``repr`` writes them.
+    track : bool
+        Take the rows as one stream in which each contact follows the one before (``track_batch`` of a
+        ContactSolver, which is reset first). A row whose t is not later than every t before it is answered
+        with ``stale``.
+    allow_nan : bool
+        Answer rows with NaN, infinity or empty cells with ``not_finite`` instead of refusing the file.
+    progress : callable, optional
+        Called after each block with the bytes read and the size of the source (0 if that is unknown).
+    block_bytes : int
+        How much is read at a time. The output does not depend on it.
+
+    Returns
+    -------
+    LocateSummary
+
+    Raises
+    ------
+    WrenchFileError
+        The source cannot be used or the output not written; the message names file, line and column.
+    InputError
+        `track` with a method that cannot.
+    """
+    answer = _tracked(solver_or_method) if track else _Untracked(solver_or_method)
+    refuse_overwriting(out, source)
+    begin = time.perf_counter()
+    tally = _Tally()
+    with _opened(source) as (stream, name, size), _sink(out) as write:
+        reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
+        write(HEADER)
+        text = ContactRows()
+        for rows, answers in _ahead(reader, answer):
+            sigma_mm = answers.sigma_max * 1e3
+            write(text.encode(rows.times, answers, sigma_mm))
+            tally.add(answers.reasons, sigma_mm)
+            if progress is not None:
+                progress(reader.bytes_read, size)
+    return LocateSummary(
+        rows=sum(tally.reasons.values()),
+        reasons=tally.reasons,
+        method=str(getattr(solver_or_method, "name", "contactbench")),
+        median_sigma_max_mm=tally.median(),
+        seconds=time.perf_counter() - begin,
+        warnings=(*answer.warnings(), *tally.warnings()),
+    )
+
+
+# ---- answering ---------------------------------------------------------------------------------
+
+
+class _Untracked:
+    def __init__(self, locator: Locator) -> None:
+        self._locator = locator
+
+    def __call__(self, rows: WrenchRows) -> Answers:
+        return self._locator.locate_batch(rows.wrenches)
+
+    def warnings(self) -> tuple[str, ...]:
+        return ()
+
+
+class _Tracked(_Untracked):
+    """One stream, with the samples that come late or twice marked as stale."""
+
+    def __init__(self, solver: Any) -> None:
+        self._solver = solver
+        self._latest = -np.inf
+        self._stale = 0
+        self._first_stale = 0
+        solver.reset()
+
+    def __call__(self, rows: WrenchRows) -> Answers:
+        assert rows.t is not None  # noqa: S101  (the reader was asked for it)
+        # fmax: a NaN, where they are allowed, is not a time, but does not hide the times after it.
+        newest = np.fmax.accumulate(np.concatenate(([self._latest], rows.t)))
+        late = ~(rows.t > newest[:-1])
+        self._latest = float(newest[-1])
+        if late.any() and not self._stale:
+            self._first_stale = int(rows.lines[np.argmax(late)])
+        self._stale += int(np.count_nonzero(late))
+        # An age of NaN is over any limit, even over none.
+        answers: Answers = self._solver.track_batch(rows.wrenches, np.where(late, np.nan, 0.0))
+        return answers
+
+    def warnings(self) -> tuple[str, ...]:
+        if not self._stale:
+            return ()
+        sentences = (
+            f"Rows that are not later than all rows before them: {self._stale}, the first on line"
+            f" {self._first_stale}. They are answered with stale. If recordings were joined, split them."
+        )
+        return (sentences,)
+
+
+def _tracked(locator: Locator) -> _Tracked:
+    if not hasattr(locator, "track_batch"):
+        name = getattr(locator, "name", type(locator).__name__)
+        raise InputError(f"method {name} cannot track: only contactbench can. Choose it, or do not track.")
+    return _Tracked(locator)
+
+
+def _ahead(
+    blocks: WrenchReader, answer: Callable[[WrenchRows], Answers]
+) -> Iterator[tuple[WrenchRows, Answers]]:
+    """Answer each block in a second thread while the next is read and the one before is written.
+
+    The solver releases the interpreter's lock, so this saves up to a quarter of the time where a second
+    core is free. One thread, because a stream has an order.
+    """
+    with ThreadPoolExecutor(1, "locate") as pool:
+        waiting: tuple[WrenchRows, Future[Answers]] | None = None
+        for rows in blocks:
+            ahead = pool.submit(answer, rows)
+            if waiting is not None:
+                yield waiting[0], waiting[1].result()
+            waiting = rows, ahead
+        if waiting is not None:
+            yield waiting[0], waiting[1].result()
+
+
+# ---- counting ----------------------------------------------------------------------------------
+
+_MANTISSA_BITS = 12
+_SHIFT = 52 - _MANTISSA_BITS
+_SMALLEST, _LARGEST = 2.0**-30, 2.0**30  # mm
+_FIRST_BIN = int(np.float64(_SMALLEST).view(np.int64)) >> _SHIFT
+_BINS = (int(np.float64(_LARGEST).view(np.int64)) >> _SHIFT) - _FIRST_BIN + 1
+
+
+class _Tally:
+    """Counts per reason, and a histogram fine enough for a median of four digits."""
+
+    def __init__(self) -> None:
+        self.reasons = dict.fromkeys(REASONS, 0)
+        # A bin per exponent and first bits of the mantissa, 1/4096 wide: keeping all values of a large
+        # file would take more memory than the solver.
+        self._bins = np.zeros(_BINS, dtype=np.int64)
+
+    def add(self, reasons: npt.NDArray[np.uint8], sigma_mm: npt.NDArray[np.float64]) -> None:
+        for name, count in zip(REASONS, np.bincount(reasons, minlength=len(REASONS)), strict=True):
+            self.reasons[name] += int(count)
+        given = np.clip(sigma_mm[~np.isnan(sigma_mm)], _SMALLEST, _LARGEST)
+        found, counts = np.unique((given.view(np.int64) >> _SHIFT) - _FIRST_BIN, return_counts=True)
+        self._bins[found] += counts
+
+    def median(self) -> float | None:
+        total = np.cumsum(self._bins)
+        if not total[-1]:
+            return None
+        middle = int(np.searchsorted(total, (total[-1] + 1) // 2)) + _FIRST_BIN
+        value = np.int64((middle << _SHIFT) + (1 << (_SHIFT - 1))).view(np.float64)
+        return float(f"{value:.4g}")
+
+    def warnings(self) -> tuple[str, ...]:
+        points = sum(
+            self.reasons[reason.name.lower()] for reason in (Reason.OK, Reason.VERTEX, Reason.AMBIGUOUS)
+        )
+        missed = self.reasons["off_surface"] + self.reasons["tangential"]
+        if points or not missed:
+            return ()
+        sentences = (
+            "Not one wrench meets the probe. Check the units and the mount of the probe, that torques are in"
+            " N·m about the sensor origin, and that the forces are those of the tissue on the probe."
+        )
+        return (sentences,)
+
+
+# ---- files -------------------------------------------------------------------------------------
+
+
+def refuse_overwriting(out: Path | BinaryIO, source: Path | BinaryIO) -> None:
+    """
+    Refuse an output that is one of the inputs, also by another name.
+
+    Raises
+    ------
+    WrenchFileError
+        Both are the same file.
+    """
+    if not (isinstance(source, Path) and isinstance(out, Path)):
+        return
+    try:
+        same = out.samefile(source)
+    except (OSError, ValueError):  # ValueError: a path that no file system can hold
+        return  # one of them does not exist, or opening it will say what is wrong
+    if same:
+        raise WrenchFileError(f"{out}: the output would replace the input: choose another name for it.")
+
+
+@contextmanager
+def _opened(source: Path | BinaryIO) -> Iterator[tuple[BinaryIO, str, int]]:
+    if not isinstance(source, Path):
+        yield source, "standard input", 0
+        return
+    try:
+        stream = source.open("rb")
+    except FileNotFoundError:
+        raise WrenchFileError(f"{source}: there is no such file: check the path.") from None
+    except IsADirectoryError:
+        raise WrenchFileError(f"{source}: this is a folder: choose a CSV file inside it.") from None
+    except (OSError, ValueError) as error:
+        raise WrenchFileError(
+            f"{source}: the file cannot be opened ({error}): check its permissions."
+        ) from error
+    with stream:
+        yield stream, str(source), os.fstat(stream.fileno()).st_size
+
+
+@contextmanager
+def _sink(out: Path | BinaryIO) -> Iterator[Callable[[bytes], object]]:
+    """Take bytes that become a file when the block ends well; leave no trace when it does not."""
+    if not isinstance(out, Path):
+        yield out.write
+        out.flush()
+        return
+    with _explained(out):
+        # A link stays one: what it points at is replaced.
+        file = out.resolve()
+        if file.exists() and not file.is_file():
+            raise WrenchFileError(f"{out}: this is a folder or a device: choose the name of a file.")
+        # In the same folder, because a rename is atomic only within one file system.
+        scratch = file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")
+        stream = scratch.open("xb")
+
+    def write(data: bytes) -> None:
+        with _explained(out):
+            stream.write(data)
+
+    try:
+        with stream:
+            yield write
+            with _explained(out):
+                stream.flush()
+                os.fsync(stream.fileno())
+        with _explained(out):
+            scratch.replace(file)
+    except BaseException:
+        scratch.unlink(missing_ok=True)
+        raise
+    _sync_folder(file.parent)
+
+
+@contextmanager
+def _explained(out: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise WrenchFileError(
+            f"{out}: the contacts cannot be written ({error.strerror or error}): choose a folder that exists,"
+            " is writable and has space."
+        ) from error
+
+
+def _sync_folder(folder: Path) -> None:
+    # The rename itself reaches the disk with its folder. Windows cannot open folders.
+    if os.name == "nt":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -1,0 +1,302 @@
+"""Speed against error: every method on the same mesh and the same touches, in one run."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assets
+from pipeline.contact import ContactSolver, WrenchNoise, methods
+from pipeline.contact.wrench_axis import EmbreeAxis
+from pipeline.errors import InputError
+from pipeline.mesh import Probe
+from pipeline.simulation import add_noise, draw_slide, draw_touches
+from pipeline.study.timing import Timing, time_calls
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.contact.methods import Method
+    from pipeline.simulation import Touches
+
+DEFAULT_FACETS = (500, 1_000, 20_000, 100_000)
+
+# The literal loop costs up to a millisecond a solve: enough of them for a p99, not for a coffee break.
+_SLOW_SAMPLES = 400
+
+
+@dataclass(frozen=True)
+class Row:
+    """One method on one mesh.
+
+    Attributes
+    ----------
+    method, language : str
+        ``C++``: compiled solves in a batch; ``Python``: one call at a time.
+    facets : int
+    timing : Timing
+        Nanoseconds a solve.
+    mean_mm, p95_mm, max_mm : float or None
+        Error against the true surface, over touches that got a point; None where only time was measured.
+    over_bound : float or None
+        Root mean square error over the noise bound's.
+    answered : float or None
+        Share of touches that got a point.
+    """
+
+    method: str
+    language: str
+    facets: int
+    timing: Timing
+    mean_mm: float | None = None
+    p95_mm: float | None = None
+    max_mm: float | None = None
+    over_bound: float | None = None
+    answered: float | None = None
+
+
+@dataclass(frozen=True)
+class Target:
+    """A figure to reach: measured against its limit."""
+
+    name: str
+    measured: float
+    limit: float
+    at_least: bool = False
+
+    @property
+    def met(self) -> bool:
+        """Whether the measured figure is within the limit."""
+        return self.measured >= self.limit if self.at_least else self.measured <= self.limit
+
+
+@dataclass(frozen=True)
+class SpeedReport:
+    """Everything that :func:`run` measured."""
+
+    probe: str
+    seed: int
+    touches: int
+    rows: list[Row]
+    targets: list[Target]
+    stream_samples: int
+    stream_differences: int
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        data = asdict(self)
+        for entry, target in zip(data["targets"], self.targets, strict=True):
+            entry["met"] = target.met
+        return data
+
+
+def run(
+    probe: str = "t-shape",
+    facets: Sequence[int] = DEFAULT_FACETS,
+    *,
+    touches: int = 10_000,
+    stream: int = 1_000_000,
+    rounds: int = 40,
+    seed: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> SpeedReport:
+    """Measure every method at every resolution.
+
+    Parameters
+    ----------
+    probe : str
+        A bundled probe.
+    facets : sequence of int
+        Resolutions, ascending.
+    touches : int
+        Simulated touches (8-10 N, up to 30 degrees, paper-like noise) for errors and compiled times.
+    stream : int
+        Samples of the sliding stream on which tracking must equal a cold solve; 0 to skip.
+    rounds : int
+        Blocks of 250 Python calls for each method.
+    seed : int
+        Of the touches and the noise.
+    progress : callable
+        Told in words what is being measured.
+
+    Raises
+    ------
+    InputError
+        There is no such probe, or too few touches.
+    """
+    if probe not in assets.PROBE_NAMES:
+        raise InputError(f"there is no bundled probe {probe!r}; choose one of {', '.join(assets.PROBE_NAMES)}")
+    if touches < 1_000:
+        raise InputError(f"touches: {touches} are too few for a p99; give at least 1000")
+    rng = np.random.default_rng(seed)
+    noise = WrenchNoise()
+    truth = draw_touches(assets.surface(probe), touches, rng, above=0.02)
+    wrenches = add_noise(truth.wrenches, noise, rng)
+    sliding = add_noise(draw_slide(assets.surface(probe), max(stream, 20_000), rng).wrenches, noise, rng)
+    rows: list[Row] = []
+    differences = 0
+    for count in facets:
+        progress(f"{count:,} facets")
+        body = _probe(probe, count)
+        rows += _compiled_rows(body, noise, truth, wrenches, sliding)
+        rows += _python_rows(body, noise, wrenches, sliding, rounds)
+        if stream:
+            progress(f"{count:,} facets: tracking against cold solves on {stream:,} samples")
+            differences += stream_differences(ContactSolver(body, noise), sliding[:stream])
+    return SpeedReport(probe, seed, touches, rows, _targets(rows, facets), stream, differences)
+
+
+def stream_differences(solver: ContactSolver, wrenches: NDArray[np.float64]) -> int:
+    """Count samples of a stream on which ``track`` and ``locate`` with the same previous contact differ.
+
+    Every sample whose tracked answer could depend on the previous contact (more than one candidate) is
+    solved cold with that contact; all others are solved cold in one batch.
+    """
+    solver.reset()
+    tracked = solver.track_batch(wrenches)
+    cold = solver.locate_batch(wrenches)
+    same = np.array_equal
+    differs = (
+        (tracked.reasons != cold.reasons)
+        | (tracked.faces != cold.faces)
+        | (tracked.vertices != cold.vertices)
+        | (tracked.candidates != cold.candidates)
+        | ~np.all((tracked.points == cold.points) | np.isnan(cold.points), axis=1)
+    )
+    previous = None
+    missed = 0
+    count = 0
+    recent = solver.gates.recent_samples
+    for i in np.flatnonzero(differs | (tracked.reasons <= 1) | (tracked.candidates > 1)):
+        if differs[i] or tracked.candidates[i] > 1:
+            before = _last_accepted(tracked.reasons, tracked.points, int(i), recent)
+            answer = solver.locate(wrenches[i], before)
+            count += 1
+            point = np.full(3, np.nan) if answer.point is None else answer.point
+            if int(answer.reason) != tracked.reasons[i] or not same(point, tracked.points[i], equal_nan=True):
+                missed += 1
+        previous = i
+    del previous
+    return missed
+
+
+def _last_accepted(
+    reasons: NDArray[np.uint8], points: NDArray[np.float64], row: int, recent: int
+) -> NDArray[np.float64] | None:
+    for i in range(row - 1, max(-1, row - 2 - recent), -1):
+        if reasons[i] <= 1:
+            return np.ascontiguousarray(points[i])
+    return None
+
+
+def _probe(name: str, facets: int) -> Probe:
+    vertices, faces = assets.make(name, facets)
+    return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
+
+
+def _compiled_rows(
+    probe: Probe,
+    noise: WrenchNoise,
+    truth: Touches,
+    wrenches: NDArray[np.float64],
+    sliding: NDArray[np.float64],
+) -> list[Row]:
+    rows = []
+    bound = ContactSolver(probe, noise).locate_batch(truth.wrenches).covariances
+    for name in ("algorithm1", "iterative", "scan", "contactbench"):
+        method = methods.make(name, probe, noise)
+        slow = name == "algorithm1" or (name == "scan" and len(probe.faces) > 5_000)
+        few = wrenches[:_SLOW_SAMPLES] if slow else wrenches
+        method.engine.time_each(few[:100])
+        timing = Timing.of(method.engine.time_each(few))
+        rows.append(_scored(method, "C++", probe, timing, truth, wrenches, bound))
+        if name == "contactbench":
+            method.engine.time_tracking(sliding[:1_000])
+            tracking = Timing.of(method.engine.time_tracking(sliding[:20_000]))
+            rows.append(Row("contactbench, tracking", "C++", len(probe.faces), tracking))
+    return rows
+
+
+def _scored(
+    method: Method,
+    language: str,
+    probe: Probe,
+    timing: Timing,
+    truth: Touches,
+    wrenches: NDArray[np.float64],
+    bound: NDArray[np.float64],
+) -> Row:
+    batch = method.locate_batch(wrenches)
+    error = np.linalg.norm(batch.points - truth.points, axis=1)
+    seen = np.isfinite(error)
+    limit = np.sqrt(np.nanmean(np.trace(bound, axis1=1, axis2=2)[seen]))
+    mm = 1e3 * error[seen]
+    return Row(
+        method.name,
+        language,
+        len(probe.faces),
+        timing,
+        float(mm.mean()),
+        float(np.percentile(mm, 95)),
+        float(mm.max()),
+        float(np.sqrt(np.mean(error[seen] ** 2)) / limit),
+        float(seen.mean()),
+    )
+
+
+def _python_rows(
+    probe: Probe, noise: WrenchNoise, wrenches: NDArray[np.float64], sliding: NDArray[np.float64], rounds: int
+) -> list[Row]:
+    solver = ContactSolver(probe, noise)
+    cold, stream = list(wrenches[:5_000]), list(sliding[:20_000])
+    calls: dict[str, tuple[Callable[[Any], object], Sequence[Any]]] = {
+        "contactbench": (solver.locate, cold),
+        "contactbench, tracking": (solver.track, stream),
+    }
+    try:
+        axis = EmbreeAxis(solver)
+    except InputError:
+        pass  # the ratios to Embree are left out, and the report says so
+    else:
+        origins, directions = axis.rays(wrenches[:5_000])
+        rays = [(origins[i : i + 1], directions[i : i + 1]) for i in range(len(origins))]
+        trace = partial(axis.scene.run, query="INTERSECT")
+        calls["embree, one ray"] = (lambda ray: trace(ray[0], ray[1]), rays)
+    timings = time_calls(calls, rounds=rounds)
+    return [Row(name, "Python", len(probe.faces), timing) for name, timing in timings.items()]
+
+
+def _targets(rows: Sequence[Row], facets: Sequence[int]) -> list[Target]:
+    median = {(r.method, r.language, i): r.timing.median for r, i in _indexed(rows, facets)}
+    targets = []
+    for count in facets:
+        embree = median.get(("embree, one ray", "Python", count))
+        if embree:
+            cold = median["contactbench", "Python", count] / embree
+            tracking = median["contactbench, tracking", "Python", count] / embree
+            targets.append(Target(f"locate over one Embree ray, from Python, {count:,} facets", cold, 1.5))
+            targets.append(Target(f"track over one Embree ray, from Python, {count:,} facets", tracking, 0.7))
+        ratio = median["algorithm1", "C++", count] / median["contactbench", "C++", count]
+        limit = {500: 30.0, 20_000: 400.0}.get(count)
+        if limit:
+            targets.append(Target(f"Algorithm 1 over contactbench, C++, {count:,} facets", ratio, limit, at_least=True))
+    if 1_000 in facets and 100_000 in facets:
+        for method, limit in (("contactbench", 6.0), ("contactbench, tracking", 2.5)):
+            for language in ("C++", "Python"):
+                growth = median[method, language, 100_000] / median[method, language, 1_000]
+                targets.append(Target(f"growth of {method} from 1k to 100k facets, {language}", growth, limit))
+    for r, count in _indexed(rows, facets):
+        if r.method.startswith("contactbench"):
+            spread = r.timing.p99 / r.timing.median
+            targets.append(Target(f"p99 over median of {r.method}, {r.language}, {count:,} facets", spread, 4.0))
+    return targets
+
+
+def _indexed(rows: Sequence[Row], facets: Sequence[int]) -> list[tuple[Row, int]]:
+    """Pair each row with the requested facet count its mesh came nearest to."""
+    return [(r, min(facets, key=lambda count: abs(count - r.facets))) for r in rows]

@@ -1,0 +1,208 @@
+// Meshes to test on, from well-behaved to nasty, and wrenches that press on them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "check.hpp"
+#include "contactbench/solver.hpp"
+
+namespace testing {
+
+using contactbench::Triangle;
+using contactbench::Vec3;
+using contactbench::Wrench;
+
+struct Mesh {
+    std::string name;
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> faces;
+    int euler = 0;        // of a closed mesh
+    bool convex = false;  // and closed
+};
+
+inline contactbench::Model model_of(const Mesh& m, std::vector<std::int32_t> region = {}) {
+    return contactbench::make_model(m.vertices, m.faces, std::move(region));
+}
+
+inline Mesh octahedron() {
+    return {"octahedron",
+            {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+            {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}, 2, true};
+}
+
+// Every facet into four.
+inline Mesh subdivide(const Mesh& m) {
+    Mesh out{m.name, m.vertices, {}, m.euler, m.convex};
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
+    const auto middle = [&](std::int32_t a, std::int32_t b) {
+        const auto [it, fresh] =
+            middles.try_emplace({std::min(a, b), std::max(a, b)}, std::int32_t(out.vertices.size()));
+        if (fresh) out.vertices.push_back(0.5 * (out.vertices[std::size_t(a)] + out.vertices[std::size_t(b)]));
+        return it->second;
+    };
+    for (const Triangle& t : m.faces) {
+        const std::int32_t a = middle(t[0], t[1]), b = middle(t[1], t[2]), c = middle(t[2], t[0]);
+        out.faces.insert(out.faces.end(), {{t[0], a, c}, {a, t[1], b}, {c, b, t[2]}, {a, b, c}});
+    }
+    return out;
+}
+
+template <class Move>
+Mesh moved(Mesh m, std::string name, bool convex, Move&& move) {
+    m.name = std::move(name);
+    m.convex = convex;
+    for (Vec3& p : m.vertices) p = move(p);
+    return m;
+}
+
+inline Mesh sphere(int levels, double radius = 0.03) {
+    Mesh m = octahedron();
+    for (int i = 0; i < levels; ++i) m = subdivide(m);
+    return moved(m, "sphere", true, [=](Vec3 p) { return (radius / contactbench::norm(p)) * p; });
+}
+
+inline Mesh ellipsoid(int levels) {
+    return moved(sphere(levels, 1.0), "ellipsoid", true, [](Vec3 p) {
+        return Vec3{0.02 * p.x + 0.01, 0.035 * p.y, 0.06 * p.z + 0.1};
+    });
+}
+
+// A head on a neck: a sphere squeezed in the middle and spread at the far end.
+inline Mesh t_shape(int levels) {
+    return moved(sphere(levels, 1.0), "T-shape", false, [](Vec3 p) {
+        const double spread = 0.3 + 1.7 / (1.0 + std::exp(-14.0 * (p.z - 0.5)));
+        return Vec3{0.03 * spread * p.x, 0.012 * (0.6 + 0.4 * spread) * p.y, 0.07 * p.z + 0.07};
+    });
+}
+
+inline Mesh torus(int around, int across) {
+    Mesh m{"torus", {}, {}, 0, false};
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j) {
+            const double a = 2.0 * M_PI * i / around, b = 2.0 * M_PI * j / across;
+            const double r = 0.04 + 0.015 * std::cos(b);
+            m.vertices.push_back({r * std::cos(a), r * std::sin(a), 0.015 * std::sin(b) + 0.02});
+        }
+    const auto at = [&](int i, int j) { return std::int32_t((i % around) * across + j % across); };
+    for (int i = 0; i < around; ++i)
+        for (int j = 0; j < across; ++j) {
+            m.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+            m.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return m;
+}
+
+inline Mesh box() {
+    Mesh m{"box", {}, {}, 2, true};
+    for (int i = 0; i < 8; ++i) m.vertices.push_back({0.01 * (i & 1), 0.02 * (i >> 1 & 1), 0.04 * (i >> 2)});
+    m.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+               {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return m;
+}
+
+inline Mesh single() { return {"single", {{0, 0, 0}, {0.01, 0, 0}, {0, 0.01, 0.001}}, {{0, 1, 2}}, 0, false}; }
+
+// The upper half of a ball, its rim open.
+inline Mesh open_shell(int levels) {
+    Mesh m = sphere(levels);
+    m.name = "open", m.euler = 0, m.convex = false;
+    std::vector<Triangle> kept;
+    for (const Triangle& t : m.faces) {
+        double z = 0.0;
+        for (std::int32_t v : t) z += m.vertices[std::size_t(v)].z;
+        if (z > 0.01) kept.push_back(t);
+    }
+    m.faces = kept;
+    return m;
+}
+
+// Unrelated triangles, some of them sharing vertices at random.
+inline Mesh soup(std::size_t facets, std::uint64_t seed) {
+    Random random(seed);
+    Mesh m{"soup", {}, {}, 0, false};
+    for (std::size_t i = 0; i < 2 * facets; ++i) m.vertices.push_back(0.03 * random.normal3());
+    while (m.faces.size() < facets) {
+        const auto pick = [&] { return std::int32_t(random.below(m.vertices.size())); };
+        const Triangle t{pick(), pick(), pick()};
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) m.faces.push_back(t);
+    }
+    return m;
+}
+
+inline Mesh two_pieces(int levels) {
+    Mesh m = sphere(levels, 0.02), other = ellipsoid(levels);
+    const auto first = std::int32_t(m.vertices.size());
+    m.name = "two pieces", m.euler = 4, m.convex = false;
+    m.vertices.insert(m.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (const Triangle& t : other.faces) m.faces.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return m;
+}
+
+inline Mesh badly_wound(int levels, std::uint64_t seed) {
+    Random random(seed);
+    Mesh m = t_shape(levels);
+    m.name = "badly wound", m.euler = 0;
+    for (Triangle& t : m.faces)
+        if (random.below(4) == 0) std::swap(t[1], t[2]);
+    return m;
+}
+
+// Needles and caps: a sphere squashed to a sheet, with vertices pushed almost onto their neighbours.
+inline Mesh slivers(int levels, std::uint64_t seed) {
+    Random random(seed);
+    Mesh m = moved(sphere(levels, 1.0), "slivers", false, [&](Vec3 p) {
+        return Vec3{0.05 * p.x, 1e-5 * p.y, 0.02 * p.z + 1e-7 * random.normal()};
+    });
+    // Each vertex at most once: facets thinner than the rounding of their corners have no normal to test.
+    std::vector<char> touched(m.vertices.size(), 0);
+    for (const Triangle& t : m.faces) {
+        const auto a = std::size_t(t[0]), b = std::size_t(t[1]);
+        if (random.below(8) != 0 || touched[a] || touched[b]) continue;
+        touched[a] = touched[b] = 1;
+        m.vertices[a] = m.vertices[b] + 1e-6 * (m.vertices[a] - m.vertices[b]);
+    }
+    return m;
+}
+
+// A ball of dents and spikes: vertices where the peak test has to work.
+inline Mesh urchin(int levels, std::uint64_t seed) {
+    Random random(seed);
+    return moved(sphere(levels, 1.0), "urchin", false,
+                 [&](Vec3 p) { return (0.03 * random.uniform(0.3, 1.0)) * p; });
+}
+
+inline std::vector<Mesh> zoo() {
+    return {octahedron(),  box(),       single(),        sphere(3),          ellipsoid(4),  t_shape(4),
+            torus(40, 20), open_shell(3), soup(200, 11), two_pieces(3), badly_wound(3, 5), slivers(3, 7),
+            urchin(3, 3)};
+}
+
+// A place on the mesh, and how the tissue presses there.
+struct Touch {
+    Vec3 point, normal, force;
+    double torque = 0.0;
+
+    Wrench wrench() const { return {force, cross(point, force) + torque * normal}; }
+};
+
+// `steepest`: largest friction angle, rad; `pitch`: torque over force, as a share of the mesh size.
+inline Touch random_touch(const contactbench::Model& m, Random& random, double steepest, double pitch) {
+    const std::size_t f = random.below(m.normals.size());
+    const Triangle& t = m.tree.triangle[std::size_t(m.slot[f])];
+    double a = random.unit(), b = random.unit();
+    if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
+    const Vec3 p = m.vertices[std::size_t(t[0])], q = m.vertices[std::size_t(t[1])], r = m.vertices[std::size_t(t[2])];
+    Touch touch;
+    touch.point = p + (a * (q - p) + b * (r - p));
+    touch.normal = m.normals[f];
+    Vec3 side = cross(touch.normal, random.direction());
+    side = (1.0 / norm(side)) * side;
+    const double angle = steepest * random.unit(), size = random.uniform(1.0, 20.0);
+    touch.force = size * (-std::cos(angle) * touch.normal + std::sin(angle) * side);
+    touch.torque = pitch * size * m.frame.scale * random.normal();
+    return touch;
+}
+
+}  // namespace testing

@@ -1,0 +1,46 @@
+// Tests of the headers alone, with nothing but a compiler: see packaging/sanitize.
+#include <cstdlib>
+#include <new>
+
+#include "facet_checks.hpp"
+#include "search_checks.hpp"
+#include "solver_checks.hpp"
+
+namespace {
+long allocation_count = 0;
+
+void* allocate(std::size_t size, std::size_t alignment = 0) {
+    ++allocation_count;
+    // Exactly the size asked for, so that the address sanitizer sees the first byte beyond.
+    void* p = nullptr;
+    if (alignment == 0) p = std::malloc(size > 0 ? size : 1);
+    else if (posix_memalign(&p, alignment, size) != 0) p = nullptr;
+    if (!p) std::abort();
+    return p;
+}
+}  // namespace
+
+// Every form that the standard library and the headers use, so that no allocation goes uncounted.
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, std::size_t(alignment)); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+long testing::allocations() { return allocation_count; }
+
+int main() {
+    testing::check_facets();
+    testing::check_search();
+    testing::check_solver();
+    const testing::Counts& counts = testing::counts();
+    if (counts.failed > 0) {
+        std::printf("%ld checks failed, %ld passed\n", counts.failed, counts.passed);
+        return 1;
+    }
+    std::printf("%ld checks passed\n", counts.passed);
+    return 0;
+}

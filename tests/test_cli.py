@@ -1,0 +1,322 @@
+from __future__ import annotations
+
+import io
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from typer.testing import CliRunner
+
+import pipeline
+from pipeline import cli
+from pipeline.console import Bar
+from pipeline.contact import ContactSolver, Gates
+from pipeline.contact.contact_csv import REASONS
+from pipeline.errors import InputError
+from pipeline.mesh import load_probe
+
+RUNNER = CliRunner()
+WRENCHES = "t,fx,fy,fz,mx,my,mz\n0.0,0,0,-5,0,0.01,0\n0.1,0,0,-0.1,0,0,0\n0.2,1,0,-5,0,0.1,0\n"
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Path:
+    """A folder with a probe and a file of wrenches."""
+    mesh = trimesh.creation.icosphere(subdivisions=2, radius=40.0)
+    mesh.apply_translation([0.0, 0.0, 120.0])
+    mesh.export(tmp_path / "ball.stl")
+    trimesh.Trimesh(mesh.vertices, mesh.faces[:-1], process=False).export(tmp_path / "open.ply")
+    (tmp_path / "wrenches.csv").write_text(WRENCHES)
+    return tmp_path
+
+
+def run(*arguments: Any, **options: Any) -> Any:
+    return RUNNER.invoke(cli.app, [str(argument) for argument in arguments], **options)
+
+
+def locate(bench: Path, *arguments: Any, probe: str = "ball.stl", **options: Any) -> Any:
+    files = ("--probe", bench / probe, bench / "wrenches.csv", "--out", bench / "contacts.csv")
+    return run("locate", *files, *arguments, **options)
+
+
+def refused(result: Any, message: str) -> None:
+    assert result.exit_code == 2
+    assert message in " ".join(result.stderr.split())
+    assert "Traceback" not in result.output
+
+
+# ---- the whole -----------------------------------------------------------------------------------
+
+
+def test_version():
+    result = run("--version")
+    assert result.exit_code == 0
+    assert result.stdout == f"contactbench {pipeline.__version__}\n"
+
+
+def test_starting_imports_nothing_heavy():
+    heavy = "{'numpy', 'scipy', 'trimesh', 'pyvista', 'rich'}"
+    code = f"import sys, pipeline.cli; print(sorted({heavy} & set(sys.modules)))"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout == "[]\n"
+
+
+@pytest.mark.parametrize("command", [[], ["info"], ["locate"]])
+def test_help_has_an_example(command):
+    result = run(*command, "--help")
+    assert result.exit_code == 0
+    assert "Example: contactbench" in result.stdout
+
+
+def test_help_states_the_defaults_of_the_gates():
+    text = " ".join(run("locate", "--help").stdout.split())
+    gates = Gates()
+    assert f"N [{gates.min_force:g}]" in text
+    assert f"degrees [{gates.friction_angle:g}]" in text
+    assert f"mm [{1e3 * gates.ambiguity_distance:g}]" in text
+    assert f"mm [{1e3 * gates.follow_distance:g}]" in text
+
+
+def test_method_names_are_those_of_the_methods():
+    methods = pytest.importorskip("pipeline.contact.methods")
+    assert {name.value for name in cli.MethodName} == set(methods.METHODS)
+
+
+def test_input_error_anywhere_is_one_line(monkeypatch):
+    def fail() -> None:
+        raise InputError("this is\nwrong")
+
+    monkeypatch.setattr(cli, "_facts", fail)
+    result = run("info")
+    assert (result.exit_code, result.stdout, result.stderr) == (2, "", "error: this is wrong\n")
+    result = run("info", "--json")
+    assert json.loads(result.stdout) == {"error": "this is\nwrong"}
+    assert result.exit_code == 2
+
+
+def test_interruption_is_a_sentence(monkeypatch):
+    def fail() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "_facts", fail)
+    result = run("info", "--json")
+    assert result.exit_code == 130
+    assert result.stderr.startswith("error: interrupted")
+    assert list(json.loads(result.stdout)) == ["error"]
+
+
+# ---- info ----------------------------------------------------------------------------------------
+
+
+def test_info():
+    facts = json.loads(run("info", "--json").stdout)
+    assert facts["contactbench"] == pipeline.__version__
+    assert facts["numpy"] == np.__version__
+    assert facts["kernel"] in {"base", "avx2"}
+    assert set(facts["optional"]) == {
+        "embreex",
+        "pyvista",
+        "PySide6",
+        "mujoco",
+        "pymeshlab",
+        "fast_simplification",
+    }
+    assert facts["cpu"]
+    assert facts["cpu_count"] > 0
+    result = run("info")
+    assert result.exit_code == 0
+    assert facts["python"] in result.stdout
+
+
+# ---- locate --------------------------------------------------------------------------------------
+
+
+def test_locate_writes_contacts_and_says_how_it_went(bench):
+    result = locate(bench)
+    assert result.exit_code == 0, result.stderr
+    assert result.stdout == ""
+    for text in ("rows", "ok", "low_force", "33.3 %", "median sigma_max", "rows/s"):
+        assert text in result.stderr
+    lines = (bench / "contacts.csv").read_text().splitlines()
+    assert len(lines) == 4
+    assert lines[2].startswith("0.1,,,,,,low_force,0,")
+
+
+def test_json_is_exactly_one_object(bench):
+    result = locate(bench, "--json")
+    facts = json.loads(result.stdout)
+    assert facts["rows"] == 3
+    assert set(facts["reasons"]) == set(REASONS)
+    assert facts["reasons"]["low_force"] == 1
+    assert sum(facts["reasons"].values()) == 3
+    assert facts["out"] == str(bench / "contacts.csv")
+    assert facts["method"] == "contactbench"
+    assert facts["median_sigma_max_mm"] > 0
+    assert facts["seconds"] > 0
+    assert facts["rows_per_second"] > 0
+    assert facts["warnings"] == []
+
+
+def test_options_reach_the_solver(bench):
+    limits = ("--min-force", 0.05, "--friction-angle", 60, "--ambiguity-distance", 3)
+    noise = ("--noise-force", 0.01, "--noise-torque", 0.001, "--saturation", "9,9,5,9,9,9")
+    facts = json.loads(locate(bench, *limits, *noise, "--region-only", "--json").stdout)
+    assert facts["reasons"]["low_force"] == 0
+    assert facts["reasons"]["saturated"] == 2
+
+
+def test_units_and_mount_move_the_probe(bench):
+    mesh = trimesh.load_mesh(bench / "ball.stl")
+    mesh.apply_translation([3.0, -7.0, 11.0])
+    mesh.apply_scale(0.1)
+    mesh.export(bench / "ball.stl")
+    a, b, c = np.radians([10, -20, 30])
+    Rx = np.array([[1, 0, 0], [0, np.cos(a), -np.sin(a)], [0, np.sin(a), np.cos(a)]])
+    Ry = np.array([[np.cos(b), 0, np.sin(b)], [0, 1, 0], [-np.sin(b), 0, np.cos(b)]])
+    Rz = np.array([[np.cos(c), -np.sin(c), 0], [np.sin(c), np.cos(c), 0], [0, 0, 1]])
+    T_SP = np.eye(4)
+    T_SP[:3, :3] = Rz @ Ry @ Rx
+    T_SP[:3, 3] = np.array([0.0, 0.0, 0.12]) - T_SP[:3, :3] @ mesh.centroid / 100  # back below the force
+    position = ",".join(repr(100 * float(x)) for x in T_SP[:3, 3])
+    assert locate(bench, "--units", "cm", "--mount", f"{position},10,-20,30").exit_code == 0
+    solver = ContactSolver(load_probe(bench / "ball.stl", "cm", T_SP))
+    contacts = (bench / "contacts.csv").read_text().splitlines()[1:]
+    wrenches = np.loadtxt(WRENCHES.splitlines()[1:], delimiter=",")[:, 1:]
+    points = solver.locate_batch(wrenches).points
+    assert np.isfinite(points[0]).all()
+    np.testing.assert_allclose([float(cell) for cell in contacts[0].split(",")[1:4]], points[0], atol=1e-9)
+
+
+def test_defects_of_the_mesh_are_a_sentence_and_no_dump(bench):
+    result = locate(bench, "--json", probe="open.ply")
+    assert result.exit_code == 0
+    (warning,) = json.loads(result.stdout)["warnings"]
+    assert "The surface is open" in warning
+    assert f"warning: {warning}\n" in result.stderr
+    assert "MeshWarning" not in result.stderr
+
+
+@pytest.mark.parametrize("method", [name.value for name in cli.MethodName])
+def test_methods(bench, method):
+    if method == "wrench_axis":
+        pytest.importorskip("embreex")
+    result = locate(bench, "--method", method, "--json")
+    if method == "iterative":  # a ball has no contact face: refused or answered, never a traceback
+        assert result.exit_code in {0, 2}
+        return
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["method"] == method
+
+
+def test_track(bench):
+    (bench / "wrenches.csv").write_text(WRENCHES + "0.1,0,0,-5,0,0.01,0\n")
+    result = locate(bench, "--track", "--json")
+    facts = json.loads(result.stdout)
+    assert facts["reasons"]["stale"] == 1
+    assert "the first on line 5" in facts["warnings"][0]
+    assert "warning: Rows that are not later" in result.stderr
+
+
+def test_allow_nan(bench):
+    (bench / "wrenches.csv").write_text(WRENCHES + "0.3,nan,0,-5,0,0.01,0\n")
+    refused(locate(bench), "line 5: column fx holds nan: remove the row, or pass --allow-nan")
+    assert json.loads(locate(bench, "--allow-nan", "--json").stdout)["reasons"]["not_finite"] == 1
+
+
+def test_standard_input_and_output(bench):
+    locate(bench)
+    result = run("locate", "--probe", bench / "ball.stl", "-", "--out", "-", input=WRENCHES)
+    assert result.exit_code == 0
+    assert result.stdout == (bench / "contacts.csv").read_text()
+    result = run("locate", "--probe", bench / "ball.stl", "-", "--out", bench / "x.csv", input="t\n")
+    refused(result, "error: standard input: line 1: columns fx")
+
+
+def test_wrong_input_with_json_is_one_object_too(bench):
+    (bench / "wrenches.csv").write_text("t,fx\n")
+    result = locate(bench, "--json")
+    refused(result, "error: ")
+    assert "missing" in json.loads(result.stdout)["error"]
+    assert not (bench / "contacts.csv").exists()
+
+
+def test_wrong_files(bench):
+    refused(locate(bench, probe="none.stl"), "none.stl: there is no such file: check the path")
+    (bench / "wrenches.csv").unlink()
+    refused(locate(bench), "wrenches.csv: there is no such file: check the path")
+    result = run("locate", "--probe", bench / "ball.stl", bench / "w.csv", "--out", bench / "ball.stl")
+    refused(result, "ball.stl: the output would replace the input")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--method", "guess"], "'contactbench', 'scan', 'algorithm1', 'wrench_axis', 'iterative'"),
+        (["--units", "ft"], "'ft' is not one of 'mm', 'm', 'cm', 'in'"),
+        (["--mount", "1,2,3"], "--mount needs 6 finite numbers separated by commas, not '1,2,3'"),
+        (["--mount", "1,2,3,4,5,nan"], "--mount needs 6 finite numbers"),
+        (["--mount", "1,2,3,4,5,east"], "--mount needs 6 finite numbers"),
+        (["--saturation", "1"], "--saturation needs 6 finite numbers"),
+        (["--track", "--method", "scan"], "--track works with --method contactbench only, not with scan"),
+        (["--min-force", "-1"], "error: Gates.min_force must be at least 0"),
+        (["--noise-force", "nan"], "error: WrenchNoise.force"),
+        (["--mount", "99999,0,0,0,0,0"], "mount moves the mesh"),
+        (["--json", "--out", "-"], "--json and --out - both want standard output"),
+        (["--unknown"], "No such option"),
+    ],
+)
+def test_wrong_options(bench, arguments, message):
+    refused(locate(bench, *arguments, env={"COLUMNS": "300"}), message)
+    assert not (bench / "contacts.csv").exists()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
+def test_ctrl_c_leaves_the_old_output(bench):
+    (bench / "contacts.csv").write_text("old")
+    files = ["--probe", bench / "ball.stl", "-", "--out", bench / "contacts.csv"]
+    command = [sys.executable, "-m", "pipeline.cli", "locate", *map(str, files)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+        assert child.stdin is not None
+        assert child.stderr is not None
+        child.stdin.write(WRENCHES)
+        child.stdin.flush()
+        deadline = time.monotonic() + 60
+        while not list(bench.glob(".contacts.csv.*.tmp")):
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+        child.send_signal(signal.SIGINT)
+        said = child.stderr.read()
+        assert child.wait(60) == 130
+    assert said == "error: interrupted: the command was stopped before its end.\n"
+    assert (bench / "contacts.csv").read_text() == "old"
+    assert not list(bench.glob(".*"))
+
+
+def test_bar_waits_for_half_a_second_and_a_terminal(monkeypatch):
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stderr", screen)
+    monkeypatch.setenv("TERM", "xterm")
+    with Bar("locating") as bar:
+        bar(1, 100)
+        assert screen.getvalue() == ""
+        monkeypatch.setattr(bar, "_begin", time.perf_counter() - 1)
+        bar(50, 100)
+        bar(100, 100)
+    assert "locating" in screen.getvalue()
+    monkeypatch.setattr(sys, "stderr", quiet := io.StringIO())
+    with Bar("locating") as bar:
+        monkeypatch.setattr(bar, "_begin", time.perf_counter() - 1)
+        bar(50, 100)
+    assert quiet.getvalue() == ""

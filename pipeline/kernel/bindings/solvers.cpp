@@ -54,7 +54,7 @@ nb::object view(const Batch& b, std::vector<T> Rows::*member, std::initializer_l
     // The array keeps the rows alive, not the batch object.
     nb::capsule owner(new std::shared_ptr<Rows>(b.rows),
                       [](void* p) noexcept { delete static_cast<std::shared_ptr<Rows>*>(p); });
-    return nb::cast(nb::ndarray<nb::numpy, T>((*b.rows.*member).data(), shape.size(), shape.begin(), owner));
+    return nb::cast(nb::ndarray<nb::numpy, const T>((*b.rows.*member).data(), shape.size(), shape.begin(), owner));
 }
 
 Contact row_contact(const Batch& b, std::size_t i) {
@@ -207,8 +207,8 @@ void bind_method(nb::class_<Method>& c) {
     c.def("locate_batch", [](const Method& m, nb::handle rows) {
         return solve_rows(m.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return m.solve(w); });
     }, nb::arg("wrenches"), "Locate each row of (n, 6) on its own, without the interpreter's lock.");
-    c.def("time_each", [](const Method& m, Rows6 rows) {
-        return time_rows(rows, [&](const Wrench& w) { return m.solve(w); });
+    c.def("time_each", [](const Method& m, nb::handle rows) {
+        return time_rows(to_rows(rows), [&](const Wrench& w) { return m.solve(w); });
     }, nb::arg("wrenches"), "Nanoseconds of each compiled solve (n,).");
 }
 
@@ -332,12 +332,12 @@ void bind_main(nb::module_& m) {
     solver.def_prop_ro("previous", [](const Main& s) -> nb::object {
         return s.live.previous() ? to_array(*s.live.previous()) : nb::none();
     }, "(3,) the contact that track follows, S, m, or None.");
-    solver.def("locate_exhaustively", [](const Main& s, Vector6 w) {
-        const Wrench wrench = to_wrench(w.data());
+    solver.def("locate_exhaustively", [](const Main& s, nb::handle w) {
+        const Wrench wrench = to_wrench(w);
         return Contact{s.context, wrench, s.context->locate_exhaustively(wrench)};
     }, nb::arg("wrench"), "The yardstick: every facet and vertex looked at, same answer.");
-    solver.def("time_tracking", [](Main& s, Rows6 rows) {
-        return time_rows(rows, [&](const Wrench& w) { return s.live.track(w); });
+    solver.def("time_tracking", [](Main& s, nb::handle rows) {
+        return time_rows(to_rows(rows), [&](const Wrench& w) { return s.live.track(w); });
     }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");
     solver.def("foreign_batch", &foreign_batch, nb::arg("wrenches"), nb::arg("points"), nb::arg("faces"),
                nb::arg("torques"), "Contacts found by another method, given this solver's mesh, gates and noise.");

@@ -48,6 +48,9 @@ private:
     std::size_t count_ = 0;
 };
 
+// Nearer to edge-on than this, whether the force pushes or pulls is rounding.
+inline constexpr double least_cosine = 1e-9;
+
 inline Candidate facet_contact(const Model& model, std::size_t slot, const double w[3], const Query& q) {
     const Triangle& t = model.tree.triangle[slot];
     const double total = w[0] + w[1] + w[2];
@@ -57,7 +60,8 @@ inline Candidate facet_contact(const Model& model, std::size_t slot, const doubl
     c.normal = model.normals[std::size_t(c.face)];
     c.region = model.region[std::size_t(c.face)];
     c.point = (w[1] / total) * vertex(0) + ((w[2] / total) * vertex(1) + (w[0] / total) * vertex(2));
-    // Accepted means n . f < 0; on a facet edge-on to the force rounding can say otherwise.
+    // Accepted means n . f < 0; on a facet edge-on to the force rounding can say otherwise (and the
+    // caller drops it, see least_cosine).
     const double nf = std::min(dot(c.normal, q.f), -std::numeric_limits<double>::min());
     c.cosine = -nf;
     c.torque = q.force * model.frame.scale * (q.h / nf);
@@ -103,7 +107,8 @@ inline bool is_peak(const Model& model, std::int32_t vertex, Vec3 up) {
         const Triangle& t = model.tree.triangle[std::size_t(model.slot[std::size_t(h / 3)])];
         const std::size_t c = t[0] == vertex ? 1 : t[1] == vertex ? 2 : 0;
         const Vec3 e = model.normalised[std::size_t(t[c])] - v;
-        return (1.0 / std::max(-dot(up, e), 1e-300)) * e;
+        // A moment along a facet's own normal puts two edges level with `up`: keep them finite, and falling.
+        return (1.0 / std::max(-dot(up, e), 1e-9 * norm(e))) * e;
     };
     Vec3 area, previous = flattened(*(last - 1));
     for (auto h = first; h != last; ++h) {
@@ -129,7 +134,7 @@ inline bool vertex_contact(const Model& model, std::int32_t vertex, const Query&
         const Vec3 up = ((signs.negative ? 1.0 : -1.0) / size) * moment;
         n = detail::is_peak(model, vertex, up) ? up : -up;
     }
-    if (!(dot(n, q.f) < 0.0)) return false;
+    if (!(-dot(n, q.f) >= least_cosine)) return false;
     const auto [first, last] = model.topology.fan(vertex);
     out = Candidate{};
     out.vertex = vertex;

@@ -21,7 +21,7 @@ struct Model {
     std::vector<std::int32_t> slot;  // face -> place in the hierarchy
     Topology topology;
     Hierarchy tree;
-    double reach = 0.0;     // largest distance of a vertex from the sensor origin, m
+    double reach = 0.0;     // largest distance of a facet's corner from the sensor origin, m
     bool has_regions = false;
     bool convex = false;    // closed and convex: at most one contact answers any wrench
 };
@@ -41,15 +41,7 @@ inline Frame bounding_frame(const std::vector<Vec3>& points, const std::vector<T
     return {lo + half, std::max({half.x, half.y, half.z})};
 }
 
-// Convex when no facet rises above another's plane across their common edge, and there is one piece.
-inline bool is_convex(const Model& m, const std::vector<Triangle>& faces) {
-    if (!m.topology.closed()) return false;
-    for (std::size_t h = 0; h < 3 * faces.size(); ++h) {
-        const std::size_t t = std::size_t(m.topology.twin(std::int32_t(h)));
-        const Vec3 apex = m.normalised[std::size_t(faces[t / 3][(t % 3 + 2) % 3])];
-        const Vec3 base = m.normalised[std::size_t(faces[h / 3][h % 3])];
-        if (dot(m.normals[h / 3], apex - base) > 1e-12) return false;
-    }
+inline bool in_one_piece(const Model& m, const std::vector<Triangle>& faces) {
     std::vector<char> seen(faces.size(), 0);
     std::vector<std::size_t> stack{0};
     std::size_t count = 1;
@@ -62,6 +54,33 @@ inline bool is_convex(const Model& m, const std::vector<Triangle>& faces) {
         }
     }
     return count == faces.size();
+}
+
+// How often the surface winds around the middle of its box: 1 for a body that is wound once.
+inline double winding_number(const Model& m, const std::vector<Triangle>& faces) {
+    double total = 0.0;
+    for (const Triangle& t : faces) {
+        const Vec3 a = m.normalised[std::size_t(t[0])], b = m.normalised[std::size_t(t[1])],
+                   c = m.normalised[std::size_t(t[2])];
+        const double la = norm(a), lb = norm(b), lc = norm(c);
+        // Solid angle of a triangle: van Oosterom and Strackee, 1983.
+        total += 2.0 * std::atan2(dot(a, cross(b, c)),
+                                  la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    }
+    return total / (4.0 * M_PI);
+}
+
+// Convex when the surface is closed, no facet rises above another's plane across their common edge, and
+// it is wound once (two pieces, or a star wound twice, also look convex from every edge).
+inline bool is_convex(const Model& m, const std::vector<Triangle>& faces) {
+    if (!m.topology.closed()) return false;
+    for (std::size_t h = 0; h < 3 * faces.size(); ++h) {
+        const std::size_t t = std::size_t(m.topology.twin(std::int32_t(h)));
+        const Vec3 apex = m.normalised[std::size_t(faces[t / 3][(t % 3 + 2) % 3])];
+        const Vec3 base = m.normalised[std::size_t(faces[h / 3][h % 3])];
+        if (dot(m.normals[h / 3], apex - base) > 1e-12) return false;
+    }
+    return in_one_piece(m, faces) && std::fabs(winding_number(m, faces) - 1.0) < 0.5;
 }
 
 }  // namespace detail
@@ -83,17 +102,18 @@ inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>&
     m.frame = detail::bounding_frame(m.vertices, faces);
     if (!(m.frame.scale > 0.0) || !std::isfinite(m.frame.scale))
         throw std::invalid_argument("the mesh has no extent");
-    for (const Vec3& p : m.vertices) {
+    for (const Vec3& p : m.vertices)
         m.normalised.push_back((1.0 / m.frame.scale) * (p - m.frame.centre));
-        m.reach = std::max(m.reach, norm(p));
-    }
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto at = [&](std::size_t c) { return m.normalised[std::size_t(faces[f][c])]; };
         const Vec3 n = cross(at(1) - at(0), at(2) - at(0));
         const double length = norm(n);
-        if (!(length > 0.0))
+        const double longest = std::max({norm(at(1) - at(0)), norm(at(2) - at(1)), norm(at(0) - at(2))});
+        // Thinner than this the normal is rounding; coordinates are of order one here.
+        if (!(length > 1e-14 * longest))
             throw std::invalid_argument("facet " + std::to_string(f) + " has no area");
         m.normals.push_back((1.0 / length) * n);
+        for (std::int32_t v : faces[f]) m.reach = std::max(m.reach, norm(m.vertices[std::size_t(v)]));
     }
     m.topology = Topology(faces, m.vertices.size());
     m.tree = detail::Builder(faces, m.normalised, m.normals, m.region, m.topology).build();

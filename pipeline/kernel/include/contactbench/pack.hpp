@@ -31,13 +31,13 @@ CONTACTBENCH_INLINE Float8 smaller(Float8 a, Float8 b) { return b < a ? b : a; }
 
 CONTACTBENCH_INLINE Float8 magnitude(Float8 a) { return larger(a, -a); }
 
-// Bit l is set when lane l is not negative.
+// Bit l is set when lane l's sign bit is clear: -0 counts as negative, on every processor.
 CONTACTBENCH_INLINE unsigned nonnegative(Float8 a) {
 #if defined(__AVX__)
     return unsigned(~_mm256_movemask_ps(__m256(a))) & 0xffu;
 #else
     unsigned mask = 0;
-    for (int l = 0; l < lanes; ++l) mask |= unsigned(a[l] >= 0.0f) << l;
+    for (int l = 0; l < lanes; ++l) mask |= unsigned(!std::signbit(a[l])) << l;
     return mask;
 #endif
 }

@@ -67,7 +67,7 @@ private:
 inline void scan(const ScanTable& table, const Model& model, const Query& q, double cos_cap, Hits& hits) {
     table.visit(q, [&](std::size_t slot, const double* w) {
         const Candidate c = facet_contact(model, slot, w, q);
-        if (c.cosine >= cos_cap) hits.add(c);
+        if (c.cosine >= std::max(cos_cap, least_cosine)) hits.add(c);
     });
     for (std::size_t v = 0; v < model.vertices.size(); ++v)
         detail::test_vertex(model, std::int32_t(v), q, cos_cap, hits);

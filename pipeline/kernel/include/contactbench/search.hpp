@@ -49,7 +49,7 @@ inline void test_facet(const Model& model, std::size_t slot, const Query& q, dou
     EdgeMoments moments;
     if (!accepts(model.tree.edges[slot], model.tree.triangle[slot], q, moments)) return;
     const Candidate c = facet_contact(model, slot, moments.w, q);
-    if (c.cosine >= cos_cap) hits.add(c);
+    if (c.cosine >= std::max(cos_cap, least_cosine)) hits.add(c);
 }
 
 inline void test_vertex(const Model& model, std::int32_t v, const Query& q, double cos_cap, Hits& hits) {

@@ -29,13 +29,14 @@ public:
 
     // `previous`: where contact was last accepted (S, m), or null.
     Answer locate(const Wrench& w, const Vec3* previous = nullptr) const {
-        const auto pruned = [&](const Query& q, Hits& hits) { search(*model_, q, gates_.cos_friction, hits); };
+        const auto pruned = [&](const Query& q, double cap, Hits& hits) { search(*model_, q, cap, hits); };
         return answer(w, previous, pruned);
     }
 
-    // The yardstick: the same answer without the hierarchy.
+    // The yardstick: the same answer with every candidate found without the hierarchy. (Rivals are looked
+    // for as in locate: they are near misses, not candidates.)
     Answer locate_exhaustively(const Wrench& w, const Vec3* previous = nullptr) const {
-        const auto all = [&](const Query& q, Hits& hits) { exhaust(*model_, q, gates_.cos_friction, hits); };
+        const auto all = [&](const Query& q, double cap, Hits& hits) { exhaust(*model_, q, cap, hits); };
         return answer(w, previous, all);
     }
 
@@ -48,32 +49,33 @@ public:
             a.reason = Reason::stale;
         if (accepted(a.reason)) {
             last_ = a.hits[std::size_t(a.chosen)].point;
+            touched_ = true;
             misses_ = 0;
-        } else if (misses_ < std::numeric_limits<std::int64_t>::max()) {
+        } else if (touched_ && misses_ < std::numeric_limits<std::int64_t>::max()) {
             ++misses_;
         }
         return a;
     }
 
     // The contact that `track` will follow next, or null.
-    const Vec3* previous() const { return misses_ <= gates_.recent_samples ? &last_ : nullptr; }
+    const Vec3* previous() const { return touched_ && misses_ <= gates_.recent_samples ? &last_ : nullptr; }
 
     void reset() {
         tracker_.reset();
-        misses_ = std::numeric_limits<std::int64_t>::max();
+        touched_ = false;
     }
 
 private:
-    // `search(query, hits)` finds the candidates.
+    // `search(query, cos_cap, hits)` finds the candidates.
     template <class Search>
     Answer answer(const Wrench& w, const Vec3* previous, Search&& search) const {
         Answer a;
         a.reason = gate(w, gates_);
         if (a.reason != Reason::ok) return a;
         const Query q = make_query(model_->frame, w);
-        search(q, a.hits);
+        search(q, gates_.cos_friction, a.hits);
         choose(a, gates_, previous);
-        if (a.hits.size() == 0) look_past_the_cone(q, a);
+        if (a.hits.size() == 0) look_past_the_cone(q, search, a);
         if (accepted(a.reason) && !model_->convex) look_for_rival(w, q, previous, a);
         return a;
     }
@@ -81,13 +83,14 @@ private:
     Answer follow(const Wrench& w) {
         bool covered = false;
         Query query;
-        Answer a = answer(w, previous(), [&](const Query& q, Hits& hits) {
+        Answer a = answer(w, previous(), [&](const Query& q, double cap, Hits& hits) {
             query = q;
-            covered = tracker_.covers(q);
+            // The cut was made for the friction cone; past it only a search from the root will do.
+            covered = cap == gates_.cos_friction && tracker_.covers(q);
             if (covered)
-                search_from(tracker_.cut(), *model_, q, gates_.cos_friction, hits);
+                search_from(tracker_.cut(), *model_, q, cap, hits);
             else
-                search(*model_, q, gates_.cos_friction, hits);
+                search(*model_, q, cap, hits);
         });
         if (covered) {
             tracker_.served();
@@ -100,12 +103,14 @@ private:
         return a;
     }
 
-    // Nothing inside the friction cone: say whether the axis misses the probe or grazes it.
-    void look_past_the_cone(const Query& q, Answer& a) const {
-        search(*model_, q, 0.0, a.hits);
-        if (a.hits.size() == 0) return;
+    // Nothing inside the friction cone: say whether the axis grazes the probe or misses it. On a closed mesh
+    // *something* always answers: far off, a silhouette vertex all but edge-on. That is a miss, not a touch.
+    template <class Search>
+    static void look_past_the_cone(const Query& q, Search&& search, Answer& a) {
+        constexpr double cos_miss = 0.0174524064372835;  // of 89 degrees
+        search(q, cos_miss, a.hits);
         for (std::size_t i = 0; i < a.hits.size(); ++i) a.hits[i].why = Why::friction;
-        a.reason = Reason::tangential;
+        if (a.hits.size() > 0) a.reason = Reason::tangential;
     }
 
     void look_for_rival(const Wrench& w, const Query& q, const Vec3* previous, Answer& a) const {
@@ -140,7 +145,8 @@ private:
     double force_noise_, torque_noise_;
     Tracker tracker_;
     Vec3 last_;
-    std::int64_t misses_ = std::numeric_limits<std::int64_t>::max();
+    bool touched_ = false;
+    std::int64_t misses_ = 0;
 };
 
 }  // namespace contactbench

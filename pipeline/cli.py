@@ -21,6 +21,7 @@ from typer.core import TyperGroup
 from pipeline import __version__
 from pipeline.console import Bar, JsonOption, print_json, report_error, say, wants_json
 from pipeline.errors import InputError
+from pipeline.study.commands import study_app
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -352,11 +353,44 @@ def _show(summary: LocateSummary) -> None:
     Console(stderr=True).print(table)
 
 
+# ---- demo --------------------------------------------------------------------------------------
+
+
+@app.command(
+    help=(
+        "Simulate touches of the bundled probes, locate them, and check the errors against the known truth.\n\n"
+        "Needs no hardware and no files. Writes meshes, wrenches, contacts, a table of errors and a picture."
+        " Exit code 1: the errors are larger than noise explains."
+    ),
+    epilog="Example: contactbench demo --out my-demo",
+)
+def demo(
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-demo"),
+    probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Which probe.")] = "all",
+    touches: Annotated[int, typer.Option(help="Touches per probe, at least 10.")] = 1_000,
+    seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same CSV files.")] = 0,
+    as_json: JsonOption = False,
+) -> None:
+    """Do the main job on the bundled probes."""
+    from rich.console import Console
+
+    from pipeline.demo import PROBE_NAMES, run
+
+    report = run(out, PROBE_NAMES if probe == "all" else (probe,), touches, seed, say)
+    Console(stderr=as_json).print(report.table())
+    for sentence in report.sentences():
+        say(sentence, "red" if "FAILED" in sentence else "")
+    if as_json:
+        print_json(report.to_json())
+    if not report.verified:
+        raise typer.Exit(1)
+
+
 # ---- more commands -----------------------------------------------------------------------------
 
-# Groups that live beside what they run are added here. Their modules take options and output from
-# pipeline.console, never from this one, and import nothing heavy at their top:
-#   app.add_typer(study_app, name="study")
+# Groups that live beside what they run. Their modules take options and output from pipeline.console,
+# never from this one, and import nothing heavy at their top.
+app.add_typer(study_app, name="study")
 
 
 if __name__ == "__main__":

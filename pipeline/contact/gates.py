@@ -72,7 +72,9 @@ class Gates:
             if isnan(value) or value < 0:
                 raise InputError(f"Gates.{name} must be at least 0, not {value}")
         if not 0 < self.friction_angle < 90:
-            raise InputError(f"Gates.friction_angle must be between 0 and 90 degrees, not {self.friction_angle}")
+            raise InputError(
+                f"Gates.friction_angle must be between 0 and 90 degrees, not {self.friction_angle}"
+            )
         if not self.torque_ratio >= 1:
             raise InputError(f"Gates.torque_ratio must be at least 1, not {self.torque_ratio}")
         if self.recent_samples < 0:

@@ -55,7 +55,7 @@ class Method:
     engine: Any = field(repr=False, compare=False, default=None)
 
 
-def _compiled(name: str, engine: Any) -> Method:  # noqa: ANN401  (any of the kernel's classes)
+def _compiled(name: str, engine: Any) -> Method:
     return Method(name, engine.locate, engine.locate_batch, engine)
 
 

@@ -53,7 +53,9 @@ def _three(name: str, value: float | ArrayLike, unit: str) -> NDArray[np.float64
     if array.shape not in {(), (3,)}:
         raise InputError(f"WrenchNoise.{name}: give one number or three ({unit}), not shape {array.shape}")
     if not np.all(np.isfinite(array)) or np.any(array < 0):
-        raise InputError(f"WrenchNoise.{name}: standard deviations ({unit}) must be finite and at least 0, not {value!r}")
+        raise InputError(
+            f"WrenchNoise.{name}: standard deviations ({unit}) must be finite and at least 0, not {value!r}"
+        )
     return np.broadcast_to(array, (3,))
 
 

@@ -62,7 +62,9 @@ def fit_contact_face(probe: Probe) -> Paraboloid:
     """
     chosen = np.flatnonzero(contact_face(probe))
     if len(chosen) < 6:
-        raise InputError("the iterative method needs a contact face of at least six facets; mark one as a region")
+        raise InputError(
+            "the iterative method needs a contact face of at least six facets; mark one as a region"
+        )
     weight = probe.areas[chosen]
     points = probe.vertices[probe.faces[chosen]].mean(axis=1)
     origin = np.average(points, axis=0, weights=weight)
@@ -77,7 +79,9 @@ def fit_contact_face(probe: Probe) -> Paraboloid:
     coefficients, *_ = np.linalg.lstsq(design * root[:, None], local[:, 2] * root, rcond=None)
     residual = design @ coefficients - local[:, 2]
     reach = 1.5 * float(np.linalg.norm(local[:, :2], axis=1).max())
-    return Paraboloid(origin, axes, coefficients, reach, float(np.sqrt(np.average(residual**2, weights=weight))))
+    return Paraboloid(
+        origin, axes, coefficients, reach, float(np.sqrt(np.average(residual**2, weights=weight)))
+    )
 
 
 def locate_with_scipy(solver: ContactSolver, surface: Paraboloid) -> Callable[[ArrayLike], Batch]:
@@ -126,7 +130,9 @@ def _solve(surface: Paraboloid, wrench: Float) -> tuple[float, float, float] | N
         return np.asarray(np.cross([x, y, z], force) + k * normal - torque)
 
     # Scale: a millimetre moves the residual about as much as a newton-millimetre of local torque.
-    found = least_squares(residual, np.zeros(3), method="lm", x_scale=[1e-3, 1e-3, 1e-3], xtol=1e-12, ftol=1e-14)
+    found = least_squares(
+        residual, np.zeros(3), method="lm", x_scale=[1e-3, 1e-3, 1e-3], xtol=1e-12, ftol=1e-14
+    )
     x, y, k = (float(v) for v in found.x)
     slope = np.array([-c[1] - 2 * c[3] * x - c[4] * y, -c[2] - c[4] * x - 2 * c[5] * y, 1.0])
     if not found.success or np.hypot(x, y) > surface.reach or slope @ force >= 0:

@@ -30,7 +30,9 @@ class EmbreeAxis:
             scene_module = import_module("embreex.rtcore_scene")
             mesh_module = import_module("embreex.mesh_construction")
         except ImportError as error:
-            raise InputError("the wrench_axis method needs Embree: pip install 'contactbench[rivals]'") from error
+            raise InputError(
+                "the wrench_axis method needs Embree: pip install 'contactbench[rivals]'"
+            ) from error
         self._solver = solver
         probe = solver.probe
         self._offset = np.einsum("ij,ij->i", probe.normals, probe.vertices[probe.faces[:, 0]])

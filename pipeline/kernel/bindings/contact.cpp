@@ -16,6 +16,7 @@ const char* why_text(Why why) {
         case Why::friction: return "outside the friction cone";
         case Why::previous: return "far from the previous contact";
         case Why::torque: return "larger local torque";
+        case Why::downstream: return "met later along the force";
         case Why::noise: return "within the noise of the wrench";
     }
     return "unknown";

@@ -121,7 +121,7 @@ struct Scan {
         if (a.reason != Reason::ok) return a;
         const Query q = make_query(context->model().frame, w);
         scan(table, context->model(), q, context->gates().cos_friction, a.hits);
-        choose(a, context->gates(), nullptr);
+        choose(a, context->gates(), w.F, nullptr);
         return a;
     }
 };
@@ -206,7 +206,7 @@ void bind_method(nb::class_<Method>& c) {
     }, nb::arg("wrench"));
     c.def("locate_batch", [](const Method& m, nb::handle rows) {
         return solve_rows(m.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return m.solve(w); });
-    }, nb::arg("wrenches"), "Locate each row of (n, 6) on its own, without the interpreter's lock.");
+    }, nb::arg("wrenches").none(), "Locate each row of (n, 6) on its own, without the interpreter's lock.");
     c.def("time_each", [](const Method& m, nb::handle rows) {
         return time_rows(to_rows(rows), [&](const Wrench& w) { return m.solve(w); });
     }, nb::arg("wrenches"), "Nanoseconds of each compiled solve (n,).");
@@ -261,6 +261,33 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
     });
 }
 
+std::vector<std::pair<std::int32_t, std::int32_t>> sorted_names(const Hits& hits) {
+    std::vector<std::pair<std::int32_t, std::int32_t>> names;
+    for (std::size_t i = 0; i < hits.size(); ++i) names.emplace_back(hits[i].face, hits[i].vertex);
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::int64_t search_differences(const Main& m, nb::handle wrenches, double cos_cap) {
+    const Rows6 rows = to_rows(wrenches);
+    const std::size_t n = rows.shape(0);
+    const double* data = rows.data();
+    const Model& model = m.context->model();
+    nb::gil_scoped_release release;
+    const ScanTable table(model);
+    std::int64_t differences = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Wrench w = to_wrench(data + 6 * i);
+        if (!finite(w.F) || !finite(w.M) || !(norm(w.F) > 0.0)) continue;
+        const Query q = make_query(model.frame, w);
+        Hits pruned, all;
+        search(model, q, cos_cap, pruned);
+        scan(table, model, q, cos_cap, all);
+        differences += sorted_names(pruned) != sorted_names(all);
+    }
+    return differences;
+}
+
 void bind_batch(nb::module_& m) {
     nb::class_<Batch>(m, "Batch", "Answers to many wrenches, one row each; NaN and -1 where there is none.")
         .def("__len__", &Batch::size)
@@ -306,6 +333,16 @@ void bind_main(nb::module_& m) {
         return Contact{s.context, wrench, s.context->locate(wrench, &p)};
     }, nb::arg("wrench"), nb::arg("previous").none(),
        "The same, with the last accepted contact point (3,), S, m, or None.");
+    solver.def("locate_batch_after", [](const Main& s, nb::handle wrenches, Rows3 previous) {
+        const Rows6 rows = to_rows(wrenches);
+        if (previous.shape(0) != rows.shape(0)) throw nb::value_error("previous must have one row per wrench");
+        const double* p = previous.data();
+        return solve_rows(s.context, rows, [&](std::size_t i, const Wrench& w) {
+            const Vec3 point{p[3 * i], p[3 * i + 1], p[3 * i + 2]};
+            return s.context->locate(w, finite(point) ? &point : nullptr);
+        });
+    }, nb::arg("wrenches"), nb::arg("previous"),
+       "Locate each row given the contact (n, 3) accepted before it, S, m; NaN for none.");
     solver.def("track", [](Main& s, Vector6 w) {
         const Wrench wrench = to_wrench(w.data());
         return Contact{s.context, wrench, s.live.track(wrench)};
@@ -336,6 +373,9 @@ void bind_main(nb::module_& m) {
         const Wrench wrench = to_wrench(w);
         return Contact{s.context, wrench, s.context->locate_exhaustively(wrench)};
     }, nb::arg("wrench"), "The yardstick: every facet and vertex looked at, same answer.");
+    solver.def("search_differences", &search_differences, nb::arg("wrenches"), nb::arg("cos_cap"),
+               "Count rows whose candidates the pruned search and the exhaustive scan do not agree on, facet for "
+               "facet and vertex for vertex.");
     solver.def("time_tracking", [](Main& s, nb::handle rows) {
         return time_rows(to_rows(rows), [&](const Wrench& w) { return s.live.track(w); });
     }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");

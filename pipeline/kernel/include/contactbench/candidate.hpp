@@ -16,7 +16,7 @@
 
 namespace contactbench {
 
-enum class Why : std::uint8_t { chosen, region, friction, previous, torque, noise };
+enum class Why : std::uint8_t { chosen, region, friction, previous, torque, downstream, noise };
 
 struct Candidate {
     Vec3 point, normal;    // S, m; unit, outward

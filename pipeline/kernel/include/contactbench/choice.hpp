@@ -1,7 +1,8 @@
 // Gates, reason codes, and which of several candidates is the contact.
 //
 // In order: within the friction cone; in the operator's priority region; near the previous accepted
-// contact when one is recent; smallest |k|, which for one wrench is the smallest friction angle. When
+// contact when one is recent; smallest |k|, which for one wrench is the smallest friction angle; among
+// equals (parallel faces: a head and the flange behind it), the one that the force meets first. When
 // the last rule had to decide between points further apart than the tolerance, and not by a clear
 // ratio of |k|, the answer says so.
 //
@@ -97,8 +98,26 @@ inline Why lost_by(const Rank& winner, const Rank& loser) {
 
 }  // namespace detail
 
+// Torques this close are equal: rounding, or a degree of tilt, must not choose between parallel faces.
+inline constexpr double equal_torque = 1.01;
+
+// Of the candidates that `best` beat by torque alone and by next to nothing, the one furthest upstream.
+inline std::size_t furthest_upstream(const Answer& a, const Gates& g, Vec3 force, const Vec3* previous,
+                                     std::size_t best) {
+    const detail::Rank top = detail::rank(a.hits[best], g, previous);
+    std::size_t first = best;
+    for (std::size_t i = 0; i < a.hits.size(); ++i) {
+        if (a.hits[i].cosine < g.cos_friction) continue;
+        const detail::Rank r = detail::rank(a.hits[i], g, previous);
+        if (r.region != top.region || r.distance != top.distance || r.torque > equal_torque * top.torque) continue;
+        const double ahead = dot(a.hits[first].point - a.hits[i].point, force);
+        if (ahead > 0.0 || (ahead == 0.0 && a.hits[i].face < a.hits[first].face)) first = i;
+    }
+    return first;
+}
+
 // Fills in chosen, reason and every candidate's `why`. `previous`: last accepted contact, or null.
-inline void choose(Answer& a, const Gates& g, const Vec3* previous) {
+inline void choose(Answer& a, const Gates& g, Vec3 force, const Vec3* previous) {
     a.chosen = -1;
     a.reason = a.hits.size() == 0 ? Reason::off_surface : Reason::tangential;
     detail::Rank best{};
@@ -110,15 +129,20 @@ inline void choose(Answer& a, const Gates& g, const Vec3* previous) {
         if (a.chosen < 0 || detail::before(r, best)) best = r, a.chosen = std::int32_t(i);
     }
     if (a.chosen < 0) return;
+    if (a.hits.size() > 1) {
+        a.chosen = std::int32_t(furthest_upstream(a, g, force, previous, std::size_t(a.chosen)));
+        best = detail::rank(a.hits[std::size_t(a.chosen)], g, previous);
+    }
     Candidate& winner = a.hits[std::size_t(a.chosen)];
     a.reason = winner.vertex >= 0 ? Reason::vertex : Reason::ok;
     for (std::size_t i = 0; i < a.hits.size(); ++i) {
         Candidate& c = a.hits[i];
         if (c.cosine < g.cos_friction) continue;
-        c.why = detail::lost_by(best, detail::rank(c, g, previous));
-        const bool close_call = std::fabs(c.torque) <= g.torque_ratio * std::fabs(winner.torque);
-        if (c.why == Why::torque && close_call && norm(c.point - winner.point) > g.ambiguity_distance)
-            a.reason = Reason::ambiguous;
+        const detail::Rank r = detail::rank(c, g, previous);
+        c.why = detail::lost_by(best, r);
+        const bool close_call = c.why == Why::torque && r.torque <= g.torque_ratio * best.torque;
+        if (close_call && norm(c.point - winner.point) > g.ambiguity_distance) a.reason = Reason::ambiguous;
+        if (c.why == Why::torque && r.torque <= equal_torque * best.torque) c.why = Why::downstream;
     }
     winner.why = Why::chosen;
     if (g.region_only && winner.region == 0) {

@@ -13,7 +13,7 @@
 namespace contactbench {
 
 inline constexpr double sigma_point_distance = 2.0;   // standard deviations
-inline constexpr double sigma_point_tolerance = 0.25;  // of that distance
+inline constexpr double sigma_point_tolerance = 0.1;  // of that distance
 inline constexpr double steepest_linear_ratio = 0.1;   // sigma_F / |n . F|
 
 // Half axes (one standard deviation, as vectors in the tangent plane) of a rank-2 covariance.

@@ -3,9 +3,9 @@
 // plausible. So: is there a facet, far from the chosen point, that would accept the wrench if it were
 // off by no more than z sigma, and by no much larger local torque than the chosen one?
 //
-// Contract: S frame, SI. The answer is conservative (each edge may use its own z sigma). Patches much
-// smaller than the noise are judged as one, so the cost depends on neither the mesh nor the force; on a
-// convex probe there is no need to ask.
+// Contract: S frame, SI. The answer is conservative (each edge may use its own z sigma). Whether there is
+// one does not depend on the order of facets or the frame; which of several is named may. Cost: the nodes
+// that the widened axis meets away from the chosen point; on a convex probe there is no need to ask.
 #pragma once
 
 #include "choice.hpp"
@@ -63,7 +63,6 @@ struct RivalQuery {
     float point[3];    // the chosen point, normalised
     float radius = 0;  // the clearance
     float rank = 0;    // only subtrees with a region of rank at most this
-    float coarse = 0;  // a subtree smaller than this is judged by its middle, to save its facets
 };
 
 // Bit l is set when part of child l lies further than the clearance from the point, and part of it within
@@ -110,6 +109,13 @@ inline double rival_capsule(double pitch, double shift, double cos_friction) {
     return pitch * tan_friction + shift * (std::hypot(1.0, tan_friction) - 1.0);
 }
 
+// By how much, as a normalised length, the contact that c would be misses the axis: zero for a solution.
+inline double axis_miss(const Model& m, const Query& q, const Candidate& c) {
+    const Vec3 p = (1.0 / m.frame.scale) * (c.point - m.frame.centre);
+    const Vec3 offset = -push_sign(q) * (q.m - q.h * q.f - cross(p, q.f));
+    return norm(offset - (std::fabs(q.h) / c.cosine) * (c.normal + c.cosine * q.f));
+}
+
 // A search for the best rival: highest priority region, then nearest to being accepted.
 class RivalFinder {
 public:
@@ -128,21 +134,18 @@ public:
         r_.point[0] = float(centre.x), r_.point[1] = float(centre.y), r_.point[2] = float(centre.z);
         r_.radius = float(how.clearance * scale);
         r_.rank = float(region_rank(chosen));  // what the chosen one outranks is no rival
-        r_.coarse = float(shift_);
     }
 
     bool run() {
         std::int32_t stack[lanes * 12];
         int size = 0;
-        for (stack[size++] = 0; size > 0;) {
+        for (stack[size++] = 0; size > 0 && !settled();) {
             const Node& node = m_.tree.nodes[std::size_t(stack[--size])];
             for (unsigned mask = node_mask(node, r_.wide) & rival_mask(node, r_); mask != 0; mask &= mask - 1) {
                 const int l = std::countr_zero(mask);
                 const std::int32_t child = node.child[l];
                 if (child == empty_child) continue;
-                if (node.radius[l] < r_.coarse)
-                    judge_middle(node, l);
-                else if (child < 0)
+                if (child < 0)
                     judge_facets(std::size_t(~child));
                 else
                     stack[size++] = child;
@@ -152,6 +155,10 @@ public:
     }
 
 private:
+    // A rival that outranks the chosen contact may take its place, and then it has to be the best one. Any
+    // other has done its work by being there.
+    bool settled() const { return found_ && region_rank(out_) >= region_rank(chosen_); }
+
     void judge_facets(std::size_t leaf) {
         const Leaf& place = m_.tree.leaves[leaf];
         unsigned mask = rival_sieve(place, r_) & facet_sieve(place, r_.wide);
@@ -163,37 +170,11 @@ private:
         }
     }
 
-    // A patch much smaller than the noise: how far is the contact that its middle would make from the
-    // axis? That keeps the cost the same for a fine mesh and a coarse one.
-    void judge_middle(const Node& n, int l) {
-        const Vec3 c{n.cx[l], n.cy[l], n.cz[l]}, a{n.ax[l], n.ay[l], n.az[l]};
-        const double back = -dot(a, q_.f);
-        if (back < how_.cos_friction) return;
-        const Vec3 v = -push_sign(q_) * (q_.m - q_.h * q_.f - cross(c, q_.f));
-        const Vec3 wanted = (std::fabs(q_.h) / back) * (a + back * q_.f);
-        const double off = norm(v - wanted);
-        if (off > shift_) return;
-        std::int32_t child = n.child[l];
-        while (child >= 0) {
-            const Node& below = m_.tree.nodes[std::size_t(child)];
-            child = below.child[0];
-        }
-        const std::size_t slot = std::size_t(~child) * lanes;
-        Candidate rival;
-        rival.face = m_.tree.face[slot];
-        if (rival.face < 0) return;
-        rival.normal = m_.normals[std::size_t(rival.face)];
-        rival.region = m_.region[std::size_t(rival.face)];
-        const auto corner = [&](std::size_t i) { return m_.vertices[std::size_t(m_.tree.triangle[slot][i])]; };
-        rival.point = (1.0 / 3.0) * (corner(0) + corner(1) + corner(2));
-        rival.cosine = -dot(rival.normal, q_.f);
-        if (rival.cosine <= 0.0) return;
-        rival.torque = -q_.force * m_.frame.scale * (q_.h / rival.cosine);
-        offer(rival, how_.sigmas * off / shift_);
-    }
-
     void offer(const Candidate& c, double miss) {
         if (c.cosine < how_.cos_friction || norm(c.point - chosen_.point) <= how_.clearance) return;
+        // Besides edge by edge, near as a whole: what the nodes were tested for, so that it does not depend
+        // on how facets are shared out among nodes (guarded by test_the_order_of_facets_does_not_matter).
+        if (axis_miss(m_, q_, c) > shift_) return;
         const std::int32_t rank = region_rank(c), best = region_rank(out_);
         if (found_ && !(rank < best || (rank == best && (miss < miss_ || (miss == miss_ && c.face < out_.face)))))
             return;

@@ -74,7 +74,7 @@ private:
         if (a.reason != Reason::ok) return a;
         const Query q = make_query(model_->frame, w);
         search(q, gates_.cos_friction, a.hits);
-        choose(a, gates_, previous);
+        choose(a, gates_, w.F, previous);
         if (a.hits.size() == 0) look_past_the_cone(q, search, a);
         if (accepted(a.reason) && !model_->convex) look_for_rival(w, q, previous, a);
         return a;

@@ -1,0 +1,102 @@
+"""The speed study in short: its figures exist and agree with each other; no time is asserted."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from pipeline.cli import app
+from pipeline.errors import InputError
+from pipeline.study import speed
+from pipeline.study.speed_tables import markdown, tables
+from pipeline.study.timing import Timing, time_calls
+
+
+@pytest.fixture(scope="module")
+def report() -> speed.SpeedReport:
+    return speed.run("linear", (500, 1000), touches=1_000, stream=3_000, rounds=1, seed=3)
+
+
+def test_every_method_is_measured_at_every_resolution(report):
+    compiled = {(r.method, r.facets) for r in report.rows if r.language == "C++"}
+    for method in ("algorithm1", "iterative", "scan", "contactbench", "contactbench, tracking"):
+        assert len([m for m, _ in compiled if m == method]) == 2
+    assert all(0 < r.timing.median <= r.timing.p99 for r in report.rows)
+
+
+def test_errors_are_reported_in_mm_and_over_the_bound(report):
+    [ours] = [r for r in report.rows if r.method == "contactbench" and r.mean_mm and r.facets > 700]
+    assert 0.3 < ours.mean_mm < 3
+    # A thousand flat facets add some 0.3 mm to the noise; the bound knows only the noise.
+    assert 0.9 < ours.over_bound < 1.6
+    assert 0.9 < ours.settled <= ours.answered <= 1
+
+
+def test_tracking_never_differs_and_the_count_could_say_otherwise(report):
+    assert report.stream_samples == 3_000
+    assert report.stream_differences == 0
+
+    class Forgetful:
+        """A tracker that is a sample late."""
+
+        def __init__(self, solver):
+            self._solver, self.gates = solver, solver.gates
+
+        def reset(self):
+            self._solver.reset()
+
+        def track_batch(self, wrenches):
+            return self._solver.track_batch(np.roll(wrenches, 1, axis=0))
+
+        def locate_batch_after(self, wrenches, previous):
+            return self._solver.locate_batch_after(wrenches, previous)
+
+    from contact_cases import bundled, random_wrenches
+
+    from pipeline.contact import ContactSolver
+
+    probe = bundled("linear", 500)
+    wrenches = random_wrenches(probe, 100, np.random.default_rng(0), pitch=0.0, angle=30)
+    assert speed.stream_differences(Forgetful(ContactSolver(probe)), wrenches) > 50
+
+
+def test_report_is_plain_data(report):
+    data = json.loads(json.dumps(report.to_json()))
+    assert {t["met"] for t in data["targets"]} <= {True, False}
+    text = markdown(report)
+    assert "contactbench, tracking" in text
+    assert "differed from cold solves on 0 samples" in text
+    assert len(tables(report)) == 2
+
+
+def test_targets_are_judged_both_ways():
+    assert speed.Target("a", 2.0, 1.0).met is False
+    assert speed.Target("a", 2.0, 1.0, at_least=True).met is True
+
+
+def test_timing_counts_every_call():
+    seen = []
+    timings = time_calls({"append": (seen.append, list(range(50)))}, rounds=3, block=10)
+    assert len(seen) == 2 * 10 + 3 * 10
+    assert isinstance(timings["append"], Timing)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--probe", "banana"], "choose one of linear, convex, t-shape"),
+        (["--facets", "10"], "too coarse"),
+        (["--facets", "many"], "no whole number"),
+        (["--touches", "5"], "at least 1000"),
+    ],
+)
+def test_wrong_options_are_named(arguments, said):
+    result = CliRunner().invoke(app, ["study", "speed", *arguments])
+    assert result.exit_code == 2
+    assert said in result.stderr
+
+
+def test_unknown_probe_in_the_library():
+    with pytest.raises(InputError, match="banana"):
+        speed.run("banana")

@@ -98,15 +98,9 @@ CONTACTBENCH_INLINE unsigned rival_sieve(const Leaf& leaf, const RivalQuery& r) 
     return nonnegative(smaller(farthest - r.radius * r.radius, facing));
 }
 
-// How far z sigma moves the axis, and the pitch, at the far end of the probe, over the mesh scale.
+// How far z sigma moves the axis at the far end of the probe, over the mesh scale.
 inline double rival_shift(const Model& m, const WrenchCovariance& noise, double sigmas, double force) {
     return sigmas * std::hypot(noise.torque_bound(), noise.force_bound() * m.reach) / (force * m.frame.scale);
-}
-
-// The axis' offset and its pitch vary independently: their z sigma add as squares.
-inline double rival_capsule(double pitch, double shift, double cos_friction) {
-    const double tan_friction = std::sqrt(1.0 - cos_friction * cos_friction) / cos_friction;
-    return pitch * tan_friction + shift * (std::hypot(1.0, tan_friction) - 1.0);
 }
 
 // By how much, as a normalised length, the contact that c would be misses the axis: zero for a solution.
@@ -127,9 +121,6 @@ public:
         NodeQuery& wide = r_.wide;
         wide = make_node_query(q, how.cos_friction, push_sign(q));
         wide.reach = float(shift_);
-        wide.turn = float(how.sigmas * noise.force_bound() / q.force);
-        wide.capsule = float(rival_capsule(std::fabs(q.h), shift_, how.cos_friction));
-        wide.free = std::fabs(q.h) <= shift_ ? free_direction : 0.0f;
         const Vec3 centre = scale * (chosen.point - m.frame.centre);
         r_.point[0] = float(centre.x), r_.point[1] = float(centre.y), r_.point[2] = float(centre.z);
         r_.radius = float(how.clearance * scale);

@@ -76,7 +76,7 @@ private:
         search(q, gates_.cos_friction, a.hits);
         choose(a, gates_, w.F, previous);
         if (a.hits.size() == 0) look_past_the_cone(q, search, a);
-        if (accepted(a.reason) && !model_->convex) look_for_rival(w, q, previous, a);
+        if (accepted(a.reason) && !model_->convex) look_for_rival(q, previous, a);
         return a;
     }
 
@@ -113,12 +113,12 @@ private:
         if (a.hits.size() > 0) a.reason = Reason::tangential;
     }
 
-    void look_for_rival(const Wrench& w, const Query& q, const Vec3* previous, Answer& a) const {
+    void look_for_rival(const Query& q, const Vec3* previous, Answer& a) const {
         Candidate& c = a.hits[std::size_t(a.chosen)];
-        const Mat3 s = contact_covariance(c, w.F, noise_);
-        const double spread = std::sqrt(std::max(0.0, s.m[0][0] + s.m[1][1] + s.m[2][2]));
+        // Nearer than what the noise of the axis may do on one patch, it is the same contact.
+        const double shift = detail::rival_shift(*model_, noise_, gates_.rival_sigmas, q.force) * model_->frame.scale;
         // For one wrench |k| is inversely proportional to the cosine.
-        const RivalSearch how{gates_.rival_sigmas, 2.0 * gates_.ambiguity_distance + gates_.rival_sigmas * spread,
+        const RivalSearch how{gates_.rival_sigmas, 2.0 * gates_.ambiguity_distance + shift,
                               std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
         // Contact was here a moment ago: whatever is too far away to be followed is no rival.
         const double moved = previous ? norm(c.point - *previous) : HUGE_VAL;

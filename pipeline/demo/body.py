@@ -1,0 +1,135 @@
+"""Render probes, in a process of its own: without a graphics driver VTK ends its process.
+
+The child is ``python -m pipeline.demo.body FILE``; it takes the views as JSON on standard input and leaves the
+images in FILE. What VTK has to say about missing displays stays in the child.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import asdict, dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+import assets
+from pipeline.demo.view import View
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_FACETS = 20_000
+_SMOOTHING = 2  # rendered this much larger and averaged
+_PATIENCE_S = 120
+_BODY, _REGION = "#e2e2e2", "#a9dccd"  # light grey; Okabe-Ito's bluish green, pale
+
+# From the camera: left and above, a weaker one on the right against the dark.
+_LIGHTS = (((-0.8, 0.7, 1.6), 0.70), ((1.2, -0.8, 1.4), 0.35))
+
+Image = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Body:
+    """One image to render.
+
+    Attributes
+    ----------
+    probe : str
+        One of assets.PROBE_NAMES.
+    view : View
+        How to look at it.
+    pixels : int
+        Width of the image; the height follows from the view.
+    """
+
+    probe: str
+    view: View
+    pixels: int
+
+
+class PictureError(InputError):
+    """No picture can be drawn on this machine; the message says what to install."""
+
+
+def render_bodies(bodies: Sequence[Body]) -> list[Image]:
+    """Render bundled probes on white, their contact regions tinted.
+
+    Parameters
+    ----------
+    bodies : sequence of Body
+        What to render.
+
+    Returns
+    -------
+    list of (height, width, 3) uint8 arrays
+
+    Raises
+    ------
+    PictureError
+        PyVista is missing, or there is nothing to render with.
+    """
+    if find_spec("pyvista") is None:
+        raise PictureError("it needs PyVista: pip install 'contactbench[gui]'.")
+    orders = json.dumps([asdict(body) for body in bodies])
+    with TemporaryDirectory() as folder:
+        file = Path(folder, "bodies.npz")
+        command = [sys.executable, "-m", "pipeline.demo.body", str(file)]
+        try:
+            subprocess.run(  # noqa: S603  (this interpreter and this module)
+                command, input=orders.encode(), capture_output=True, check=True, timeout=_PATIENCE_S
+            )
+            with np.load(file) as images:
+                return [np.asarray(images[f"arr_{i}"], dtype=np.uint8) for i in range(len(bodies))]
+        except (OSError, ValueError, subprocess.SubprocessError) as error:
+            raise PictureError(
+                "this machine cannot render off-screen. On Debian and Ubuntu: apt-get install libegl1 libgl1-mesa-dri."
+            ) from error
+
+
+def _render(body: Body) -> Image:
+    import pyvista as pv
+
+    view = body.view
+    vertices, faces = assets.make(body.probe, _FACETS)
+    region = assets.contact_region(body.probe, vertices, faces)
+    mesh = pv.PolyData.from_regular_faces(vertices, faces)
+    mesh.cell_data["colour"] = np.array([_rgb(_BODY), _rgb(_REGION)], dtype=np.uint8)[region]
+    height = round(body.pixels * view.height / view.width)
+    size = (_SMOOTHING * body.pixels, _SMOOTHING * height)
+    plotter = pv.Plotter(off_screen=True, window_size=size, lighting="none")
+    plotter.set_background("white")
+    look = {"ambient": 0.46, "diffuse": 0.62, "specular": 0.08, "specular_power": 10}
+    plotter.add_mesh(mesh, scalars="colour", rgb=True, smooth_shading=True, **look)
+    for place, strength in _LIGHTS:
+        plotter.add_light(pv.Light(position=place, intensity=strength, light_type="camera light"))
+    camera = plotter.camera
+    camera.focal_point, camera.up = view.focal, tuple(view.up)
+    camera.position = tuple(np.array(view.focal) + view.toward)
+    camera.parallel_projection, camera.parallel_scale = True, view.height / 2000
+    camera.clipping_range = (0.5, 1.5)
+    image = np.asarray(plotter.screenshot(return_img=True))[..., :3]
+    plotter.close()
+    blocks = image.reshape(height, _SMOOTHING, body.pixels, _SMOOTHING, 3)
+    return np.asarray(np.rint(blocks.mean(axis=(1, 3))), dtype=np.uint8)
+
+
+def _rgb(colour: str) -> list[int]:
+    return [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
+
+
+def _main() -> None:
+    orders = json.load(sys.stdin)
+    images = [_render(Body(order["probe"], View(**order["view"]), order["pixels"])) for order in orders]
+    np.savez(sys.argv[1], *images)
+
+
+if __name__ == "__main__":
+    _main()

@@ -1,0 +1,171 @@
+"""How far each method is from the truth, and how near the noise lets it be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.contact import Reason
+from pipeline.contact.methods import METHODS
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.contact import Batch, WrenchNoise
+    from pipeline.contact.methods import Method
+    from pipeline.mesh import Probe
+    from pipeline.simulation import Touches
+
+ALL, FACE, HEAD = "all", "face", "head"
+
+# Enough solves for a median; the literal loop takes up to a millisecond each.
+_TIMED = 400
+
+
+@dataclass(frozen=True)
+class MethodErrors:
+    """One method on the touches of one part of one probe.
+
+    Attributes
+    ----------
+    method : str
+        As in pipeline.contact.methods.
+    where : {"all", "face", "head"}
+        Which touches.
+    touches : int
+        How many.
+    mean_mm, p95_mm, max_mm : float or None
+        Distance from the true point, mm, over the settled touches: answered, and not ambiguous. This and
+        the next two are None where no touch is settled.
+    bound_mm : float or None
+        The noise bound: the root mean square error that the sensor's noise alone gives, mm; the root of the
+        mean trace of the covariance of the settled touches.
+    over_bound : float or None
+        Their root mean square error over the bound: 1 is as good as the noise allows.
+    answered : float
+        Share of the touches that got a point.
+    ambiguous : float
+        Share of the touches that got one with the warning that another is as likely.
+    median_us : float or None
+        Median time of a compiled solve, µs; None where there is none.
+    """
+
+    method: str
+    where: str
+    touches: int
+    mean_mm: float | None
+    p95_mm: float | None
+    max_mm: float | None
+    bound_mm: float | None
+    over_bound: float | None
+    answered: float
+    ambiguous: float
+    median_us: float | None
+
+
+def compare_methods(
+    probe: Probe,
+    noise: WrenchNoise,
+    wrenches: NDArray[np.float64],
+    truth: Touches,
+    where: NDArray[np.str_],
+) -> tuple[list[MethodErrors], list[str]]:
+    """Compare every method with the truth.
+
+    Parameters
+    ----------
+    probe : Probe
+        The mesh, S, metres.
+    noise : WrenchNoise
+        What was added to the wrenches.
+    wrenches : (n, 6)
+        As the sensor reads them, S, N and N·m.
+    truth : Touches
+        What was simulated, row by row.
+    where : (n,) of "face" or "head"
+        The part that each touch is on.
+
+    Returns
+    -------
+    errors : list of MethodErrors
+        Per method: all touches, then part by part.
+    notes : list of str
+        A sentence for each method that is left out.
+    """
+    errors, notes = [], []
+    for name, make in METHODS.items():
+        try:
+            method = make(probe, noise, None)
+        except InputError as error:
+            notes.append(f"{name} is left out: {error}.")
+            continue
+        batch = method.locate_batch(wrenches)
+        median_us = _median_us(method, wrenches[:_TIMED])
+        for part in (ALL, *np.unique(where).tolist()):
+            rows = np.flatnonzero((where == part) | (part == ALL))
+            errors.append(_errors(name, part, batch, truth.points, rows, median_us))
+    return errors, notes
+
+
+def settled(batch: Batch) -> NDArray[np.bool_]:
+    """Tell which answers give a point without doubt, (n,)."""
+    return np.isin(batch.reasons, (Reason.OK, Reason.VERTEX))
+
+
+def errors_mm(batch: Batch, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distance from the true points (n, 3), mm, (n,); NaN without an answer."""
+    return np.asarray(np.linalg.norm(batch.points - points, axis=1) * 1e3)
+
+
+def _errors(
+    method: str,
+    where: str,
+    batch: Batch,
+    points: NDArray[np.float64],
+    rows: NDArray[np.intp],
+    median_us: float | None,
+) -> MethodErrors:
+    sure = rows[settled(batch)[rows]]
+    error = errors_mm(batch, points)[sure]
+    mean, p95, largest, bound, ratio = _statistics(error, batch.covariances[sure])
+    return MethodErrors(
+        method,
+        where,
+        len(rows),
+        mean_mm=mean,
+        p95_mm=p95,
+        max_mm=largest,
+        bound_mm=bound,
+        over_bound=ratio,
+        answered=float(np.isfinite(batch.points[rows, 0]).mean()),
+        ambiguous=float((batch.reasons[rows] == Reason.AMBIGUOUS).mean()),
+        median_us=median_us,
+    )
+
+
+def _statistics(
+    error_mm: NDArray[np.float64], covariances: NDArray[np.float64]
+) -> tuple[float | None, float | None, float | None, float | None, float | None]:
+    """Mean, 95th percentile, largest, bound (mm), and root mean square over the bound."""
+    if not len(error_mm):
+        return None, None, None, None, None
+    bound = 1e3 * sqrt(float(np.trace(covariances, axis1=1, axis2=2).mean()))
+    rms = sqrt(float(np.mean(error_mm**2)))
+    return (
+        float(error_mm.mean()),
+        float(np.percentile(error_mm, 95)),
+        float(error_mm.max()),
+        bound,
+        rms / bound,
+    )
+
+
+def _median_us(method: Method, wrenches: NDArray[np.float64]) -> float | None:
+    engine: Any = method.engine
+    if not hasattr(engine, "time_each"):
+        return None
+    return float(np.median(engine.time_each(wrenches))) / 1e3

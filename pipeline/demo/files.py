@@ -1,0 +1,87 @@
+"""The demo's files: written as a whole or not at all, the same bytes for the same seed."""
+
+from __future__ import annotations
+
+import secrets
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from pipeline.simulation import Touches
+
+RATE_HZ = 200
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder, and those above it.
+
+    Raises
+    ------
+    InputError
+        It is a file, or cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError) as error:
+        taken = next((path for path in (folder, *folder.parents) if path.is_file()), folder)
+        raise InputError(f"{folder}: {taken} is a file: choose another name for the folder.") from error
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        raise InputError(
+            f"{folder}: the folder cannot be made ({error}): choose one in a place that is writable."
+        ) from error
+
+
+def write_bytes(file: Path, data: bytes) -> None:
+    """Put `data` in a file, in one step: whoever reads it sees the old content or the new.
+
+    Raises
+    ------
+    InputError
+        It cannot be written; a file that was there is left as it was.
+    """
+    # In the same folder, because a rename is atomic only within one file system.
+    scratch = file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")
+    try:
+        scratch.write_bytes(data)
+        scratch.replace(file)
+    except OSError as error:
+        scratch.unlink(missing_ok=True)
+        raise InputError(
+            f"{file}: the file cannot be written ({error.strerror or error}): choose a folder that is writable"
+            " and has space."
+        ) from error
+
+
+def write_csv(file: Path, columns: Sequence[str], rows: Iterable[Sequence[object]]) -> None:
+    """Write a table; numbers as ``repr`` gives them, so that reading them back loses nothing; None empty."""
+    lines = [",".join(columns), *(",".join(map(_cell, row)) for row in rows)]
+    write_bytes(file, ("\n".join(lines) + "\n").encode())
+
+
+def write_wrenches(file: Path, wrenches: NDArray[np.float64]) -> None:
+    """Write (n, 6) wrenches, S, N and N·m about the sensor origin, as a stream at 200 Hz."""
+    rows = ((t, *row) for t, row in zip(_times(len(wrenches)), wrenches.tolist(), strict=True))
+    write_csv(file, ("t", "fx", "fy", "fz", "mx", "my", "mz"), rows)
+
+
+def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:
+    """Write what was simulated: point (S, m), outward normal, local torque k (N·m), and the part touched."""
+    values = np.column_stack([touches.points, touches.normals, touches.torques]).tolist()
+    rows = ((t, *row, part) for t, row, part in zip(_times(len(touches)), values, where, strict=True))
+    write_csv(file, ("t", "x", "y", "z", "nx", "ny", "nz", "k", "where"), rows)
+
+
+def _times(count: int) -> list[float]:
+    return [row / RATE_HZ for row in range(count)]
+
+
+def _cell(value: object) -> str:
+    return "" if value is None else repr(value) if isinstance(value, float) else str(value)

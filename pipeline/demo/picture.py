@@ -1,0 +1,294 @@
+"""The picture: every probe from its face side, with what was located, how surely, and how wrongly.
+
+PyVista renders the bodies; all that is told on them is drawn by Matplotlib (which PyVista brings) at the
+same projection, so that lines and letters are sharp at any size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from importlib import import_module
+from io import BytesIO
+from math import sqrt
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assets
+from pipeline.demo.body import Body, PictureError, render_bodies
+from pipeline.demo.compare import errors_mm, settled
+from pipeline.demo.view import View
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.contact import Batch, Contact
+
+__all__ = ["Located", "PictureError", "draw"]
+
+_FACETS = 2_000
+_SHOWN = 25
+_SPACING_MM = 3.0  # contacts shown are at least this far apart
+_FACING = 0.3  # cosine between a shown contact's normal and the look at it
+_TRIED = 2_000
+
+_LARGEST_MM = 2.0  # end of the colours
+_95_PERCENT = sqrt(5.991)  # standard deviations, two dimensions
+_MM_PER_N = 1.3
+_DISC_MM = 0.85  # radius
+
+# Azimuth and elevation: the face well open, and two sides of the head.
+_ANGLES = (24.0, 44.0)
+_CLOSE_MM = {"linear": 88.0, "convex": 101.0, "t-shape": 117.0}
+_WHOLE_MM = 96.0
+_AXIS_MM = 42.0
+
+# Inches of paper.
+_PANEL, _BODY_HEIGHT, _FOOT, _HEIGHT = 6.0, 6.1, 1.0, 8.0
+_INSET, _INSET_SHAPE = 1.9, 1.45
+# Where the handle fades out, mm below the tip.
+_FADE_MM = (62.0, 88.0)
+
+_INK, _FORCE, _FAINT = "#222222", "#0072b2", "#6b6b6b"
+_AXES = (("x", "#d55e00"), ("y", "#009e73"), ("z", "#0072b2"))
+
+
+@dataclass(frozen=True, eq=False)
+class Located:
+    """What to draw on one probe.
+
+    Attributes
+    ----------
+    probe : str
+        One of assets.PROBE_NAMES.
+    batch : Batch
+        Answers, S, m.
+    points : (n, 3)
+        True points, S, m.
+    mean_mm : float or None
+        Mean error for the title.
+    """
+
+    probe: str
+    batch: Batch
+    points: NDArray[np.float64]
+    mean_mm: float | None
+
+
+def draw(located: Sequence[Located], pixels_per_inch: int = 100) -> bytes:
+    """Draw the probes side by side.
+
+    Parameters
+    ----------
+    located : sequence of Located
+        From left to right.
+    pixels_per_inch : int
+        A probe is 6 inches wide, the picture 8 inches high.
+
+    Returns
+    -------
+    bytes
+        A PNG image.
+
+    Raises
+    ------
+    PictureError
+        PyVista is missing, or there is nothing to render with.
+    """
+    shown = [_choose(one) for one in located]
+    views = [(_close(one.probe), _whole(one.probe)) for one in located]
+    close_pixels = round(_PANEL * pixels_per_inch)
+    inset_pixels = round(_INSET * pixels_per_inch)
+    bodies = [
+        Body(one.probe, view, pixels)
+        for one, pair in zip(located, views, strict=True)
+        for view, pixels in zip(pair, (close_pixels, inset_pixels), strict=True)
+    ]
+    images = render_bodies(bodies)
+    width = _PANEL * max(len(located), 2)  # the legend needs the room of two
+    figure = import_module("matplotlib.figure").Figure(figsize=(width, _HEIGHT), dpi=pixels_per_inch)
+    colours = import_module("matplotlib").colormaps["cividis"]
+    left = (width - _PANEL * len(located)) / 2
+    for i, (one, rows) in enumerate(zip(located, shown, strict=True)):
+        x = left + _PANEL * i
+        panel = _axes(figure, x, _FOOT, _PANEL, _BODY_HEIGHT)
+        _draw_close(panel, views[i][0], images[2 * i], one, rows, colours)
+        inset = _axes(figure, x + 0.15, _FOOT + 0.15, _INSET, _INSET * _INSET_SHAPE)
+        _draw_whole(inset, views[i][1], images[2 * i + 1])
+        _title(figure, x + _PANEL / 2, one)
+    _draw_legend(figure, width, colours)
+    data = BytesIO()
+    figure.savefig(data, format="png", metadata={"Software": None})
+    return data.getvalue()
+
+
+# ---- what to show ------------------------------------------------------------------------------
+
+
+def _close(probe: str) -> View:
+    """Look at the head: near, with room for the arrows around it and for the inset on the left."""
+    width = _CLOSE_MM[probe]
+    view = View((0.0, 0.0, 0.0), *_ANGLES, width, width * _BODY_HEIGHT / _PANEL)
+    top = float(view.project(assets.make(probe, _FACETS)[0])[:, 1].max())
+    focal = 1e-3 * ((top + 15.0 - view.height / 2) * view.up - 0.07 * width * view.right)
+    return replace(view, focal=(float(focal[0]), float(focal[1]), float(focal[2])))
+
+
+def _whole(probe: str) -> View:
+    height = _tip(probe)
+    return View((0.0, 0.0, 0.48 * height), *_ANGLES, _WHOLE_MM, _WHOLE_MM * _INSET_SHAPE)
+
+
+def _tip(probe: str) -> float:
+    return float(assets.make(probe, _FACETS)[0][:, 2].max())
+
+
+def _choose(one: Located) -> list[int]:
+    """Rows of settled contacts that the camera sees, spread out: each the farthest from those before it."""
+    view = _close(one.probe)
+    rows = np.flatnonzero(settled(one.batch))
+    rows = rows[:: 1 + len(rows) // _TRIED]
+    facing = one.batch.normals[rows] @ view.toward > _FACING
+    rows = rows[facing & _unhidden(one, view, rows)]
+    if not len(rows):
+        return []
+    at = view.project(one.batch.points[rows])
+    chosen = [int(np.argmin(np.linalg.norm(at, axis=1)))]
+    gap = np.linalg.norm(at - at[chosen[0]], axis=1)
+    while len(chosen) < min(_SHOWN, len(rows)) and gap.max() > _SPACING_MM:
+        chosen.append(int(np.argmax(gap)))
+        gap = np.minimum(gap, np.linalg.norm(at - at[chosen[-1]], axis=1))
+    return [int(row) for row in rows[chosen]]
+
+
+def _unhidden(one: Located, view: View, rows: NDArray[np.intp]) -> NDArray[np.bool_]:
+    """Tell which points no facet hides, (n,)."""
+    vertices, faces = assets.make(one.probe, _FACETS)
+    corners, depth = view.project(vertices)[faces], (vertices @ view.toward)[faces]
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    seen = area > 0
+    corners, depth, first, second, area = (a[seen] for a in (corners, depth, first, second, area))
+    free = np.empty(len(rows), dtype=bool)
+    for i, point in enumerate(one.batch.points[rows]):
+        at = view.project(point) - corners[:, 0]
+        u = (at[:, 0] * second[:, 1] - at[:, 1] * second[:, 0]) / area
+        v = (first[:, 0] * at[:, 1] - first[:, 1] * at[:, 0]) / area
+        over = (u >= 0) & (v >= 0) & (u + v <= 1)
+        surface = depth[:, 0] + u * (depth[:, 1] - depth[:, 0]) + v * (depth[:, 2] - depth[:, 0])
+        free[i] = not np.any(surface[over] > point @ view.toward + 1e-3)  # 1 mm: its own facet is no cover
+    return free
+
+
+# ---- drawing -----------------------------------------------------------------------------------
+
+
+def _axes(figure: Any, x: float, y: float, width: float, height: float) -> Any:
+    """Return axes without a frame; inches from the lower left corner."""
+    whole_width, whole_height = figure.get_size_inches()
+    axes = figure.add_axes((x / whole_width, y / whole_height, width / whole_width, height / whole_height))
+    axes.set_axis_off()
+    return axes
+
+
+def _show(axes: Any, view: View, image: NDArray[np.uint8], fade: tuple[float, float] | None = None) -> None:
+    """Lay an image on the paper; white is clear, and below `fade` (from, to; mm on paper) all is."""
+    half = (view.width / 2, view.height / 2)
+    opaque = (255.0 - image.min(axis=2)).clip(0, 24) / 24
+    if fade is not None:
+        y = np.linspace(half[1], -half[1], len(image))
+        opaque *= np.interp(y, fade, (0.0, 1.0))[:, None]
+    pixels = np.dstack([image, np.rint(255 * opaque).astype(np.uint8)])
+    axes.imshow(pixels, extent=(-half[0], half[0], -half[1], half[1]), interpolation="antialiased", zorder=0)
+    axes.set(xlim=(-half[0], half[0]), ylim=(-half[1], half[1]))
+
+
+def _draw_close(
+    axes: Any,
+    view: View,
+    image: NDArray[np.uint8],
+    one: Located,
+    rows: Sequence[int],
+    colours: Any,
+) -> None:
+    begin, end = (float(view.project([0.0, 0.0, _tip(one.probe) - 1e-3 * mm])[1]) for mm in _FADE_MM)
+    _show(axes, view, image, (end, begin))
+    error = errors_mm(one.batch, one.points)
+    for row in rows:
+        contact = one.batch[row]
+        _draw_contact(axes, view, contact, colours(min(error[row] / _LARGEST_MM, 1.0)))
+        axes.plot(*view.project(one.points[row]), "o", color="black", markersize=2.6, mew=0, zorder=6)
+    x, y = view.width / 2 - 0.05 * view.width, -view.height / 2 + 0.07 * view.height
+    axes.plot([x - 20, x], [y, y], color=_FAINT, linewidth=2, solid_capstyle="butt")
+    axes.text(x - 10, y + 0.012 * view.width, "20 mm", ha="center", va="bottom", color=_FAINT, fontsize=11)
+
+
+def _draw_contact(axes: Any, view: View, contact: Contact, colour: Any) -> None:
+    point, normal, ellipse = contact.point, contact.normal, contact.ellipse
+    if point is None or normal is None or ellipse is None:
+        return
+    tail, tip = view.project([point - 1e-3 * _MM_PER_N * contact.wrench[:3], point])
+    _arrow(axes, tail, tip, _FORCE, width=1.0)
+    outline = view.project(point + _ring(_95_PERCENT * ellipse))
+    axes.fill(*outline.T, facecolor=(1, 1, 1, 0.45), edgecolor=_INK, linewidth=0.9, zorder=4)
+    across = np.cross(normal, view.right)
+    across /= np.linalg.norm(across)
+    disc = view.project(point + _ring(1e-3 * _DISC_MM * np.array([np.cross(across, normal), across])))
+    axes.fill(*disc.T, facecolor=colour, edgecolor=_INK, linewidth=0.4, zorder=5)
+
+
+def _ring(half_axes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (n, 3) around an ellipse of half axes (2, 3)."""
+    turn = np.linspace(0, 2 * np.pi, 49)
+    return np.column_stack([np.cos(turn), np.sin(turn)]) @ half_axes
+
+
+def _arrow(axes: Any, tail: Any, tip: Any, colour: str, width: float) -> None:
+    style = {"arrowstyle": "-|>,head_width=0.16,head_length=0.4", "color": colour, "linewidth": width}
+    style |= {"shrinkA": 0, "shrinkB": 0, "mutation_scale": 12, "joinstyle": "miter"}
+    axes.annotate("", tip, tail, arrowprops=style, zorder=3, annotation_clip=False)
+
+
+def _draw_whole(axes: Any, view: View, image: NDArray[np.uint8]) -> None:
+    """Draw the whole probe, small, with the axes of S at its flange."""
+    _show(axes, view, image)
+    origin = view.project([0.0, 0.0, 0.0])
+    for i, (letter, colour) in enumerate(_AXES):
+        along = view.project(1e-3 * _AXIS_MM * np.eye(3)[i])
+        _arrow(axes, origin, along, colour, width=1.4)
+        place = origin + (along - origin) * 1.16
+        axes.text(*place, letter, color=colour, fontsize=13, weight="bold", ha="center", va="center")
+
+
+def _title(figure: Any, x: float, one: Located) -> None:
+    width, height = figure.get_size_inches()
+    place = {"ha": "center", "color": _INK}
+    figure.text(x / width, 1 - 0.42 / height, one.probe, fontsize=20, weight="bold", **place)
+    mean = "nothing located" if one.mean_mm is None else f"mean error {one.mean_mm:.2f} mm"
+    figure.text(x / width, 1 - 0.74 / height, mean, fontsize=15, **place)
+
+
+def _draw_legend(figure: Any, width: float, colours: Any) -> None:
+    """Explain the marks in one line at the foot, with the scale of colours at its right end."""
+    long = 11.6
+    axes = _axes(figure, (width - long) / 2, 0.2, long, 0.6)
+    axes.set(xlim=(0, long), ylim=(0, 0.6))
+    text = {"va": "center", "fontsize": 13, "color": _INK}
+    _arrow(axes, (0.0, 0.3), (0.45, 0.3), _FORCE, width=1.2)
+    axes.text(0.58, 0.3, "force on the probe", **text)
+    turn = np.linspace(0, 2 * np.pi, 49)
+    axes.fill(2.72 + 0.19 * np.cos(turn), 0.3 + 0.12 * np.sin(turn), fc="white", ec=_INK, lw=0.9)
+    axes.text(3.03, 0.3, "95 % uncertainty", **text)
+    axes.plot([5.05], [0.3], "o", color="black", markersize=3.4, mew=0)
+    axes.text(5.19, 0.3, "true point", **text)
+    axes.fill(6.62 + 0.09 * np.cos(turn), 0.3 + 0.09 * np.sin(turn), fc=colours(0.4), ec=_INK, lw=0.5)
+    axes.text(6.82, 0.3, "located, by error", **text)
+    ramp = np.linspace(0, 1, 256)[None]
+    axes.imshow(ramp, cmap=colours, extent=(8.85, 11.15, 0.3, 0.46), aspect="auto")
+    for mm in range(int(_LARGEST_MM) + 1):
+        place = 8.85 + 2.3 * mm / _LARGEST_MM
+        label = f"≥ {mm} mm" if mm == _LARGEST_MM else str(mm)
+        axes.text(place, 0.13, label, ha="center", va="center", fontsize=12, color=_INK)
+    axes.set(xlim=(0, long), ylim=(0, 0.6))

@@ -1,0 +1,287 @@
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from pipeline import cli, demo
+from pipeline.contact import ContactSolver, WrenchNoise
+from pipeline.contact.methods import METHODS
+from pipeline.demo import bench, body, compare, picture
+from pipeline.demo.report import LIMIT
+from pipeline.demo.view import View
+from pipeline.errors import InputError
+from pipeline.mesh import load_probe
+
+TOUCHES = 40
+CSV_FILES = ("wrenches.csv", "truth.csv", "contacts.csv")
+
+
+def no_picture(*_: Any) -> list[Any]:
+    raise picture.PictureError("it needs PyVista: pip install 'contactbench[gui]'.")
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Most tests are about numbers: rendering would only take their time."""
+    monkeypatch.setattr(picture, "render_bodies", no_picture)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> demo.DemoReport:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(picture, "render_bodies", no_picture)
+        return demo.run(tmp_path_factory.mktemp("demo"), touches=TOUCHES, seed=3)
+
+
+def columns(file: Path) -> dict[str, list[str]]:
+    with file.open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    return {name: [row[name] for row in rows] for name in rows[0]}
+
+
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(cli.app, ["demo", *map(str, arguments)])
+
+
+# ---- files ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", demo.PROBE_NAMES)
+def test_files_of_a_probe_parse(done: demo.DemoReport, name: str) -> None:
+    folder = done.out / name
+    probe = load_probe(folder / "probe.ply", units="m")
+    assert 1_900 <= len(probe.faces) <= 2_100
+    assert 0 < np.count_nonzero(probe.region) < len(probe.faces)
+    wrenches, truth, contacts = (columns(folder / file) for file in CSV_FILES)
+    assert list(wrenches) == ["t", "fx", "fy", "fz", "mx", "my", "mz"]
+    assert list(truth) == ["t", "x", "y", "z", "nx", "ny", "nz", "k", "where"]
+    assert wrenches["t"] == truth["t"] == contacts["t"]
+    assert np.allclose(np.diff(np.array(wrenches["t"], dtype=float)), 1 / 200)
+    assert [truth["where"].count(part) for part in ("face", "head")] == [28, 12]
+
+
+def test_contacts_agree_with_the_reported_errors(done: demo.DemoReport) -> None:
+    for result in done.probes:
+        contacts = columns(done.out / result.probe / "contacts.csv")
+        truth = columns(done.out / result.probe / "truth.csv")
+        sure = np.isin(contacts["reason"], ["ok", "vertex"])
+        at = [np.array([table[axis] for axis in "xyz"])[:, sure].astype(float) for table in (contacts, truth)]
+        error = 1e3 * np.linalg.norm(at[0] - at[1], axis=0)
+        ours = result.ours
+        assert (ours.mean_mm, ours.max_mm) == (pytest.approx(error.mean()), pytest.approx(error.max()))
+
+
+def test_every_method_on_every_part(done: demo.DemoReport) -> None:
+    table = columns(done.out / "errors.csv")
+    skipped = {note.split()[0] for note in done.notes if "is left out" in note}
+    present = [name for name in METHODS if name not in skipped]
+    assert len(table["method"]) == len(demo.PROBE_NAMES) * len(present) * 3
+    assert set(table["method"]) == set(present)
+    assert set(table["where"]) == {"all", "face", "head"}
+    assert all(0 <= float(share) <= 1 for share in table["answered"] + table["ambiguous"])
+    lines = (done.out / "errors.md").read_text(encoding="utf-8").splitlines()
+    assert sum(line.startswith(demo.PROBE_NAMES, 2) for line in lines) == len(table["method"])
+
+
+def test_errors_are_measured_over_settled_touches_only() -> None:
+    class Answers:
+        reasons = np.array([0, 1, 2, 5], dtype=np.uint8)  # ok, vertex, ambiguous, off_surface
+        points = np.array([[0.001, 0, 0], [0, 0.003, 0], [1, 1, 1], [np.nan] * 3])
+        covariances = np.broadcast_to(np.diag([2e-6, 3e-6, 0]), (4, 3, 3))
+
+    answers: Any = Answers()
+    row = compare._errors("x", "all", answers, np.zeros((4, 3)), np.arange(4), None)
+    assert (row.mean_mm, row.max_mm) == (pytest.approx(2), pytest.approx(3))
+    assert row.bound_mm == pytest.approx(np.sqrt(5))
+    assert row.over_bound == pytest.approx(1)  # rms: the root of (1 + 9) / 2
+    assert (row.answered, row.ambiguous) == (0.75, 0.25)
+    nothing = compare._errors("x", "all", answers, np.zeros((4, 3)), np.array([2, 3]), None)
+    assert (nothing.mean_mm, nothing.bound_mm, nothing.over_bound) == (None, None, None)
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_same_seed_same_bytes(done: demo.DemoReport, tmp_path: Path) -> None:
+    (tmp_path / "convex").mkdir()
+    (tmp_path / "convex" / "truth.csv").write_text("old")
+    demo.run(tmp_path, ["convex"], TOUCHES, 3)
+    for file in ("probe.ply", *CSV_FILES):
+        assert (tmp_path / "convex" / file).read_bytes() == (done.out / "convex" / file).read_bytes()
+    again = (tmp_path / "errors.csv").read_text().splitlines()
+    assert set(again) < set((done.out / "errors.csv").read_text().splitlines())
+    assert not list(tmp_path.rglob("*.tmp"))
+    demo.run(tmp_path, ["convex"], TOUCHES, 4)
+    assert (tmp_path / "convex" / "wrenches.csv").read_bytes() != (
+        done.out / "convex" / "wrenches.csv"
+    ).read_bytes()
+
+
+# ---- verdict -------------------------------------------------------------------------------------
+
+
+def test_verified_means_within_the_noise(done: demo.DemoReport) -> None:
+    assert done.verified
+    for result in done.probes:
+        assert result.ours.mean_mm is not None
+        assert 0.3 < result.ours.mean_mm < 2.0
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    honest = bench.add_noise
+    monkeypatch.setattr(
+        bench, "add_noise", lambda wrenches, _, rng: honest(wrenches, WrenchNoise(0.2, 0.008), rng)
+    )
+    result = invoke("--out", tmp_path, "--probe", "convex", "--touches", TOUCHES, "--json")
+    assert result.exit_code == 1
+    report = json.loads(result.stdout)
+    assert report["verified"] is False
+    ours = report["probes"][0]["errors"][0]
+    assert ours["mean_mm"] > LIMIT * ours["bound_mm"]
+    assert "convex: mean error" in result.stderr
+    assert "FAILED" in result.stderr
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_missing_method_is_left_out_with_a_sentence(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def absent(*_: object) -> Any:
+        raise InputError("the wrench_axis method needs Embree: pip install 'contactbench[rivals]'")
+
+    monkeypatch.setitem(METHODS, "wrench_axis", absent)
+    report = demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert "wrench_axis is left out: the wrench_axis method needs Embree" in report.notes[0]
+    assert "wrench_axis" not in (tmp_path / "errors.csv").read_text()
+
+
+# ---- command -------------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_json_is_one_object(tmp_path: Path) -> None:
+    result = invoke("--out", tmp_path, "--probe", "linear", "--touches", TOUCHES, "--json")
+    assert result.exit_code == 0
+    report = json.loads(result.stdout)
+    assert report["verified"] is True
+    assert report["picture"] is None
+    assert [entry["probe"] for entry in report["probes"]] == ["linear"]
+    assert "× bound" in result.stderr
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
+    result = invoke("--out", tmp_path, "--probe", "linear", "--touches", TOUCHES)
+    assert result.exit_code == 0
+    assert "contactbench" in result.stdout
+    assert "linear: mean error" in result.stderr
+    said = " ".join(result.stderr.split())
+    assert "There is no picture: it needs PyVista: pip install 'contactbench[gui]'." in said
+    assert f"The files are in {tmp_path}." in said
+
+
+def test_help_has_an_example() -> None:
+    assert "Example: contactbench demo" in invoke("--help").stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--probe", "phased"), "there is no probe 'phased': choose one of linear, convex, t-shape"),
+        (("--touches", 9), "ask for at least 10"),
+        (("--seed", -1), "the seed must be at least 0, not -1"),
+    ],
+)
+def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message: str) -> None:
+    result = invoke("--out", tmp_path / "out", *arguments)
+    assert result.exit_code == 2
+    assert message in " ".join(result.stderr.split())
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("below", ["", "deeper"])
+def test_out_that_is_a_file(tmp_path: Path, below: str) -> None:
+    (tmp_path / "taken").write_text("mine")
+    out = tmp_path / "taken" / below
+    result = invoke("--out", out, "--json")
+    assert result.exit_code == 2
+    error = json.loads(result.stdout)["error"]
+    assert error == f"{out}: {tmp_path / 'taken'} is a file: choose another name for the folder."
+    assert (tmp_path / "taken").read_text() == "mine"
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_folder_in_the_place_of_a_file(tmp_path: Path) -> None:
+    (tmp_path / "linear" / "truth.csv").mkdir(parents=True)
+    with pytest.raises(InputError, match=r"truth\.csv: the file cannot be written"):
+        demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert not list(tmp_path.rglob("*.tmp"))
+
+
+# ---- picture -------------------------------------------------------------------------------------
+
+
+def test_picture_is_drawn(tmp_path: Path) -> None:
+    pytest.importorskip("pyvista", reason="the picture needs PyVista (extra gui)")
+    image_module = pytest.importorskip("PIL.Image", reason="reading the picture needs Pillow")
+    report = demo.run(tmp_path, ["linear", "t-shape"], TOUCHES, 0)
+    assert report.picture == tmp_path / "contacts.png", report.notes
+    with image_module.open(report.picture) as image:
+        pixels = np.asarray(image.convert("RGB"), dtype=float)
+    assert pixels.shape == (800, 1200, 3)
+    for half in (pixels[:, :600], pixels[:, 600:]):
+        assert half.std() > 20
+        assert np.median(half) == 255
+
+
+@pytest.mark.parametrize("crash", [False, True])
+def test_no_driver_is_a_sentence_not_a_crash(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, crash: bool
+) -> None:
+    def fail(command: list[str], **_: object) -> None:
+        # Made here: an exception that is kept would keep the frames it passed, and their answers.
+        raise subprocess.CalledProcessError(-11, command) if crash else FileNotFoundError(command[0])
+
+    monkeypatch.setattr(body, "find_spec", lambda _: True)
+    monkeypatch.setattr(subprocess, "run", fail)
+    (tmp_path / "contacts.png").write_bytes(b"of another run")
+    report = demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert report.picture is None
+    assert "apt-get install libegl1 libgl1-mesa-dri" in report.notes[-1]
+    assert not (tmp_path / "contacts.png").exists()
+
+
+def test_without_pyvista_the_remedy_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(body, "find_spec", lambda _: None)
+    with pytest.raises(picture.PictureError, match=r"pip install 'contactbench\[gui\]'"):
+        body.render_bodies([])
+
+
+def test_shown_contacts_are_settled_seen_and_apart(done: demo.DemoReport) -> None:
+    folder = done.out / "t-shape"
+    solver = ContactSolver(load_probe(folder / "probe.ply", units="m"))
+    wrenches = bench._read_wrenches(folder / "wrenches.csv")
+    batch = solver.locate_batch(wrenches)
+    rows = picture._choose(picture.Located("t-shape", batch, batch.points, 1.0))
+    view = picture._close("t-shape")
+    assert 5 < len(rows) <= 25
+    assert set(batch.reasons[rows]) <= {0, 1}
+    assert (batch.normals[rows] @ view.toward > 0).all()
+    at = view.project(batch.points[rows])
+    gaps = np.linalg.norm(at[:, None] - at, axis=2) + 1e9 * np.eye(len(at))
+    assert gaps.min() > 3.0
+
+
+def test_view_keeps_lengths_across_and_hides_those_along() -> None:
+    view = View((0.0, 0.0, 0.1), 30.0, 40.0, 100.0, 80.0)
+    frame = np.array([view.right, view.up, view.toward])
+    assert np.allclose(frame @ frame.T, np.eye(3))
+    assert view.up[2] > 0
+    moved = view.project(np.array(view.focal) + 0.01 * frame)
+    assert np.allclose(moved, [[10, 0], [0, 10], [0, 0]])

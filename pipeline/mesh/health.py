@@ -69,12 +69,12 @@ class MeshHealth:
         if not self.winding_consistent:
             found.append(
                 "Neighbouring facets disagree about which side is outside. Contacts on the facets that are"
-                " turned over are missed. Make the normals consistent in the CAD program."
+                " turned over are missed, or found on the far side. Make the normals consistent in the CAD program."
             )
         if self.outward is False:
             found.append(
-                "The mesh is inside out: its facets face inwards, so every contact would be refused. Flip all"
-                " normals in the CAD program."
+                "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
+                " probe. Flip all normals in the CAD program."
             )
         if self.components > 1:
             found.append(

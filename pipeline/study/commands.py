@@ -74,8 +74,6 @@ def hard_cases(
     """
     from pipeline.study import hard_cases as study
 
-    if samples < 1:
-        raise InputError(f"--samples: {samples} is too few; give at least 1")
     report = study.run(samples=samples, seed=seed, progress=say)
     if out:
         _write(out, study.markdown(report))

@@ -14,7 +14,9 @@ from pipeline.mesh import MeshWarning, load_probe
 
 def outer_touches(probe, count, rng):
     """Perpendicular and tilted touches of facets that nothing lies in front of."""
-    pytest.importorskip("embreex", reason="Embree's bindings (extra 'rivals') tell the outside from the inside here")
+    pytest.importorskip(
+        "embreex", reason="Embree's bindings (extra 'rivals') tell the outside from the inside here"
+    )
     from pipeline.contact.wrench_axis import EmbreeAxis
 
     axis = EmbreeAxis(ContactSolver(probe))

@@ -49,6 +49,7 @@ def test_noise_has_the_covariance_it_was_given():
 
 def test_same_seed_same_bytes():
     first, second = (
-        draw_slide(assets.surface("convex"), 500, np.random.default_rng(5)).wrenches.tobytes() for _ in range(2)
+        draw_slide(assets.surface("convex"), 500, np.random.default_rng(5)).wrenches.tobytes()
+        for _ in range(2)
     )
     assert first == second

@@ -1,0 +1,383 @@
+"""Where contact sensing breaks: numerical hard cases, judged by a truth that shares no code with the solver.
+
+The truth is analytic (wrenches are made from known points) or worked out facet by facet in long double, see
+:mod:`pipeline.study.hard_meshes`. The literal Algorithm 1 answers the same wrenches beside contactbench.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import assets
+from pipeline.contact import ContactSolver, Gates, Reason, WrenchNoise
+from pipeline.contact.wrench_axis import EmbreeAxis
+from pipeline.errors import InputError
+from pipeline.simulation import add_noise, draw_touches
+from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_meshes import Body, Drawn, places, press
+from pipeline.study.hard_trials import (
+    Case,
+    HardCasesReport,
+    Outcome,
+    Rule,
+    Trial,
+    certified,
+    complete,
+    exact,
+    like,
+    markdown,
+    refused,
+    table,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from pipeline.study.hard_meshes import Float, Place, Solutions
+
+__all__ = ["Case", "HardCasesReport", "Outcome", "Rule", "Trial", "markdown", "run", "table"]
+
+Rng = np.random.Generator
+
+_OPEN = Gates(friction_angle=89.99)  # lets all but edge-on candidates through
+_NM = 1e-6  # mm
+_FOR_A_SHARE = 20_000
+_COMPLETE = Rule(
+    "as many candidates as the exhaustive scan and brute force, the truth among them", unflagged=1.0
+)
+
+
+def run(
+    *, samples: int = 2000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
+) -> HardCasesReport:
+    """Try every hard case.
+
+    Parameters
+    ----------
+    samples : int
+        Wrenches of a case, at least 100; ambiguity takes ten times as many and no fewer than 20,000, a
+        brute-force truth a quarter.
+    seed : int
+        Of the wrenches and the noise.
+    progress : callable
+        Told in words what is being tried.
+
+    Raises
+    ------
+    InputError
+        Too few samples.
+    """
+    if samples < 100:
+        raise InputError(f"samples: {samples} are too few to meet every case; give at least 100")
+    cases = []
+    for said, group in GROUPS.items():
+        progress(said)
+        cases += [trial.run() for trial in group(samples, np.random.default_rng(seed))]
+    return HardCasesReport(samples, seed, cases)
+
+
+# ---- the cases ---------------------------------------------------------------------------------------
+
+
+def _tangential(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.bundled("t-shape", 1000)
+    for angles in ((80.0, 85.0), (89.0, 89.9)):
+        said = " and ".join(f"{a:g}" for a in angles)
+        drawn = press(*places(body, n // 4, rng), rng, angle=np.resize(angles, n // 4))
+        found = [hm.solve(body, w) for w in drawn.wrenches]
+        outside = drawn.take(np.array([s.angles.min() > 75.5 for s in found]))
+        what = f"T-shape, force {said} degrees from the normal, no other contact inside the friction cone"
+        # From 89 degrees on a graze and a miss are one: far from a closed probe some edge-on vertex always
+        # answers, and calling that a touch would leave nothing to call a miss.
+        reasons = [Reason.TANGENTIAL] if max(angles) < 89.0 else [Reason.TANGENTIAL, Reason.OFF_SURFACE]
+        yield Trial(f"tangential {said}", what, refused(*reasons), body.probe(), outside)
+        first = drawn.take(np.array([_wins(f, p) for f, p in zip(found, drawn.points, strict=True)]))
+        what = (
+            f"the same, cone opened to {_OPEN.friction_angle} degrees, the truth has clearly the least torque"
+        )
+        name, probe = f"tangential {said}, open cone", body.probe()
+        yield Trial(name, what, exact("1e-6 m"), probe, first, gates=_OPEN, tolerance_mm=1e-3)
+
+
+def _force(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.ellipsoid()
+    drawn = press(*places(body, n, rng), rng)
+    unit = drawn.wrenches / np.linalg.norm(drawn.wrenches[:, :3], axis=1, keepdims=True)
+    free = Gates(min_force=0.0)
+    low, clipped = refused(Reason.LOW_FORCE), refused(Reason.SATURATED)
+    right, safe = exact("1e-9 m"), Rule("a point right to 1e-9 m, or none", (0.0, 1.0), wrong=0.0)
+    for name, size, gates, rule in (
+        ("zero force", 0.0, Gates(), low),
+        ("zero force, no gate", 0.0, free, low),
+        ("force just under its gate", 0.5 * (1 - 1e-9), Gates(), low),
+        ("force just over its gate", 0.5 * (1 + 1e-9), Gates(), right),
+        ("denormal force", 1e-310, Gates(), low),
+        ("denormal force, no gate", 1e-310, free, safe),
+        ("force with denormal square, no gate", 1e-160, free, safe),
+        ("force of 1e-150 N, no gate", 1e-150, free, right),
+        ("force of 1e150 N", 1e150, Gates(), right),
+        ("force of 1e200 N", 1e200, Gates(), clipped),
+    ):
+        what = f"ellipsoid, |F| = {size:.10g} N, gate {gates.min_force:g} N, torque in proportion"
+        yield Trial(
+            name, what, rule, body.probe(), Drawn(size * unit, drawn.points), gates=gates, tolerance_mm=_NM
+        )
+
+
+def _numbers(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.bundled("t-shape", 1000)
+    drawn = press(*places(body, max(1, n // 100), rng), rng)
+
+    def spoilt(values: tuple[float, ...]) -> Drawn:
+        rows = np.repeat(drawn.wrenches, 6 * len(values), axis=0)
+        turn = np.arange(len(rows)) % (6 * len(values))
+        rows[np.arange(len(rows)), turn % 6] = np.array(values)[turn // 6]
+        return Drawn(rows, np.full((len(rows), 3), np.nan))
+
+    bad = spoilt((np.nan, np.inf, -np.inf))
+    yield Trial(
+        "not finite", "NaN and infinity in each channel", refused(Reason.NOT_FINITE), body.probe(), bad
+    )
+    gates = Gates(saturation=(60.0, 60.0, 60.0, 8.0, 8.0, 8.0))
+    full = spoilt((60.0, -60.0, 1e9))
+    yield Trial(
+        "saturated",
+        "each channel at or past its limit",
+        refused(Reason.SATURATED),
+        body.probe(),
+        full,
+        gates=gates,
+    )
+
+
+def _borders(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.ellipsoid()
+    probe = body.probe()
+    spots: tuple[tuple[Place, str], ...] = (("edge", "on edges"), ("vertex", "on vertices"))
+    words = "every wrench answered by an exact solution of the facet or vertex named, within 10 mm"
+    # The cone is open: rounding decides which facet answers, and a neighbour may be outside the usual cone.
+    for place, name in spots:
+        drawn = press(*places(body, n, rng, place), rng, arm=0.0)
+        what = f"ellipsoid, contacts exactly {name}, no local torque"
+        yield Trial(f"{name}, k = 0", what, exact("1e-9 m"), probe, drawn, gates=_OPEN, tolerance_mm=_NM)
+        drawn = press(*places(body, n, rng, place), rng, arm=0.003)
+        what = f"ellipsoid, contacts exactly {name}, local torque about the normal of one of the facets there"
+        check = certified(body, drawn.wrenches)
+        yield Trial(f"{name}, k != 0", what, Rule(words, wrong=0.0), probe, drawn, gates=_OPEN, check=check)
+    body = hm.box()
+    top = body.normals[:, 2] > 0.5
+    points = np.concatenate([places(body, n // 2, rng, place, among=top)[0] for place, _ in spots])
+    points = np.round(points * 256) / 256  # dyadic: every product is exact, every tie is a tie
+    inner = np.all((points[:, :2] > 0) & (points[:, :2] < points[:, 2].max()), axis=1)
+    up = np.tile([0.0, 0.0, 1.0], (int(inner.sum()), 1))
+    k = np.resize([0.0, 0.125, -0.125], len(up))[:, None] * up
+    drawn = Drawn(np.hstack([-8.0 * up, np.cross(points[inner], -8.0 * up) + k]), points[inner])
+    what = "box of dyadic numbers, force straight down on edges and vertices: many moments exactly zero"
+    yield Trial("exact ties", what, exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM)
+
+
+def _gaps(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.ellipsoid()
+    pitch = rng.choice([0.0003, 0.03, 0.3], n)
+    drawn = press(*places(body, n, rng, "cone"), rng, pitch=pitch)
+    rule = Rule("every wrench answered, at its vertex, reason vertex", wrong=0.0, reasons=(Reason.VERTEX,))
+    what = "ellipsoid, wrenches that only a vertex answers, pitch 0.3 to 300 mm"
+    yield Trial("gaps at vertices", what, rule, body.probe(), drawn, tolerance_mm=_NM)
+    few = n // 4
+    inside = np.einsum("nc,ncx->nx", rng.dirichlet(np.ones(4), few), rng.choice(body.vertices, (few, 4)))
+    force = 9.0 * _directions(few, rng)
+    pitches = 10.0 ** rng.uniform(-6, 1, (few, 1)) * rng.choice([-1.0, 1.0], (few, 1))
+    wrenches = np.hstack([force, np.cross(inside, force) + pitches * force])
+    found = [hm.solve(body, w).points for w in wrenches]
+    truth = np.array([p[0] if len(p) == 1 else np.full(3, np.nan) for p in found])
+    what = "ellipsoid, axes through its inside from everywhere, pitch 1 um to 10 m, against brute force"
+    gates = Gates(friction_angle=89.9999)
+    check = certified(body, wrenches)
+    name, drawn = "every axis through a convex body", Drawn(wrenches, truth)
+    yield Trial(name, what, exact("1e-8 m"), body.probe(), drawn, gates=gates, tolerance_mm=1e-5, check=check)
+
+
+def _ambiguity(n: int, rng: Rng) -> Iterator[Trial]:
+    body, noise = hm.bundled("t-shape", 1000), WrenchNoise()
+    probe = body.probe()
+    # A share of 0.02 % takes many touches to tell from chance.
+    touches = draw_touches(assets.surface("t-shape"), max(10 * n, _FOR_A_SHARE), rng, above=0.02)
+    rule = Rule("at least 98 % answered, no error over 10 mm that is not flagged", (0.98, 1.0))
+    facets = press(*places(body, 10 * n, rng), rng, angle=(0.0, 30.0))
+    what = "T-shape, touches of its facets up to 30 degrees, no noise, and the solver expects none"
+    yield Trial("ambiguity, exact", what, rule, probe, facets)
+    what = "T-shape, touches of the true surface up to 30 degrees"
+    clean = Drawn(touches.wrenches, touches.points)
+    yield Trial("ambiguity, no noise", f"{what}, no noise, solver as delivered", rule, probe, clean, noise)
+    words = "at least 98 % answered, at most 0.02 % with an error over 10 mm that is not flagged"
+    noisy = Drawn(add_noise(touches.wrenches, noise, rng), touches.points)
+    rule = Rule(words, (0.98, 1.0), 2e-4)
+    yield Trial("ambiguity, noise", f"{what}, default noise", rule, probe, noisy, noise)
+
+
+def _saddles(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.bundled("t-shape", 1000)
+    height = body.corners[:, :, 2].mean(axis=1)
+    neck = np.asarray((height > 0.085) & (height < 0.108))
+    few = n // 4
+    drawn = press(*places(body, few, rng, among=neck), rng, pitch=rng.uniform(0.02, 0.5, few))
+    what = "T-shape, touches on the saddle of its neck, pitch 20 to 500 mm: several contacts fit one wrench"
+    check = complete(body, drawn)
+    yield Trial("overlaps at saddles", what, _COMPLETE, body.probe(), drawn, gates=_OPEN, check=check)
+
+
+def _meshes(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.ellipsoid()
+    drawn = press(*places(body, n, rng), rng)
+    tenth = rng.permutation(len(body.faces))[: len(body.faces) // 10]
+    doubled, split = np.vstack([body.faces, body.faces[tenth]]), hm.slivered(body, tenth, 1e-6)
+    for name, what, probe in (
+        ("duplicate facets", "every tenth facet twice", body.probe(doubled)),
+        ("sliver facets", "every tenth facet split, one part of aspect 1e6", split.probe()),
+    ):
+        yield Trial(name, f"ellipsoid, {what}", exact("1e-7 m"), probe, drawn, tolerance_mm=1e-4)
+    rule = Rule("every wrench answered, within 10 mm or flagged")
+    what = "the same through a binary STL file: single precision makes the slivers' normals rounding"
+    rounded = hm.through_stl(split)
+    yield Trial("slivers in single precision", what, rule, rounded, drawn)
+    rule = Rule("at least 90 % answered, no wrong point", (0.9, 1.0), wrong=0.0)
+    what = "ellipsoid, unmerged: no facet shares a vertex, so no vertex can answer"
+    yield Trial("soup", what, rule, hm.soup(body).probe(), drawn, tolerance_mm=1e-4)
+    what = "ellipsoid, written as binary STL and read again"
+    probe = hm.through_stl(body)
+    yield Trial("soup through an STL file", what, exact("1e-6 m"), probe, drawn, tolerance_mm=1e-3)
+    some = body.faces.copy()
+    some[tenth] = some[tenth, ::-1]
+    rule = Rule(
+        "what is answered is right, or the mesh's health says that facets are turned over", (0.0, 1.0)
+    )
+    for name, what, faces in (
+        ("inside out", "all facets turned over: the far side answers", body.faces[:, ::-1]),
+        ("a tenth turned over", "every tenth facet turned over: the far side or nothing answers there", some),
+    ):
+        yield Trial(
+            name, f"ellipsoid, {what}", rule, body.probe(faces), drawn, tolerance_mm=1e-4, known_bad_mesh=True
+        )
+
+
+def _origins(n: int, rng: Rng) -> Iterator[Trial]:
+    round_body, square = hm.ellipsoid(), hm.box()
+    through = np.abs(np.einsum("fi,fi->f", square.normals, square.corners[:, 0])) < 1e-12
+    drawn = press(*places(square, n, rng, among=np.asarray(through)), rng)
+    what = "box with the sensor origin at a corner, touches on the three sides whose plane runs through it"
+    yield Trial("planes through the origin", what, exact("1e-9 m"), square.probe(), drawn, tolerance_mm=_NM)
+    far = np.array([0.6, -0.64, 0.48])
+    middle = round_body.vertices.mean(axis=0)
+    for name, origin in (
+        ("origin inside", middle + np.array([0.003, 0.002, -0.01])),
+        ("origin on a vertex", round_body.vertices[100]),
+        ("origin on a facet", round_body.vertices[round_body.faces[100]].mean(axis=0)),
+        ("mesh 1 m away", middle + far),
+    ):
+        body = round_body.moved(-origin)
+        drawn = press(*places(body, n, rng), rng)
+        yield Trial(name, f"ellipsoid, sensor {name}", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=_NM)
+
+
+def _sizes(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.bundled("t-shape", 1000)
+    drawn = press(*places(body, n, rng), rng, angle=(0.0, 40.0))
+    words = "the same reasons and points as the plain mesh, to 1e-9 of its size"
+    same = Rule(words, (0.0, 1.0), unflagged=1.0)
+    base = Trial("", "", same, body.probe(), drawn)
+
+    def twin(
+        name: str, what: str, other: Body, of: Drawn, scale: float, move: Callable[[Float], Float]
+    ) -> Trial:
+        gates = Gates(ambiguity_distance=0.005 * scale, follow_distance=0.010 * scale)
+        check, probe, said = like(base, move, other.size), other.probe(), f"T-shape, {what}"
+        return Trial(name, said, same, probe, of, gates=gates, tolerance_mm=10 * scale, check=check)
+
+    for name, scale in (
+        ("1 um large", 1e-6 / body.size),
+        ("1 km large", 1e3 / body.size),
+        ("mm and N*mm", 1e3),
+    ):
+        grown = Body(body.vertices * scale, body.faces)
+        wrenches = drawn.wrenches * np.repeat([1.0, scale], 3)
+        moved = Drawn(wrenches, drawn.points * scale)
+        said = f"lengths and torques times {scale:.3g}"
+        yield twin(name, said, grown, moved, scale, partial(np.multiply, scale))
+    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+    turn *= np.linalg.det(turn)
+    turned = Drawn((drawn.wrenches.reshape(-1, 2, 3) @ turn.T).reshape(-1, 6), drawn.points @ turn.T)
+    spun = Body(body.vertices @ turn.T, body.faces)
+    yield twin("turned", "mesh and wrench rotated", spun, turned, 1.0, lambda p: p @ turn.T)
+    order = rng.permutation(len(body.vertices))
+    faces = np.argsort(order)[body.faces][rng.permutation(len(body.faces))]
+    shuffled = Body(body.vertices[order], faces)
+    yield twin("shuffled", "facets and vertices in another order", shuffled, drawn, 1.0, lambda p: p)
+
+
+def _axes(n: int, rng: Rng) -> Iterator[Trial]:
+    body = hm.bundled("t-shape", 1000)
+    drawn = press(*places(body, n // 4, rng), rng, arm=0.0)
+    alone = [np.count_nonzero(hm.solve(body, w).angles < _OPEN.friction_angle) == 1 for w in drawn.wrenches]
+    drawn = drawn.take(np.array(alone))
+    try:
+        rays, by = (
+            EmbreeAxis(ContactSolver(body.probe(), gates=_OPEN)).locate_batch(drawn.wrenches).points,
+            "Embree",
+        )
+    except InputError:
+        rays, by = (
+            np.array([hm.entry(body, w) for w in drawn.wrenches]).reshape(-1, 3),
+            "a ray against every triangle",
+        )
+    what = f"T-shape, k = 0, where the axis enters once, against {by}"
+    truth = Drawn(drawn.wrenches, np.asarray(rays))
+    yield Trial("wrench axis", what, exact("1e-6 m"), body.probe(), truth, gates=_OPEN, tolerance_mm=1e-3)
+
+
+def _torques(n: int, rng: Rng) -> Iterator[Trial]:
+    body, bent = hm.ellipsoid(), hm.bundled("t-shape", 1000)
+    for pitch, said, tolerance in ((1.0, "1 m", 1e-9), (1e3, "1 km", 1e-6)):
+        drawn = press(*places(body, n, rng), rng, pitch=pitch)
+        what = f"ellipsoid, torque about the axis of {said} times the force"
+        rule = exact(f"{tolerance:g} m")
+        yield Trial(f"pitch {said}", what, rule, body.probe(), drawn, tolerance_mm=1e3 * tolerance)
+        drawn = press(*places(bent, n // 10, rng), rng, pitch=pitch)
+        rule = Rule(
+            "as many candidates as the exhaustive scan and as brute force, the truth among them",
+            unflagged=1.0,
+        )
+        what = f"T-shape, torque about the axis of {said} times the force: several contacts answer one wrench"
+        check = complete(bent, drawn)
+        yield Trial(f"pitch {said}, T-shape", what, rule, bent.probe(), drawn, gates=_OPEN, check=check)
+
+
+def _wins(found: Solutions, truth: Float) -> bool:
+    """Tell whether the truth has the least torque by 2 %: for one wrench it grows as 1 / cos(friction angle)."""
+    order = np.argsort(found.angles)[:2]
+    cosines = np.cos(np.radians(found.angles[order]))
+    clear = len(order) < 2 or cosines[1] < 0.98 * cosines[0]
+    return bool(clear and np.linalg.norm(found.points[order[0]] - truth) < 1e-9)
+
+
+def _directions(count: int, rng: Rng) -> Float:
+    vectors = rng.standard_normal((count, 3))
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
+
+
+GROUPS: dict[str, Callable[[int, Rng], Iterator[Trial]]] = {
+    "force along the surface": _tangential,
+    "forces too small and too large": _force,
+    "numbers that are none, channels at their limits": _numbers,
+    "contacts on edges and vertices": _borders,
+    "gaps between facets": _gaps,
+    "ambiguity on a T-shape": _ambiguity,
+    "overlaps at saddles": _saddles,
+    "broken meshes": _meshes,
+    "where the sensor origin is": _origins,
+    "sizes, units, turns and orders": _sizes,
+    "the wrench axis": _axes,
+    "very large torques": _torques,
+}

@@ -1,0 +1,300 @@
+"""How a hard case is tried and judged: wrenches with known contacts, both methods, one rule in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.contact import Batch, ContactSolver, Gates, Reason, WrenchNoise, methods
+from pipeline.mesh import Probe
+from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_meshes import Body, Bools, Drawn, Float
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What one method made of a case.
+
+    Attributes
+    ----------
+    answered : float
+        Share of tries that got a point, `ambiguous` ones included.
+    mean_mm, max_mm : float or None
+        Error of the points; None where there is no point, or no place it should be.
+    reasons : dict
+        Reason code -> tries.
+    wrong_unflagged : float
+        Share of tries with an error beyond the case's tolerance under an accepted reason.
+    wrong : float
+        Share of tries with an error beyond the tolerance, whatever the reason.
+    broken : int
+        Tries that break the case's own check.
+    """
+
+    answered: float
+    mean_mm: float | None
+    max_mm: float | None
+    reasons: dict[str, int]
+    wrong_unflagged: float
+    wrong: float = 0.0
+    broken: int = 0
+
+
+@dataclass(frozen=True)
+class Rule:
+    """What an outcome must be to pass.
+
+    Attributes
+    ----------
+    words : str
+        The rule, in words.
+    answered : (low, high)
+        Bounds of the answered share.
+    unflagged, wrong : float
+        Most that the shares of the same names may be.
+    reasons : tuple of Reason, optional
+        The only reasons allowed.
+    """
+
+    words: str
+    answered: tuple[float, float] = (1.0, 1.0)
+    unflagged: float = 0.0
+    wrong: float = 1.0
+    reasons: tuple[Reason, ...] | None = None
+
+    def faults(self, outcome: Outcome) -> tuple[str, ...]:
+        """Return what is wrong with an outcome, in words; nothing when it passes."""
+        low, high = self.answered
+        allowed = None if self.reasons is None else {r.name for r in self.reasons}
+        stray = {} if allowed is None else {r: n for r, n in outcome.reasons.items() if r not in allowed}
+        found = [
+            (
+                not low <= outcome.answered <= high,
+                f"answered {outcome.answered:.3%}, not {low:.1%} to {high:.1%}",
+            ),
+            (
+                not outcome.wrong_unflagged <= self.unflagged,
+                f"wrong and not flagged: {outcome.wrong_unflagged:.3%}",
+            ),
+            (not outcome.wrong <= self.wrong, f"wrong: {outcome.wrong:.3%}"),
+            (bool(stray), f"reasons that do not belong: {stray}"),
+            (outcome.broken != 0, f"tries that fail the case's own check: {outcome.broken}"),
+        ]
+        return tuple(words for bad, words in found if bad)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One hard case, as it went.
+
+    Attributes
+    ----------
+    name, what, expectation : str
+        In words.
+    tries : int
+        Wrenches.
+    contactbench, algorithm1 : Outcome
+    passed : bool
+        Whether contactbench kept the rule. Algorithm 1 is shown, not judged.
+    faults : tuple of str
+        What was wrong.
+    """
+
+    name: str
+    what: str
+    tries: int
+    expectation: str
+    contactbench: Outcome
+    algorithm1: Outcome
+    passed: bool
+    faults: tuple[str, ...] = ()
+
+
+Check = Callable[[methods.Method, Batch], Bools]
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """A case before it is tried.
+
+    Attributes
+    ----------
+    drawn : Drawn
+        The wrenches, and where each should be found; NaN where nowhere in particular.
+    tolerance_mm : float
+        A larger error is wrong.
+    check : callable, optional
+        Gives (n,) bool: tries that break a rule of the case's own.
+    known_bad_mesh : bool
+        Facets were turned over on purpose: an answer counts as flagged when the mesh's health says so.
+    """
+
+    name: str
+    what: str
+    rule: Rule
+    probe: Probe
+    drawn: Drawn
+    noise: WrenchNoise = field(default_factory=lambda: WrenchNoise(0.0, 0.0))
+    gates: Gates = field(default_factory=Gates)
+    tolerance_mm: float = 10.0
+    check: Check | None = None
+    known_bad_mesh: bool = False
+
+    def run(self) -> Case:
+        """Try both methods and judge."""
+        ours, theirs = (
+            self._outcome(make(self.probe, self.noise, self.gates))
+            for make in (methods.contactbench, methods.algorithm1)
+        )
+        faults = (
+            self.rule.faults(ours) if len(self.drawn) else ("no wrench fits the case: give more samples",)
+        )
+        return Case(self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults)
+
+    def _outcome(self, method: methods.Method) -> Outcome:
+        batch = method.locate_batch(self.drawn.wrenches)
+        error = 1e3 * np.linalg.norm(batch.points - self.drawn.points, axis=1)
+        far = error > self.tolerance_mm
+        health = self.probe.health
+        told = self.known_bad_mesh and (health.outward is False or not health.winding_consistent)
+        unflagged = far & (batch.reasons <= Reason.VERTEX) & (not told)
+        codes, counts = np.unique(batch.reasons, return_counts=True)
+        known = error[np.isfinite(error)]
+        tries = max(1, len(self.drawn))
+        return Outcome(
+            float(np.isfinite(batch.points[:, 0]).sum() / tries),
+            float(known.mean()) if len(known) else None,
+            float(known.max()) if len(known) else None,
+            {Reason(code).name: int(n) for code, n in zip(codes, counts, strict=True)},
+            float(unflagged.sum() / tries),
+            float(far.sum() / tries),
+            int(self.check(method, batch).sum()) if self.check else 0,
+        )
+
+
+def exact(tolerance: str) -> Rule:
+    """Return the rule that every point is there and right."""
+    return Rule(f"every wrench answered, every point right to {tolerance}", wrong=0.0)
+
+
+def refused(*reasons: Reason) -> Rule:
+    """Return the rule that there is no point, for these reasons."""
+    return Rule(
+        f"no point, and the reason is {' or '.join(r.name.lower() for r in reasons)}",
+        (0.0, 0.0),
+        reasons=reasons,
+    )
+
+
+def certified(body: Body, wrenches: Float) -> Check:
+    """Refuse points that are not the exact solution where they say (a convex body has only one)."""
+
+    def check(_: methods.Method, batch: Batch) -> Bools:
+        off, false = hm.certify(body, wrenches, batch)
+        return np.asarray(false | (off > 1e-9 * body.size))
+
+    return check
+
+
+def complete(body: Body, drawn: Drawn) -> Check:
+    """Refuse candidates that are not those of the exhaustive scan and of brute force, or lack the truth."""
+
+    def check(method: methods.Method, _: Batch) -> Bools:
+        broken = np.zeros(len(drawn), dtype=bool)
+        if not isinstance(method.engine, ContactSolver):
+            return broken
+        cap = method.engine.gates.friction_angle
+        for i, wrench in enumerate(drawn.wrenches):
+            found, all_found = method.engine.locate(wrench), method.engine.locate_exhaustively(wrench)
+            points = [c.point for c in found.candidates] + ([] if found.point is None else [found.point])
+            truth = hm.solve(body, wrench)
+            off = np.linalg.norm(np.reshape(points, (-1, 3)) - drawn.points[i], axis=1)
+            other = len(points) != np.count_nonzero(truth.angles < cap) and truth.sure
+            scanned = len(all_found.candidates) != len(found.candidates)
+            broken[i] = other or scanned or off.min(initial=np.inf) > 1e-6
+        return broken
+
+    return check
+
+
+def like(base: Trial, move: Callable[[Float], Float], size: float) -> Check:
+    """Refuse answers that are not those of another trial, moved, to 1e-9 of the body's size."""
+
+    def check(method: methods.Method, batch: Batch) -> Bools:
+        make = methods.METHODS[method.name]
+        before = make(base.probe, base.noise, base.gates).locate_batch(base.drawn.wrenches)
+        off = np.linalg.norm(batch.points - move(before.points), axis=1)
+        return np.asarray((batch.reasons != before.reasons) | (off > 1e-9 * size))
+
+    return check
+
+
+@dataclass(frozen=True)
+class HardCasesReport:
+    """Every case.
+
+    Attributes
+    ----------
+    samples, seed : int
+        As given to :func:`run`.
+    cases : list of Case
+    """
+
+    samples: int
+    seed: int
+    cases: list[Case]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every case passed."""
+        return all(case.passed for case in self.cases)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        return {"passed": self.passed, **asdict(self)}
+
+
+def table(report: HardCasesReport) -> Table:
+    """Build a table for the terminal: one row a case, Algorithm 1's figures after the stroke."""
+    from rich.table import Table
+
+    built = Table(title=f"Hard cases, contactbench | algorithm1, seed {report.seed}")
+    for title in ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict"):
+        built.add_column(title, justify="left" if title in ("case", "verdict") else "right")
+    for case in report.cases:
+        style = "" if case.passed else "red"
+        built.add_row(case.name, f"{case.tries:,}", *_figures(case), _verdict(case), style=style)
+    return built
+
+
+def markdown(report: HardCasesReport) -> str:
+    """Write the report as Markdown: the table, then each case in words."""
+    lines = [
+        "| case | tries | answered | largest error, mm | wrong, not flagged | verdict |",
+        "|---|---:|---:|---:|---:|---|",
+    ]
+    for case in report.cases:
+        figures = " | ".join(f.replace(" | ", " / ") for f in _figures(case))
+        lines.append(f"| {case.name} | {case.tries} | {figures} | {_verdict(case)} |")
+    lines += ["", "Figures are contactbench / algorithm1.", ""]
+    lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in report.cases]
+    return "\n".join(lines) + "\n"
+
+
+def _figures(case: Case) -> tuple[str, str, str]:
+    both = (case.contactbench, case.algorithm1)
+    return (
+        " | ".join(f"{100 * o.answered:.4g} %" for o in both),
+        " | ".join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
+        " | ".join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
+    )
+
+
+def _verdict(case: Case) -> str:
+    return "passed" if case.passed else "; ".join(case.faults)

@@ -1,0 +1,199 @@
+"""The hard cases pass, their report is plain data, and a case that goes wrong is not called passed."""
+
+from __future__ import annotations
+
+import io
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from rich.console import Console
+
+from pipeline.contact import Gates, Reason
+from pipeline.errors import InputError
+from pipeline.study import hard_cases
+from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_cases import Case, HardCasesReport, Outcome, Rule, Trial
+from pipeline.study.hard_trials import certified, complete, exact, like, refused
+
+GOOD = Outcome(1.0, 1e-9, 1e-8, {"OK": 10}, 0.0)
+
+
+@pytest.fixture(scope="module")
+def spoken() -> list[str]:
+    return []
+
+
+@pytest.fixture(scope="module")
+def report(spoken: list[str]) -> HardCasesReport:
+    return hard_cases.run(samples=200, seed=1, progress=spoken.append)
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(0)
+
+
+def named(report: HardCasesReport, name: str) -> Case:
+    return next(case for case in report.cases if case.name == name)
+
+
+def test_every_case_passes(report: HardCasesReport) -> None:
+    failed = {case.name: case.faults for case in report.cases if not case.passed}
+    assert not failed
+    assert all(case.tries > 0 for case in report.cases)
+
+
+def test_names_are_unique_and_every_group_is_announced(report: HardCasesReport, spoken: list[str]) -> None:
+    names = [case.name for case in report.cases]
+    assert len(set(names)) == len(names) >= 40
+    assert spoken == list(hard_cases.GROUPS)
+
+
+def test_the_literal_loop_breaks_where_it_should(report: HardCasesReport) -> None:
+    assert named(report, "gaps at vertices").algorithm1.answered == 0.0
+    assert named(report, "ambiguity, noise").algorithm1.wrong_unflagged > 0.01
+    assert named(report, "on edges, k = 0").algorithm1.answered < 1.0
+
+
+def test_report_is_plain_data(report: HardCasesReport) -> None:
+    data = json.loads(json.dumps(report.to_json(), allow_nan=False))
+    assert data["samples"] == 200
+    assert data["passed"] is report.passed
+    assert {"name", "what", "tries", "expectation", "contactbench", "algorithm1", "passed"} <= set(
+        data["cases"][0]
+    )
+    assert data["cases"][0]["contactbench"]["reasons"] == {"TANGENTIAL": data["cases"][0]["tries"]}
+
+
+def test_same_seed_gives_the_same_report(report: HardCasesReport) -> None:
+    assert hard_cases.run(samples=200, seed=1) == report
+
+
+def test_views_hold_every_case(report: HardCasesReport) -> None:
+    console = Console(width=220, file=io.StringIO())
+    console.print(hard_cases.table(report))
+    shown = console.file.getvalue()  # type: ignore[attr-defined]
+    assert all(case.name in shown for case in report.cases)
+    text = hard_cases.markdown(report)
+    rows = [line for line in text.splitlines() if line.startswith("|")]
+    assert len(rows) == len(report.cases) + 2
+    assert {row.count("|") for row in rows} == {7}
+    assert all(f"**{case.name}**: {case.what}" in text for case in report.cases)
+
+
+def test_too_few_samples_are_refused() -> None:
+    with pytest.raises(InputError, match="at least 100"):
+        hard_cases.run(samples=99)
+
+
+@pytest.mark.parametrize(
+    ("rule", "wrong", "words"),
+    [
+        (exact("1 m"), replace(GOOD, answered=0.99), "answered"),
+        (exact("1 m"), replace(GOOD, wrong=0.001), "wrong"),
+        (exact("1 m"), replace(GOOD, broken=1), "own check"),
+        (Rule("", unflagged=2e-4), replace(GOOD, wrong_unflagged=3e-4), "not flagged"),
+        (Rule("", reasons=(Reason.VERTEX,)), replace(GOOD, reasons={"VERTEX": 9, "OK": 1}), "belong"),
+        (refused(Reason.LOW_FORCE), GOOD, "answered"),
+        (refused(Reason.LOW_FORCE), Outcome(0.0, None, None, {"OFF_SURFACE": 1}, 0.0), "belong"),
+        (exact("1 m"), replace(GOOD, answered=float("nan")), "answered"),
+    ],
+)
+def test_a_rule_names_what_is_wrong(rule: Rule, wrong: Outcome, words: str) -> None:
+    assert words in " ".join(rule.faults(wrong))
+
+
+def test_a_rule_accepts_what_is_right() -> None:
+    assert exact("1 m").faults(GOOD) == ()
+    assert refused(Reason.LOW_FORCE).faults(Outcome(0.0, None, None, {"LOW_FORCE": 3}, 0.0)) == ()
+
+
+@pytest.fixture
+def trial(rng: np.random.Generator) -> Trial:
+    body = hm.ellipsoid(2)
+    drawn = hm.press(*hm.places(body, 50, rng), rng)
+    return Trial("name", "what", exact("1e-9 m"), body.probe(), drawn, tolerance_mm=1e-6)
+
+
+def test_a_trial_passes_only_against_the_right_truth(trial: Trial) -> None:
+    assert trial.run().passed
+    off = hm.Drawn(trial.drawn.wrenches, trial.drawn.points + 2e-9)
+    assert replace(trial, drawn=off).run().contactbench.wrong == 1.0
+    assert not replace(trial, drawn=off).run().passed
+
+
+def test_a_trial_without_wrenches_fails(trial: Trial) -> None:
+    case = replace(trial, drawn=trial.drawn.take(slice(0, 0))).run()
+    assert not case.passed
+    assert "more samples" in case.faults[0]
+
+
+def test_only_a_mesh_that_says_so_excuses_wrong_answers(trial: Trial) -> None:
+    inside_out = Trial(
+        "", "", Rule("", (0.0, 1.0)), hm.ellipsoid(2).probe(hm.ellipsoid(2).faces[:, ::-1]), trial.drawn
+    )
+    assert not inside_out.run().passed
+    assert replace(inside_out, known_bad_mesh=True).run().passed
+    sound = replace(trial, drawn=hm.Drawn(trial.drawn.wrenches, -trial.drawn.points), known_bad_mesh=True)
+    assert sound.run().contactbench.wrong_unflagged == 1.0
+
+
+def test_checks_refuse_answers_to_other_wrenches(trial: Trial) -> None:
+    body = hm.ellipsoid(2)
+    count = len(trial.drawn)
+    turned = trial.drawn.take(np.roll(np.arange(count), 1))
+    # The check belongs to one set of wrenches and is asked about another.
+    for check in (
+        certified(body, turned.wrenches),
+        complete(body, hm.Drawn(trial.drawn.wrenches, turned.points)),
+    ):
+        assert replace(trial, check=check).run().contactbench.broken == count
+    for check in (certified(body, trial.drawn.wrenches), complete(body, trial.drawn)):
+        assert replace(trial, check=check).run().contactbench.broken == 0
+    assert replace(trial, check=like(trial, lambda p: p, body.size)).run().contactbench.broken == 0
+    assert replace(trial, check=like(trial, lambda p: p + 1e-9, body.size)).run().contactbench.broken == count
+
+
+def test_complete_notices_a_lost_candidate(rng: np.random.Generator) -> None:
+    """A friction cone that is narrower for the solver than for the truth loses candidates."""
+    body = hm.bundled("t-shape", 500)
+    drawn = hm.press(*hm.places(body, 40, rng), rng, pitch=0.3)
+    probe = body.probe()
+    with_cone = Trial("", "", Rule("", unflagged=1.0), probe, drawn, gates=Gates(friction_angle=89.0))
+    assert replace(with_cone, check=complete(body, drawn)).run().passed
+    bent = hm.Body(body.vertices * [1.0, 1.0, 1.02], body.faces)
+    assert replace(with_cone, check=complete(bent, drawn)).run().contactbench.broken > 0
+
+
+def test_bodies_are_closed_and_face_outwards() -> None:
+    for body in (hm.ellipsoid(), hm.box(), hm.bundled("t-shape", 1000)):
+        health = body.probe().health
+        assert health.watertight
+        assert health.outward
+        assert body.holds(body.vertices.mean(axis=0).astype(np.longdouble))
+        assert not body.holds(np.array([1.0, 1.0, 1.0], np.longdouble))
+    assert hm.soup(hm.box()).probe().health.boundary_edges == 3 * len(hm.box().faces)
+
+
+def test_brute_force_finds_the_contact_of_a_box_by_hand() -> None:
+    """A force of 8 N down on the top at (1/64, 1/32, 1/16) m with a local torque of 0.01 N·m."""
+    body = hm.box()
+    point, force, normal = (
+        np.array([1 / 60, 1 / 33, 1 / 16]),
+        np.array([0.0, 0.0, -8.0]),
+        np.array([0.0, 0.0, 1.0]),
+    )
+    found = hm.solve(body, np.hstack([force, np.cross(point, force) + 0.01 * normal]))
+    assert found.points == pytest.approx(point[None], abs=1e-15)
+    assert found.angles == pytest.approx([0.0])
+
+
+def test_the_wrench_axis_enters_where_the_ray_does(rng: np.random.Generator) -> None:
+    body = hm.ellipsoid(2)
+    drawn = hm.press(*hm.places(body, 20, rng), rng, arm=0.0)
+    entered = np.array([hm.entry(body, wrench) for wrench in drawn.wrenches])
+    assert entered == pytest.approx(drawn.points, abs=1e-12)
+    away = np.array([0.0, 0.0, -5.0, 5.0, 5.0, 0.0])
+    assert np.isnan(hm.entry(body, away)).all()

@@ -53,7 +53,7 @@ class _Commands(TyperGroup):
 app = typer.Typer(
     name="contactbench",
     cls=_Commands,
-    help="Calibrate, verify and export intrinsic contact sensing for medical robot probes.",
+    help="Find where a medical robot's probe is touched, from one force/torque sensor, and how sure that is.",
     epilog="Example: contactbench locate --probe probe.stl --units mm wrenches.csv --out contacts.csv",
     no_args_is_help=True,
     add_completion=False,

@@ -1,7 +1,7 @@
 """When an answer is given, and when it is not."""
 
 from dataclasses import dataclass, field
-from math import cos, inf, isnan, radians
+from math import cos, inf, isfinite, isnan, radians
 from typing import Any
 
 import numpy as np
@@ -26,14 +26,18 @@ class Gates:
         Candidates beyond it lose; if there are no others the reason is ``tangential``.
     ambiguity_distance : float
         ``ambiguous`` when another candidate this far from the likeliest one cannot be ruled out, m.
-        Default 5 mm: less is within the spread of a light touch and does no harm to a controller.
+        Default 5 mm: less is within the spread of a light touch and does no harm to a controller. A near miss
+        (`rival_sigmas`) counts from twice this distance and the noise of the axis on.
     torque_ratio : float
         A candidate counts against the likeliest one only while its local torque is at most this many times
         larger, at least 1. Default 1.5: for one wrench the torque grows as 1/cos(friction angle), so the true
-        contact can lose unnoticed only where friction exceeds 48 degrees. A steeper world needs more.
+        contact can lose unnoticed only where friction exceeds 48 degrees. A steeper world needs more. For
+        near misses the ratio of those cosines is taken.
     rival_sigmas : float
         A facet that would accept the wrench were it this many standard deviations different counts as
-        such a candidate. Default 3. On the rim of a T-shape noise can hide the true contact altogether.
+        such a candidate; finite. Default 3. On the rim of a T-shape noise can hide the true contact
+        altogether. Where so many of them turn the force by half a radian, every answer on a probe that is
+        not convex is ``ambiguous``.
     follow_distance : float
         Candidates this near to the previous accepted contact are preferred to all others, m. Default
         10 mm: at 200 Hz a probe that slides at 1 m/s moves 5 mm, and a light touch scatters by 5 mm.
@@ -77,8 +81,12 @@ class Gates:
             )
         if not self.torque_ratio >= 1:
             raise InputError(f"Gates.torque_ratio must be at least 1, not {self.torque_ratio}")
-        if self.recent_samples < 0:
-            raise InputError(f"Gates.recent_samples must be at least 0, not {self.recent_samples}")
+        if not isfinite(self.rival_sigmas):
+            raise InputError(f"Gates.rival_sigmas must be finite, not {self.rival_sigmas}")
+        if not isinstance(self.recent_samples, int) or not 0 <= self.recent_samples < 2**63:
+            raise InputError(
+                f"Gates.recent_samples must be a whole number of at least 0, not {self.recent_samples}"
+            )
         if len(self.saturation) != 6 or any(isnan(v) or v <= 0 for v in self.saturation):
             raise InputError(f"Gates.saturation needs six positive limits (N, N·m), not {self.saturation}")
 

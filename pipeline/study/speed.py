@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from functools import partial
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -130,12 +131,15 @@ def run(
     Raises
     ------
     InputError
-        There is no such probe, or too few touches.
+        There is no such probe, too few touches, or two resolutions within 5 % of each other.
     """
     if probe not in assets.PROBE_NAMES:
         raise InputError(
             f"there is no bundled probe {probe!r}; choose one of {', '.join(assets.PROBE_NAMES)}"
         )
+    for low, high in pairwise(sorted(facets)):
+        if high < 1.05 * low:
+            raise InputError(f"facets: {low} and {high} are too close to tell apart; leave one out")
     if touches < 1_000:
         raise InputError(f"touches: {touches} are too few for a p99; give at least 1000")
     rng = np.random.default_rng(seed)

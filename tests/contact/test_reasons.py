@@ -204,6 +204,8 @@ def test_batch_views_cannot_be_written(solver):
         ({"friction_angle": 0}, "friction_angle"),
         ({"torque_ratio": 0.5}, "torque_ratio"),
         ({"recent_samples": -1}, "recent_samples"),
+        ({"recent_samples": 1.5}, "recent_samples"),
+        ({"rival_sigmas": float("inf")}, "rival_sigmas"),
         ({"saturation": (1, 1, 1)}, "six"),
         ({"saturation": (1, 1, 1, 1, 1, 0)}, "positive"),
         ({"max_age": float("nan")}, "max_age"),
@@ -264,3 +266,49 @@ def test_repr_reads_well(solver):
     assert "mm" in text
     assert "OK" in text
     assert "no point" in repr(solver.locate(np.zeros(6)))
+
+
+def test_more_noise_never_makes_a_t_shape_surer():
+    from pipeline.contact import WrenchNoise
+
+    wrench = push((0.0, 0.0, -9.0), bundled("t-shape", 1000).vertices.max(axis=0) * [0, 0, 1])
+    assert ContactSolver(bundled("t-shape", 1000)).locate(wrench).accepted
+    drowned = ContactSolver(bundled("t-shape", 1000), WrenchNoise(force=2.0)).locate(wrench)
+    assert drowned.reason == Reason.AMBIGUOUS
+    assert ContactSolver(ball(), WrenchNoise(force=2.0)).locate(push()).accepted  # convex: no rival anywhere
+
+
+def test_rows_of_a_batch_carry_what_single_contacts_do():
+    probe = bundled("convex", 1000, regions=True)
+    solver = ContactSolver(probe)
+    tip = np.array([0.002, 0.001, probe.vertices[:, 2].max()])
+    wrench = push((0.0, 0.0, -9.0), tip)
+    single, row = solver.locate(wrench), solver.locate_batch(wrench[None])[0]
+    assert (row.region, row.face, row.vertex) == (single.region, single.face, single.vertex)
+    assert single.region == 1
+    fitted = methods.iterative(probe).locate_batch(wrench[None])[0]
+    assert fitted.face is None
+    assert fitted.region == 0
+    assert fitted.point is not None
+
+
+def test_a_solver_can_be_shared_between_threads():
+    from concurrent.futures import ThreadPoolExecutor
+
+    import assets
+    from pipeline.simulation import draw_slide
+
+    wrenches = draw_slide(assets.surface("t-shape"), 20_000, np.random.default_rng(1)).wrenches
+    solver = ContactSolver(bundled("t-shape", 1000))
+    with ThreadPoolExecutor(2) as pool:
+        first, second = pool.map(solver.track_batch, [wrenches, wrenches[::-1]])
+    missing = [
+        np.isnan(b.points[:, 0]) != np.isnan(solver.locate_batch(w).points[:, 0])
+        for b, w in ((first, wrenches), (second, wrenches[::-1]))
+    ]
+    assert not np.any(missing)
+
+
+def test_bytes_are_no_wrench(solver):
+    with pytest.raises(TypeError, match="bytes"):
+        solver.locate(b"123456")

@@ -89,6 +89,7 @@ def test_timing_counts_every_call():
         (["--facets", "10"], "too coarse"),
         (["--facets", "many"], "no whole number"),
         (["--touches", "5"], "at least 1000"),
+        (["--facets", "500,501"], "too close to tell apart"),
     ],
 )
 def test_wrong_options_are_named(arguments, said):

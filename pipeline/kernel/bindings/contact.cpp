@@ -73,6 +73,8 @@ Rows6 to_rows(nb::handle wrenches) {
 }
 
 Wrench to_wrench(nb::handle wrench) {
+    if (PyBytes_Check(wrench.ptr()) || PyByteArray_Check(wrench.ptr()))
+        wrong_input("a wrench is six numbers, not bytes: Fx Fy Fz Mx My Mz in S, N and N*m");
     double v[6];
     std::size_t n = 0;
     try {
@@ -127,7 +129,7 @@ void bind_contact(nb::module_& m) {
         .def_prop_ro("torque", [](const Contact& c) { return c.chosen() ? c.chosen()->torque : nan; },
                      "Local torque k about the normal, N·m; NaN without a point.")
         .def_prop_ro("face", [](const Contact& c) { return index_or_none(c.chosen() ? c.chosen()->face : -1); },
-                     "Face number; on a vertex the lowest one around it; None without a point.")
+                     "Face number; on a vertex the lowest one around it; None without a point, or where the method knows none.")
         .def_prop_ro("vertex", [](const Contact& c) { return index_or_none(c.chosen() ? c.chosen()->vertex : -1); },
                      "Vertex number when the contact is on one, else None.")
         .def_prop_ro("region", [](const Contact& c) { return c.chosen() ? c.chosen()->region : 0; },

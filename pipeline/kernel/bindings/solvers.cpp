@@ -3,6 +3,7 @@
 #include <nanobind/stl/string.h>
 
 #include <chrono>
+#include <mutex>
 
 #include "bindings.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 struct Rows {
     explicit Rows(std::size_t n)
         : points(3 * n), normals(3 * n), forces(3 * n), moments(3 * n), torques(n), faces(n), vertices(n),
-          candidates(n), reasons(n) {}
+          candidates(n), regions(n), reasons(n) {}
 
     void set(std::size_t i, const Wrench& w, const Answer& a) {
         constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -25,7 +26,7 @@ struct Rows {
         if (a.chosen >= 0) c = a.hits[std::size_t(a.chosen)];
         put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F), put(moments, i, w.M);
         torques[i] = c.torque;
-        faces[i] = c.face, vertices[i] = c.vertex;
+        faces[i] = c.face, vertices[i] = c.vertex, regions[i] = c.region;
         candidates[i] = std::int32_t(a.hits.size());
         reasons[i] = std::uint8_t(a.reason);
     }
@@ -38,7 +39,7 @@ struct Rows {
     }
 
     std::vector<double> points, normals, forces, moments, torques;
-    std::vector<std::int32_t> faces, vertices, candidates;
+    std::vector<std::int32_t> faces, vertices, candidates, regions;
     std::vector<std::uint8_t> reasons;
 };
 
@@ -66,7 +67,7 @@ Contact row_contact(const Batch& b, std::size_t i) {
     k.torque = b.rows->torques[i];
     k.cosine = -dot(k.normal, c.wrench.F) / norm(c.wrench.F);
     k.face = b.rows->faces[i], k.vertex = b.rows->vertices[i];
-    k.region = b.context->model().region[std::size_t(k.face)];
+    k.region = b.rows->regions[i];
     k.why = Why::chosen;
     c.answer.hits.add(k);
     c.answer.chosen = 0;
@@ -108,6 +109,7 @@ nb::object batch_sigma_max(const Batch& b) {
 struct Main {
     std::shared_ptr<const Solver> context;
     Solver live;  // shares the model; holds the tracker
+    std::mutex busy;  // guards `live`: batches run without the interpreter's lock
     Answer solve(const Wrench& w) const { return context->locate(w); }
 };
 
@@ -160,11 +162,14 @@ struct Iterative {
 };
 
 template <class Solve>
-Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wrenches, Solve&& solve) {
+Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wrenches, Solve&& solve,
+                 std::mutex* busy = nullptr) {
     const std::size_t n = wrenches.shape(0);
     Batch b{context, std::make_shared<Rows>(n)};
     const double* data = wrenches.data();
     nb::gil_scoped_release release;
+    // Taken without the interpreter's lock and given back before it is asked for again: no deadlock.
+    const auto lock = busy ? std::unique_lock(*busy) : std::unique_lock<std::mutex>();
     for (std::size_t i = 0; i < n; ++i) {
         const Wrench w = to_wrench(data + 6 * i);
         b.rows->set(i, w, solve(i, w));
@@ -228,11 +233,14 @@ void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noi
     std::vector<std::int32_t> ranks(region.data(), region.data() + region.shape(0));
     WrenchCovariance s;
     std::copy(noise.data(), noise.data() + 36, &s.s[0][0]);
+    for (const auto& row : s.s)
+        for (const double value : row)
+            if (!std::isfinite(value)) throw std::invalid_argument("the noise covariance is not finite");
     std::vector<Vec3> points = to_points(vertices);
     nb::gil_scoped_release release;
     auto model = std::make_shared<const Model>(make_model(std::move(points), triangles, std::move(ranks)));
     auto context = std::make_shared<const Solver>(std::move(model), s, gates);
-    new (self) Main{context, *context};
+    new (self) Main{context, *context, {}};
 }
 
 // Contacts that a method outside the kernel worked out, in the same wrapping; face < 0: it found none.
@@ -243,12 +251,13 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
     if (points.shape(0) != n || faces.shape(0) != n || torques.shape(0) != n)
         throw nb::value_error("points, faces and torques must have one row per wrench");
     const auto& model = m.context->model();
-    for (std::size_t i = 0; i < n; ++i)
-        if (faces.data()[i] >= std::int32_t(model.normals.size()))
-            throw nb::index_error("face number out of range");
+    // A copy: the array may change while the interpreter's lock is given up.
+    const std::vector<std::int32_t> checked(faces.data(), faces.data() + n);
+    for (const std::int32_t face : checked)
+        if (face >= std::int32_t(model.normals.size())) throw nb::index_error("face number out of range");
     return solve_rows(m.context, rows, [&](std::size_t i, const Wrench& w) {
         return only_answer(*m.context, w, [&](Candidate& c) {
-            const std::int32_t face = faces.data()[i];
+            const std::int32_t face = checked[i];
             if (face < 0) return false;
             c.point = {points.data()[3 * i], points.data()[3 * i + 1], points.data()[3 * i + 2]};
             c.normal = model.normals[std::size_t(face)];
@@ -318,7 +327,7 @@ void bind_main(nb::module_& m) {
                 recent_samples, max_age, {}, region_only};
         std::copy(saturation.data(), saturation.data() + 6, g.saturation);
         construct(self, vertices, faces, region, noise, g);
-    }, nb::arg("vertices"), nb::arg("faces"), nb::arg("region"), nb::arg("noise"), nb::kw_only(),
+    }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"), nb::kw_only(),
        nb::arg("min_force"), nb::arg("cos_friction"), nb::arg("ambiguity_distance"), nb::arg("torque_ratio"), nb::arg("rival_sigmas"),
        nb::arg("follow_distance"), nb::arg("recent_samples"), nb::arg("max_age"), nb::arg("saturation"),
        nb::arg("region_only"));
@@ -345,28 +354,37 @@ void bind_main(nb::module_& m) {
        "Locate each row given the contact (n, 3) accepted before it, S, m; NaN for none.");
     solver.def("track", [](Main& s, Vector6 w) {
         const Wrench wrench = to_wrench(w.data());
+        const std::lock_guard lock(s.busy);
         return Contact{s.context, wrench, s.live.track(wrench)};
     }, nb::arg("wrench"), "The next sample of one stream: equal to locate with the last accepted contact.");
     solver.def("track", [](Main& s, nb::handle w) {
         const Wrench wrench = to_wrench(w);
+        const std::lock_guard lock(s.busy);
         return Contact{s.context, wrench, s.live.track(wrench)};
     }, nb::arg("wrench"));
     solver.def("track", [](Main& s, nb::handle w, double age) {
         const Wrench wrench = to_wrench(w);
+        const std::lock_guard lock(s.busy);
         return Contact{s.context, wrench, s.live.track(wrench, age)};
     }, nb::arg("wrench"), nb::arg("age"), "The same, with the sample's age in seconds.");
     solver.def("track_batch", [](Main& s, nb::handle rows) {
-        return solve_rows(s.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); });
+        return solve_rows(s.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); },
+                          &s.busy);
     }, nb::arg("wrenches"), "A stretch of one stream (n, 6), in order.");
     solver.def("track_batch", [](Main& s, nb::handle wrenches, nb::ndarray<const double, nb::shape<-1>, nb::c_contig,
                                                                 nb::device::cpu> ages) {
         const Rows6 rows = to_rows(wrenches);
         if (ages.shape(0) != rows.shape(0)) throw nb::value_error("ages must have one entry per wrench");
         const double* age = ages.data();
-        return solve_rows(s.context, rows, [&](std::size_t i, const Wrench& w) { return s.live.track(w, age[i]); });
+        return solve_rows(
+            s.context, rows, [&](std::size_t i, const Wrench& w) { return s.live.track(w, age[i]); }, &s.busy);
     }, nb::arg("wrenches"), nb::arg("ages"), "The same, with each sample's age in seconds (n,).");
-    solver.def("reset", [](Main& s) { s.live.reset(); }, "Forget the stream: the next sample is a first one.");
-    solver.def_prop_ro("previous", [](const Main& s) -> nb::object {
+    solver.def("reset", [](Main& s) {
+        const std::lock_guard lock(s.busy);
+        s.live.reset();
+    }, "Forget the stream: the next sample is a first one.");
+    solver.def_prop_ro("previous", [](Main& s) -> nb::object {
+        const std::lock_guard lock(s.busy);
         return s.live.previous() ? to_array(*s.live.previous()) : nb::none();
     }, "(3,) the contact that track follows, S, m, or None.");
     solver.def("locate_exhaustively", [](const Main& s, nb::handle w) {
@@ -377,7 +395,10 @@ void bind_main(nb::module_& m) {
                "Count rows whose candidates the pruned search and the exhaustive scan do not agree on, facet for "
                "facet and vertex for vertex.");
     solver.def("time_tracking", [](Main& s, nb::handle rows) {
-        return time_rows(to_rows(rows), [&](const Wrench& w) { return s.live.track(w); });
+        return time_rows(to_rows(rows), [&](const Wrench& w) {
+            const std::lock_guard lock(s.busy);
+            return s.live.track(w);
+        });
     }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");
     solver.def("foreign_batch", &foreign_batch, nb::arg("wrenches"), nb::arg("points"), nb::arg("faces"),
                nb::arg("torques"), "Contacts found by another method, given this solver's mesh, gates and noise.");

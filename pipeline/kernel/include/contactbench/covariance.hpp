@@ -20,6 +20,15 @@ struct WrenchCovariance {
     double force_bound() const { return std::sqrt(row_sum(0)); }
     double torque_bound() const { return std::sqrt(row_sum(3)); }
 
+    // Standard deviation that bounds the moment about any point within `lever` metres, N*m.
+    double moment_bound(double lever) const {
+        bool correlated = false;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 3; j < 6; ++j) correlated |= s[i][j] != 0.0;
+        const double torque = torque_bound(), force = force_bound() * lever;
+        return correlated ? torque + force : std::hypot(torque, force);
+    }
+
 private:
     // Largest absolute row sum of a diagonal block: no eigenvalue of it is larger.
     double row_sum(int first) const {

@@ -31,15 +31,13 @@ struct alignas(64) Node {
     float radius[lanes] = {};                              // of the box's corners about its centre
     float cos2_a[lanes] = {}, cos_a[lanes] = {}, sin_a[lanes] = {};  // cone half angle
     float rank[lanes] = {};                                // highest priority region inside
-    std::int32_t child[lanes];                             // node, or ~block for a leaf
+    std::int32_t child[lanes] = {};                        // node, or ~leaf for a leaf
 };
 
 inline constexpr std::int32_t empty_child = std::numeric_limits<std::int32_t>::max();
 inline constexpr float slack = 2e-6f;  // eight times the worst rounding of the tests below at |u| <= 4
 
-inline constexpr float free_direction = 1e15f;  // see NodeQuery::free
-
-// What a node is tested against. `reach`, `turn` and `free` widen the tests to wrenches near this one.
+// What a node is tested against. `reach` widens the tests: to contacts that miss the axis by as much.
 struct NodeQuery {
     float fx, fy, fz;           // sign * f, so that v = m + c x f with the next line
     float mx, my, mz;           // -sign * (m - h f)
@@ -50,13 +48,16 @@ struct NodeQuery {
     float h, h2, capsule;       // |h|, h^2 and |h| tan(theta); capsule is huge without a cap
     float cos_t, sin_t;         // the cap
     float reach = 0.0f;         // how far v and u may be off
-    float turn = 0.0f;          // how far the direction of f may be off, rad
-    float free = 0.0f;          // large when even the sign of h may be off: any normal will do
     float margin = 0.0f;        // slack, scaled to this query
 };
 
-inline NodeQuery make_node_query(const Query& q, double cos_cap, double sign) {
+// The side on which a push must lie: n = -sign(h) (m - p x f) / |...|. With h == 0 contact is on the
+// axis itself, where either sign will do.
+inline double push_sign(const Query& q) { return q.h < 0.0 ? -1.0 : 1.0; }
+
+inline NodeQuery make_node_query(const Query& q, double cos_cap) {
     NodeQuery n{};
+    const double sign = push_sign(q);
     const Vec3 f = sign * q.f, m = -sign * (q.m - q.h * q.f);
     n.fx = float(f.x), n.fy = float(f.y), n.fz = float(f.z);
     n.mx = float(m.x), n.my = float(m.y), n.mz = float(m.z);
@@ -72,9 +73,6 @@ inline NodeQuery make_node_query(const Query& q, double cos_cap, double sign) {
     return n;
 }
 
-// The side on which a push must lie: n = -sign(h) (m - p x f) / |...|. With h == 0 contact is on the
-// axis itself, where either sign will do.
-inline double push_sign(const Query& q) { return q.h < 0.0 ? -1.0 : 1.0; }
 
 // Bit l is set when child l may hold a contact of the wrench. Never clears a bit it should not:
 // guarded by the tests that compare the search with the exhaustive scan, facet for facet.
@@ -94,11 +92,11 @@ CONTACTBENCH_INLINE unsigned node_mask(const Node& n, const NodeQuery& q) {
                         (q.capsule + q.reach + q.margin);
     // Its normals against the friction cone.
     const Float8 back = ax * q.nx + ay * q.ny + az * q.nz;
-    const Float8 front = back - (load8(n.cos_a) * q.cos_t - sin_a * q.sin_t) + (q.turn + q.margin);
+    const Float8 front = back - (load8(n.cos_a) * q.cos_t - sin_a * q.sin_t) + q.margin;
     // Its normals against the required ones: a . u + sin(a) r >= cos(a) sqrt(u^2 - r^2), squared.
     const Float8 ball = load8(n.radius) + (q.reach + q.margin);
     const Float8 clear2 = ((vx * vx + vy * vy + vz * vz) + q.h2) - ball * ball;  // < 0: any direction
-    const Float8 along = (ax * vx + ay * vy + az * vz) + q.h * back + sin_a * ball + (q.free + q.margin);
+    const Float8 along = (ax * vx + ay * vy + az * vz) + q.h * back + sin_a * ball + q.margin;
     const Float8 cone = along * magnitude(along) - load8(n.cos2_a) * clear2;
     return nonnegative(smaller(smaller(larger(cone, -clear2), front), slab));
 }

@@ -22,7 +22,6 @@ struct Model {
     Topology topology;
     Hierarchy tree;
     double reach = 0.0;     // largest distance of a facet's corner from the sensor origin, m
-    bool has_regions = false;
     bool convex = false;    // closed and convex: at most one contact answers any wrench
 };
 
@@ -98,7 +97,9 @@ inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>&
     Model m;
     m.vertices = std::move(vertices);
     m.region = std::move(region);
-    for (std::int32_t r : m.region) m.has_regions |= r > 0;
+    for (std::size_t f = 0; f < m.region.size(); ++f)
+        if (m.region[f] < 0)
+            throw std::invalid_argument("facet " + std::to_string(f) + " has a negative region");
     m.frame = detail::bounding_frame(m.vertices, faces);
     if (!(m.frame.scale > 0.0) || !std::isfinite(m.frame.scale))
         throw std::invalid_argument("the mesh has no extent");

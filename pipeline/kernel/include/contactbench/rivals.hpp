@@ -3,7 +3,8 @@
 // plausible. So: is there a facet, far from the chosen point, that would accept the wrench if it were
 // off by no more than z sigma, and by no much larger local torque than the chosen one?
 //
-// Contract: S frame, SI. The answer is conservative (each edge may use its own z sigma). Whether there is
+// Contract: S frame, SI. A rival is accepted edge by edge within z sigma of that edge's moment, and its
+// contact misses the axis by no more than z sigma at the far end of the probe. Whether there is
 // one does not depend on the order of facets or the frame; which of several is named may. Cost: the nodes
 // that the widened axis meets away from the chosen point; on a convex probe there is no need to ask.
 #pragma once
@@ -100,7 +101,7 @@ CONTACTBENCH_INLINE unsigned rival_sieve(const Leaf& leaf, const RivalQuery& r) 
 
 // How far z sigma moves the axis at the far end of the probe, over the mesh scale.
 inline double rival_shift(const Model& m, const WrenchCovariance& noise, double sigmas, double force) {
-    return sigmas * std::hypot(noise.torque_bound(), noise.force_bound() * m.reach) / (force * m.frame.scale);
+    return sigmas * noise.moment_bound(m.reach) / (force * m.frame.scale);
 }
 
 // By how much, as a normalised length, the contact that c would be misses the axis: zero for a solution.
@@ -119,7 +120,7 @@ public:
         const double scale = 1.0 / m.frame.scale;
         shift_ = rival_shift(m, noise, how.sigmas, q.force);
         NodeQuery& wide = r_.wide;
-        wide = make_node_query(q, how.cos_friction, push_sign(q));
+        wide = make_node_query(q, how.cos_friction);
         wide.reach = float(shift_);
         const Vec3 centre = scale * (chosen.point - m.frame.centre);
         r_.point[0] = float(centre.x), r_.point[1] = float(centre.y), r_.point[2] = float(centre.z);
@@ -189,15 +190,15 @@ private:
 
 }  // namespace detail
 
-// Beyond half a radian the noise says nothing about where the axis is; the covariance says that.
-inline bool rivals_matter(const Query& q, const WrenchCovariance& noise, double sigmas) {
+// When z sigma turn the force by more than half a radian, or the axis is too far away to prune, rivals
+// cannot be told from the rest: then nothing is sure.
+inline bool rivals_known(const Query& q, const WrenchCovariance& noise, double sigmas) {
     return prunable(q) && sigmas * noise.force_bound() < 0.5 * q.force;
 }
 
-// True, with the best rival in `out`.
+// True, with the best rival in `out`. Precondition: rivals_known.
 inline bool find_rival(const Model& m, const Query& q, const Candidate& chosen,
                        const WrenchCovariance& noise, const RivalSearch& how, Candidate& out) {
-    if (!rivals_matter(q, noise, how.sigmas)) return false;
     return detail::RivalFinder(m, q, chosen, noise, how, out).run();
 }
 

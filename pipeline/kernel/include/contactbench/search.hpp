@@ -1,7 +1,7 @@
 // All candidates of a wrench: exhaustively, or through the hierarchy. Both give the same set.
 //
 // Contract: `cos_cap` drops candidates whose friction angle is larger; 0 keeps every pushing one.
-// scan is O(n); search is O(log n + answers) for a bounded pitch. No allocation (see Hits).
+// exhaust is O(n); search is O(log n + answers) for a bounded pitch. No allocation (see Hits).
 #pragma once
 
 #include "candidate.hpp"
@@ -113,7 +113,7 @@ inline void test_leaves(const Model& model, const Query& q, const NodeQuery& nq,
 
 inline void search(const Model& model, const Query& q, double cos_cap, Hits& hits) {
     if (!prunable(q)) return exhaust(model, q, cos_cap, hits);
-    const NodeQuery nq = make_node_query(q, cos_cap, push_sign(q));
+    const NodeQuery nq = make_node_query(q, cos_cap);
     test_leaves(model, q, nq, cos_cap, hits, [&](auto&& leaf) {
         NodeStack stack;
         stack.item[stack.size++] = 0;

@@ -23,7 +23,6 @@ public:
           torque_noise_(noise.torque_bound()) {}
 
     const Model& model() const { return *model_; }
-    const std::shared_ptr<const Model>& shared_model() const { return model_; }
     const WrenchCovariance& noise() const { return noise_; }
     const Gates& gates() const { return gates_; }
 
@@ -115,6 +114,10 @@ private:
 
     void look_for_rival(const Query& q, const Vec3* previous, Answer& a) const {
         Candidate& c = a.hits[std::size_t(a.chosen)];
+        if (!rivals_known(q, noise_, gates_.rival_sigmas)) {
+            a.reason = Reason::ambiguous;
+            return;
+        }
         // Nearer than what the noise of the axis may do on one patch, it is the same contact.
         const double shift = detail::rival_shift(*model_, noise_, gates_.rival_sigmas, q.force) * model_->frame.scale;
         // For one wrench |k| is inversely proportional to the cosine.
@@ -128,12 +131,12 @@ private:
         const std::int32_t mine = region_rank(c), theirs = region_rank(rival);
         const bool followed = moved <= gates_.follow_distance &&
                               norm(rival.point - *previous) > gates_.follow_distance;
-        if (theirs < mine) {  // what the operator expects to touch, missed by no more than noise
+        if (!followed && theirs < mine) {  // what the operator expects to touch, missed by no more than noise
             c.why = Why::region;
             rival.why = Why::chosen;
             a.chosen = std::int32_t(a.hits.size());
             a.reason = Reason::ambiguous;
-        } else if (theirs == mine && !followed) {
+        } else if (!followed) {
             a.reason = Reason::ambiguous;
         }
         a.hits.add(rival);

@@ -58,8 +58,6 @@ public:
         return {fan_.data() + start_[v], fan_.data() + start_[v + 1]};
     }
 
-    std::size_t vertex_count() const { return start_.empty() ? 0 : start_.size() - 1; }
-
     // Every edge has exactly two facets of matching winding.
     bool closed() const { return closed_; }
 

@@ -39,15 +39,15 @@ struct WideQuery {
     NodeQuery n;
     float ax, ay, az;  // anchor
     float turn, shift, pitch;
+    float free;  // large when even the sign of h may differ: any normal will do
 };
 
 inline WideQuery make_wide_query(const Neighbourhood& near, double cos_cap) {
     const Query& q = near.reference;
     const double pitch = near.pitch_reach();
-    WideQuery w{make_node_query(q, cos_cap, push_sign(q)), float(near.anchor.x), float(near.anchor.y),
-                float(near.anchor.z), float(near.turn), float(near.shift), float(std::fabs(q.h) + pitch)};
-    w.n.turn = float(near.turn);
-    w.n.free = std::fabs(q.h) <= pitch ? free_direction : 0.0f;
+    WideQuery w{make_node_query(q, cos_cap), float(near.anchor.x), float(near.anchor.y),
+                float(near.anchor.z), float(near.turn), float(near.shift), float(std::fabs(q.h) + pitch),
+                std::fabs(q.h) <= pitch ? 1e15f : 0.0f};
     w.n.margin *= 2.0f;
     return w;
 }
@@ -82,10 +82,10 @@ CONTACTBENCH_INLINE unsigned wide_mask(const Node& n, const WideQuery& w) {
     const Float8 back = ax * q.nx + ay * q.ny + az * q.nz;
     const Float8 slab = smaller(smaller(tx - magnitude(vx), ty - magnitude(vy)), tz - magnitude(vz)) +
                         (reach + tilt + widest_offset(back, cos_a, sin_a, w));
-    const Float8 front = back - (cos_a * q.cos_t - sin_a * q.sin_t) + (q.turn + q.margin);
+    const Float8 front = back - (cos_a * q.cos_t - sin_a * q.sin_t) + (w.turn + q.margin);
     const Float8 ball = radius + reach;
     const Float8 clear2 = ((vx * vx + vy * vy + vz * vz) + q.h2) - ball * ball;
-    const Float8 along = (ax * vx + ay * vy + az * vz) + q.h * back + sin_a * ball + (q.free + q.margin);
+    const Float8 along = (ax * vx + ay * vy + az * vz) + q.h * back + sin_a * ball + (w.free + q.margin);
     const Float8 cone = along * magnitude(along) - load8(n.cos2_a) * clear2;
     return nonnegative(smaller(smaller(larger(cone, -clear2), front), slab));
 }
@@ -162,7 +162,7 @@ private:
 };
 
 inline void search_from(const Cut& cut, const Model& model, const Query& q, double cos_cap, Hits& hits) {
-    const NodeQuery nq = make_node_query(q, cos_cap, push_sign(q));
+    const NodeQuery nq = make_node_query(q, cos_cap);
     test_leaves(model, q, nq, cos_cap, hits, [&](auto&& leaf) {
         NodeStack stack;
         const auto test = [&](const Node& n) { return node_mask(n, nq); };

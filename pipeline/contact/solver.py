@@ -31,8 +31,9 @@ class ContactSolver(kernel.Solver):
     ``locate_batch(wrenches)`` takes (n, 6) and releases the interpreter's lock.
     ``track(wrench)`` follows one stream and equals ``locate`` with the last accepted contact; ``reset()``
     begins another; calls from several threads wait for each other.
-    Wrenches are (6,) ``Fx Fy Fz Mx My Mz`` in S, N and N·m about the sensor origin, float64; they describe what the tissue does to the probe. A wrench that is not finite is answered
-    with ``Reason.NOT_FINITE``; one of another shape or type raises TypeError.
+    Wrenches are (6,) ``Fx Fy Fz Mx My Mz`` in S, N and N·m about the sensor origin, float64; they describe
+    what the tissue does to the probe. A wrench that is not finite is answered with
+    ``Reason.NOT_FINITE``; one of another shape or type raises TypeError.
     """
 
     def __init__(self, probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> None:

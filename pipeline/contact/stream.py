@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -16,6 +15,7 @@ import numpy as np
 
 from pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
 from pipeline.contact.wrench_csv import BLOCK_BYTES, WrenchFileError, WrenchReader, WrenchRows
+from pipeline.durable import scratch_beside, sync_folder
 from pipeline.errors import InputError
 from pipeline.kernel import Reason
 
@@ -319,8 +319,7 @@ def _sink(out: Path | BinaryIO) -> Iterator[Callable[[bytes], object]]:
         file = out.resolve()
         if file.exists() and not file.is_file():
             raise WrenchFileError(f"{out}: this is a folder or a device: choose the name of a file.")
-        # In the same folder, because a rename is atomic only within one file system.
-        scratch = file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")
+        scratch = scratch_beside(file)
         stream = scratch.open("xb")
 
     def write(data: bytes) -> None:
@@ -338,7 +337,7 @@ def _sink(out: Path | BinaryIO) -> Iterator[Callable[[bytes], object]]:
     except BaseException:
         scratch.unlink(missing_ok=True)
         raise
-    _sync_folder(file.parent)
+    sync_folder(file.parent)
 
 
 @contextmanager
@@ -350,14 +349,3 @@ def _explained(out: Path) -> Iterator[None]:
             f"{out}: the contacts cannot be written ({error.strerror or error}): choose a folder that exists,"
             " is writable and has space."
         ) from error
-
-
-def _sync_folder(folder: Path) -> None:
-    # The rename itself reaches the disk with its folder. Windows cannot open folders.
-    if os.name == "nt":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

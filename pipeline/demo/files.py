@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import secrets
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.durable import write_durably
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -47,16 +47,11 @@ def write_bytes(file: Path, data: bytes) -> None:
     InputError
         It cannot be written; a file that was there is left as it was.
     """
-    # In the same folder, because a rename is atomic only within one file system.
-    scratch = file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")
     try:
-        scratch.write_bytes(data)
-        scratch.replace(file)
-    except OSError as error:
-        scratch.unlink(missing_ok=True)
+        write_durably(file, data)
+    except (OSError, ValueError) as error:
         raise InputError(
-            f"{file}: the file cannot be written ({error.strerror or error}): choose a folder that is writable"
-            " and has space."
+            f"{file}: the file cannot be written ({error}): choose a folder that is writable and has space."
         ) from error
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-import secrets
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pipeline.durable import write_durably
 from pipeline.mesh.errors import MeshError
 from pipeline.mesh.ply import encode_ply
 
@@ -37,35 +37,9 @@ def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
         raise MeshError(f"{file}: a probe is saved as PLY, which keeps its regions: end the name in .ply.")
     data = encode_ply(probe.vertices, probe.faces, probe.region)
     try:
-        _write_durably(file, data)
+        write_durably(file, data)
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise MeshError(
             f"{file}: the probe cannot be written ({error}): choose a folder that exists, is writable and has"
             " space."
         ) from error
-
-
-def _write_durably(file: Path, data: bytes) -> None:
-    # In the same folder, because a rename is atomic only within one file system.
-    scratch = file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")
-    try:
-        with scratch.open("xb") as stream:
-            stream.write(data)
-            stream.flush()
-            os.fsync(stream.fileno())
-        scratch.replace(file)
-    except BaseException:
-        scratch.unlink(missing_ok=True)
-        raise
-    _sync_folder(file.parent)
-
-
-def _sync_folder(folder: Path) -> None:
-    # The rename itself reaches the disk with its folder. Windows cannot open folders.
-    if os.name == "nt":
-        return
-    descriptor = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)

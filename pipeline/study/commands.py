@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from pipeline.console import JsonOption, print_json, say
+from pipeline.durable import write_durably
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -105,6 +106,6 @@ def _show(tables: list[Table]) -> None:
 
 def _write(path: Path, text: str) -> None:
     try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written ({error.strerror}); choose another --out") from error
+        write_durably(path, text.encode())
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be written ({error}); choose another --out") from error

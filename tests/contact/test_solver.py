@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from contact_cases import ball, bundled, random_wrenches
 
-from pipeline import kernel
 from pipeline.contact import ContactSolver, Gates, Reason, WrenchNoise, methods
 from pipeline.mesh import Probe
 from pipeline.simulation import add_noise, draw_slide, draw_touches
@@ -214,11 +213,3 @@ def test_wrong_answers_are_flagged_on_the_t_shape():
     assert np.mean(wrong(ours) & (ours.reasons <= Reason.VERTEX)) <= 1e-4
     assert np.mean(ours.reasons == Reason.AMBIGUOUS) < 0.08
     assert np.mean(wrong(paper)) > 0.005
-
-
-def test_variants_of_the_kernel_are_bound_alike():
-    import importlib
-
-    base = importlib.util.find_spec("pipeline.kernel._kernel_base")
-    assert base is not None
-    assert kernel.variant in {"base", "avx2"}

@@ -1,0 +1,42 @@
+"""Files that are written as a whole or not at all, and are there after a power cut."""
+
+import os
+import secrets
+from pathlib import Path
+
+
+def write_durably(file: Path, data: bytes) -> None:
+    """Put `data` in `file` in one step: whoever reads it sees the old content or the new.
+
+    Raises
+    ------
+    OSError, ValueError
+        It cannot be written (ValueError: a path that no file system can hold). What was there stays.
+    """
+    scratch = scratch_beside(file)
+    try:
+        with scratch.open("xb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())
+        scratch.replace(file)
+    except BaseException:
+        scratch.unlink(missing_ok=True)
+        raise
+    sync_folder(file.parent)
+
+
+def scratch_beside(file: Path) -> Path:
+    """Return a name for a temporary file: in the same folder, because a rename is atomic only there."""
+    return file.with_name(f".{file.name}.{secrets.token_hex(8)}.tmp")
+
+
+def sync_folder(folder: Path) -> None:
+    """Bring a folder's names to the disk: a rename is durable only then. Windows cannot open folders."""
+    if os.name == "nt":
+        return
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -74,33 +74,29 @@ Contact row_contact(const Batch& b, std::size_t i) {
     return c;
 }
 
+// Calls `use(row, covariance, normal)` for every row that has a point, without the interpreter's lock.
+template <class Use>
+void visit_covariances(const Batch& b, Use&& use) {
+    nb::gil_scoped_release release;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        if (!has_point(Reason(b.rows->reasons[i]))) continue;
+        Candidate c;
+        c.point = Rows::get(b.rows->points, i), c.normal = Rows::get(b.rows->normals, i);
+        use(i, contact_covariance(c, Rows::get(b.rows->forces, i), b.context->noise()), c.normal);
+    }
+}
+
 nb::object batch_covariances(const Batch& b) {
     std::vector<double> out(9 * b.size(), std::numeric_limits<double>::quiet_NaN());
-    {
-        nb::gil_scoped_release release;
-        for (std::size_t i = 0; i < b.size(); ++i) {
-            if (!has_point(Reason(b.rows->reasons[i]))) continue;
-            Candidate c;
-            c.point = Rows::get(b.rows->points, i), c.normal = Rows::get(b.rows->normals, i);
-            const Mat3 s = contact_covariance(c, Rows::get(b.rows->forces, i), b.context->noise());
-            std::copy(&s.m[0][0], &s.m[0][0] + 9, out.begin() + std::ptrdiff_t(9 * i));
-        }
-    }
+    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3) {
+        std::copy(&s.m[0][0], &s.m[0][0] + 9, out.begin() + std::ptrdiff_t(9 * i));
+    });
     return make_array(std::move(out), {b.size(), 3, 3});
 }
 
 nb::object batch_sigma_max(const Batch& b) {
     std::vector<double> out(b.size(), std::numeric_limits<double>::quiet_NaN());
-    {
-        nb::gil_scoped_release release;
-        for (std::size_t i = 0; i < b.size(); ++i) {
-            if (!has_point(Reason(b.rows->reasons[i]))) continue;
-            Candidate c;
-            c.point = Rows::get(b.rows->points, i), c.normal = Rows::get(b.rows->normals, i);
-            const Mat3 s = contact_covariance(c, Rows::get(b.rows->forces, i), b.context->noise());
-            out[i] = norm(ellipse_axes(s, c.normal)[0]);
-        }
-    }
+    visit_covariances(b, [&](std::size_t i, const Mat3& s, Vec3 normal) { out[i] = norm(ellipse_axes(s, normal)[0]); });
     return make_array(std::move(out), {b.size()});
 }
 

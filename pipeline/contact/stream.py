@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 import numpy as np
 
 from pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
-from pipeline.contact.wrench_csv import BLOCK_BYTES, WrenchFileError, WrenchReader, WrenchRows
+from pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
 from pipeline.durable import scratch_beside, sync_folder
 from pipeline.errors import InputError
 from pipeline.kernel import Reason
+from pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -126,7 +127,7 @@ def locate_file(
     refuse_overwriting(out, source)
     begin = time.perf_counter()
     tally = _Tally()
-    with _opened(source) as (stream, name, size), _sink(out) as write:
+    with open_table(source, WrenchFileError) as (stream, name, size), _sink(out) as write:
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
         write(HEADER)
         text = ContactRows()
@@ -286,25 +287,6 @@ def refuse_overwriting(out: Path | BinaryIO, source: Path | BinaryIO) -> None:
         return  # one of them does not exist, or opening it will say what is wrong
     if same:
         raise WrenchFileError(f"{out}: the output would replace the input: choose another name for it.")
-
-
-@contextmanager
-def _opened(source: Path | BinaryIO) -> Iterator[tuple[BinaryIO, str, int]]:
-    if not isinstance(source, Path):
-        yield source, "standard input", 0
-        return
-    try:
-        stream = source.open("rb")
-    except FileNotFoundError:
-        raise WrenchFileError(f"{source}: there is no such file: check the path.") from None
-    except IsADirectoryError:
-        raise WrenchFileError(f"{source}: this is a folder: choose a CSV file inside it.") from None
-    except (OSError, ValueError) as error:
-        raise WrenchFileError(
-            f"{source}: the file cannot be opened ({error}): check its permissions."
-        ) from error
-    with stream:
-        yield stream, str(source), os.fstat(stream.fileno()).st_size
 
 
 @contextmanager

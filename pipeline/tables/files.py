@@ -1,0 +1,98 @@
+"""Tables as files: opened with an explanation, and small ones read at once."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+
+from pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from pipeline.errors import InputError
+
+ROW_LIMIT = 100_000
+
+
+@contextmanager
+def open_table(
+    source: Path | BinaryIO, error: type[InputError] = TableError
+) -> Iterator[tuple[BinaryIO, str, int]]:
+    """
+    Open a table for reading, unless it is open, and say why where that fails.
+
+    Yields
+    ------
+    stream : binary file
+    name : str
+        What messages should call it.
+    size : int
+        In bytes; 0 if that is unknown.
+    """
+    if not isinstance(source, Path):
+        yield source, "standard input", 0
+        return
+    try:
+        stream = source.open("rb")
+    except FileNotFoundError:
+        raise error(f"{source}: there is no such file: check the path.") from None
+    except IsADirectoryError:
+        raise error(f"{source}: this is a folder: choose a CSV file inside it.") from None
+    except (OSError, ValueError) as fault:
+        raise error(f"{source}: the file cannot be opened ({fault}): check its permissions.") from fault
+    with stream:
+        yield stream, str(source), os.fstat(stream.fileno()).st_size
+
+
+def read_table(
+    source: Path | BinaryIO,
+    select: Callable[[TableReader], None],
+    wording: Wording,
+    *,
+    row_limit: int = ROW_LIMIT,
+    block_bytes: int = BLOCK_BYTES,
+) -> TableRows:
+    """
+    Read a small table as a whole.
+
+    Parameters
+    ----------
+    source : path or binary file
+        A CSV file.
+    select : callable
+        Gets the reader, whose `names` are known, and calls its `select`.
+    wording : Wording
+        What messages say about its content.
+    row_limit : int
+        More rows are refused: the wrong file should not fill the memory.
+    block_bytes : int
+        How much is read at a time.
+
+    Raises
+    ------
+    wording.error
+        The file cannot be used, or is too long.
+    """
+    blocks: list[TableRows] = []
+    room = row_limit
+    with open_table(source, wording.error) as (stream, name, _):
+        reader = TableReader(stream, name, wording, block_bytes=block_bytes)
+        select(reader)
+        for rows in reader:
+            if len(rows.lines) > room:
+                what = f"more than {row_limit:,} rows of {wording.rows}: choose the right file or shorten it."
+                raise reader.error(what, int(rows.lines[room]))
+            room -= len(rows.lines)
+            blocks.append(rows)
+    texts = [rows.text for rows in blocks if rows.text is not None]
+    return TableRows(
+        reader.columns,
+        np.concatenate([rows.numbers for rows in blocks]),
+        np.concatenate(texts) if texts else None,
+        np.concatenate([rows.lines for rows in blocks]),
+    )

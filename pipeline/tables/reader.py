@@ -1,0 +1,383 @@
+"""Tables from CSV: blocks of rows, fast where the file is plain, careful where it is not.
+
+A block whose lines all have as many commas as the header goes through NumPy as a whole. Any other block
+(quoted or blank cells, blank lines, anything wrong) is read once more, cell by cell: that reading either
+succeeds or knows the line and the column to name.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Sequence
+
+    import numpy.typing as npt
+
+# About 64,000 rows of seven columns: large enough for NumPy, small enough for the processor's cache.
+BLOCK_BYTES = 4 * 2**20
+
+# Longer than any line of numbers. Without such limits a file that is no CSV would fill the memory.
+_LONGEST_LINE = 2**20
+_LONGEST_TEXT = 256
+
+_COMMA, _NEWLINE = b",\n"
+_BOM = b"\xef\xbb\xbf"  # some programs put it before UTF-8
+
+
+class TableError(InputError):
+    """A table that cannot be used: names the file, the line, and the remedy."""
+
+
+@dataclass(frozen=True)
+class Wording:
+    """
+    What messages say about a kind of table.
+
+    Attributes
+    ----------
+    header : str
+        The header that such a file needs, as one would type it.
+    rows : str
+        What the rows are, in the plural.
+    meaning : str
+        Units and frames of the columns; follows "Name the columns t,x,y,z: ".
+    not_finite : str
+        What to do about a NaN, an infinity or an empty cell: a remedy with a full stop.
+    text : str
+        What the text column should hold.
+    error : type of InputError
+        What is raised.
+    """
+
+    header: str
+    rows: str = "numbers"
+    meaning: str = ""
+    not_finite: str = "correct or remove the row."
+    text: str = "a short text"
+    error: type[InputError] = TableError
+
+
+@dataclass(frozen=True)
+class TableRows:
+    """
+    Consecutive rows of a table.
+
+    Attributes
+    ----------
+    columns : tuple of str
+        The names of the k columns of numbers.
+    numbers : (n, k) float64
+        The cells of these columns.
+    text : (n,) bytes or None
+        The cells of the text column as they stand in the file, UTF-8; None without such a column.
+    lines : (n,) int64
+        The line of each row in the file; the header is line 1.
+    """
+
+    columns: tuple[str, ...]
+    numbers: npt.NDArray[np.float64]
+    text: npt.NDArray[np.bytes_] | None
+    lines: npt.NDArray[np.int64]
+
+    def column(self, name: str) -> npt.NDArray[np.float64]:
+        """Return the (n,) numbers of one column; KeyError if it was not selected or is not there."""
+        if name not in self.columns:
+            raise KeyError(name)
+        return self.numbers[:, self.columns.index(name)]
+
+
+class TableReader:
+    """
+    Read the header of a CSV file, then, after `select`, iterate once over its rows in blocks.
+
+    Parameters
+    ----------
+    stream : binary file
+        At its beginning; need not be seekable.
+    name : str
+        What messages call the file.
+    wording : Wording
+        What messages say about its content.
+    block_bytes : int
+        How much is read at a time. The rows do not depend on it, only their division into blocks does.
+
+    Attributes
+    ----------
+    names : tuple of str
+        The header, without the spaces around its cells.
+    columns : tuple of str
+        The columns of numbers that were selected and are there.
+    bytes_read : int
+        From the stream so far.
+
+    Raises
+    ------
+    wording.error
+        The header is unusable; when iterated: a row is, or there is none.
+    """
+
+    def __init__(
+        self, stream: BinaryIO, name: str, wording: Wording, *, block_bytes: int = BLOCK_BYTES
+    ) -> None:
+        self.bytes_read = 0
+        self.columns: tuple[str, ...] = ()
+        self._stream = stream
+        self._name = name
+        self._wording = wording
+        self._block_bytes = block_bytes
+        self._line = 1  # of the next block's first row
+        self._blocks = self._complete_lines()
+        self._pending = b""
+        self.names = self._header()
+
+    def select(
+        self,
+        required: Sequence[str],
+        *,
+        optional: Sequence[str] = (),
+        text: str | None = None,
+        allow_nan: Collection[str] = (),
+    ) -> None:
+        """
+        Choose the columns to read; all others are ignored.
+
+        Parameters
+        ----------
+        required : sequence of str
+            Columns of numbers, in the order that the rows will have.
+        optional : sequence of str
+            Further ones, which come after them where they are there.
+        text : str, optional
+            A column that is passed on as it stands. May be one of numbers too.
+        allow_nan : collection of str
+            Columns in which NaN, infinity and empty cells are let through (an empty cell as NaN).
+
+        Raises
+        ------
+        wording.error
+            A column is missing, or occurs twice.
+        """
+        self.columns = (*required, *(column for column in optional if column in self.names))
+        if not self.columns:
+            raise ValueError("select at least one column of numbers")
+        wanted = dict.fromkeys(self.columns if text is None else (text, *self.columns))
+        self._check_names([column for column in wanted if column not in self.names], list(wanted))
+        self._indices = [self.names.index(column) for column in self.columns]
+        self._finite = np.array([column not in allow_nan for column in self.columns])
+        self._text = None if text is None else self.names.index(text)
+
+    def __iter__(self) -> Iterator[TableRows]:
+        """Yield blocks of at least one row."""
+        if not self.columns:
+            raise RuntimeError("select columns before reading rows")
+        empty = True
+        while self._pending:
+            rows = self._parse(self._pending)
+            if len(rows.lines):
+                empty = False
+                self._refuse_not_finite(rows)
+                yield rows
+            self._line += self._pending.count(b"\n")
+            self._pending = next(self._blocks, b"")
+        if empty:
+            raise self.error("there is a header but no row below it: record again or choose another file.")
+
+    def error(self, what: str, line: int | None = None) -> InputError:
+        """Return the error to raise about this file, for what only the caller can find wrong."""
+        return self._wording.error(f"{self._name}: " + ("" if line is None else f"line {line}: ") + what)
+
+    # ---- bytes -------------------------------------------------------------------------------
+
+    def _complete_lines(self) -> Iterator[bytes]:
+        """Yield text that ends with a line feed, about a block at a time."""
+        rest = b""
+        while data := self._read():
+            cut = data.rfind(b"\n") + 1
+            if cut:
+                yield self._clean(rest + data[:cut])
+                rest = data[cut:]
+            else:
+                rest += data
+            if len(rest) > _LONGEST_LINE:
+                what = f"a line is longer than 1 MiB: this is not a CSV file of {self._wording.rows}."
+                raise self.error(what)
+        if rest:
+            yield self._clean(rest + b"\n")
+
+    def _read(self) -> bytes:
+        try:
+            data = self._stream.read(self._block_bytes)
+        except OSError as error:
+            raise self.error(f"the file cannot be read ({error}): copy it to another place.") from error
+        self.bytes_read += len(data)
+        return data
+
+    def _clean(self, block: bytes) -> bytes:
+        bad = block.find(b"\0")
+        if bad < 0 and not block.isascii():
+            try:
+                block.decode()
+            except UnicodeDecodeError as error:
+                bad = error.start
+        if bad >= 0:
+            line = self._line + block.count(b"\n", 0, bad)
+            raise self.error("this is not UTF-8 text: save the table as CSV (UTF-8).", line)
+        return block.replace(b"\r\n", b"\n")
+
+    # ---- header ------------------------------------------------------------------------------
+
+    def _header(self) -> tuple[str, ...]:
+        block = next(self._blocks, b"").removeprefix(_BOM)
+        if not block.strip():
+            what = f"the file is empty: it needs the header {self._wording.header} and rows below it."
+            raise self.error(what)
+        end = block.index(b"\n") + 1
+        names = tuple(cell.strip() for cell in self._split(block[: end - 1].decode(), 1))
+        self._line = 2
+        self._pending = block[end:] or next(self._blocks, b"")
+        return names
+
+    def _check_names(self, missing: Sequence[str], wanted: Sequence[str]) -> None:
+        if missing:
+            found = ", ".join(name if name else "(no name)" for name in self.names)
+            what = f"column{'s' * (len(missing) > 1)} {', '.join(missing)} missing; found: {found[:200]}."
+            raise self.error(f"{what} {self._header_remedy()}", 1)
+        for column in wanted:
+            count = self.names.count(column)
+            if count > 1:
+                raise self.error(f"column {column} occurs {count} times: keep one and rename the others.", 1)
+
+    def _header_remedy(self) -> str:
+        header = self._wording.header
+        if any(mark in name for name in self.names for mark in ";\t"):
+            return f"Separate the columns with commas and write decimals with a point: {header}"
+        try:
+            float(self.names[0] if self.names else "")
+        except ValueError:
+            meaning = self._wording.meaning
+            return f"Name the columns {header}" + (f": {meaning}." if meaning else ".")
+        return f"The first line holds numbers: put the header {header} above it."
+
+    # ---- rows --------------------------------------------------------------------------------
+
+    def _parse(self, block: bytes) -> TableRows:
+        # A carriage return inside a line ends it for NumPy, but not for the text and the line numbers.
+        # Of nothing but blank lines, which a table of one column may consist of, NumPy would warn.
+        if b'"' not in block and b"\r" not in block and not block.isspace():
+            rows = self._parse_plain(block)
+            if rows is not None:
+                return rows
+        return self._parse_carefully(block)
+
+    def _parse_plain(self, block: bytes) -> TableRows | None:
+        """Read a block in which every line has as many cells as the header, or return None."""
+        data = np.frombuffer(block, dtype=np.uint8)
+        newlines = data == _NEWLINE
+        ends = np.flatnonzero(newlines | (data == _COMMA))
+        cells = len(self.names)
+        count, surplus = divmod(len(ends), cells)
+        if surplus or np.count_nonzero(newlines) != count or not newlines[ends[cells - 1 :: cells]].all():
+            return None
+        text = None
+        if self._text is not None:
+            text = self._plain_text(data, ends, self._text)
+            if text is None:
+                return None
+        try:
+            numbers = np.loadtxt(
+                io.StringIO(block.decode()), delimiter=",", comments=None, usecols=self._indices, ndmin=2
+            )
+        except ValueError:
+            return None
+        if len(numbers) != count:  # a blank line in a table of one column
+            return None
+        return TableRows(self.columns, numbers, text, np.arange(self._line, self._line + count))
+
+    def _plain_text(
+        self, data: npt.NDArray[np.uint8], ends: npt.NDArray[np.int64], column: int
+    ) -> npt.NDArray[np.bytes_] | None:
+        cells = len(self.names)
+        last = ends[column::cells]
+        # The first cell of a line begins behind the line before it, the first of all at 0.
+        before = ends[column - 1 :: cells] if column else np.concatenate(([-1], ends[cells - 1 : -1 : cells]))
+        first = before + 1
+        lengths = last - first
+        width = max(int(lengths.max()), 1)
+        if width > _LONGEST_TEXT:
+            return None
+        place = np.arange(width)
+        texts = data.take(first[:, None] + place, mode="clip")
+        texts[place >= lengths[:, None]] = 0
+        return texts.view(f"S{width}")[:, 0]
+
+    def _parse_carefully(self, block: bytes) -> TableRows:
+        texts: list[bytes] = []
+        numbers: list[list[float]] = []
+        lines: list[int] = []
+        for line, row in enumerate(block.decode().split("\n")[:-1], self._line):
+            if not row.strip():
+                continue
+            cells = self._split(row, line)
+            self._check_count(cells, line)
+            numbers.append([self._number(cells[at], i, line) for i, at in enumerate(self._indices)])
+            if self._text is not None:
+                texts.append(self._text_cell(cells[self._text], line))
+            lines.append(line)
+        table = np.array(numbers, dtype=np.float64).reshape(-1, len(self.columns))
+        text = None if self._text is None else np.array(texts, dtype=np.bytes_)
+        return TableRows(self.columns, table, text, np.array(lines, dtype=np.int64))
+
+    def _split(self, text: str, line: int) -> list[str]:
+        try:
+            return next(csv.reader([text], strict=True), [])
+        except csv.Error as error:
+            what = f"the cells cannot be told apart ({error}): check the quotes and the line ends."
+            raise self.error(what, line) from None
+
+    def _check_count(self, cells: list[str], line: int) -> None:
+        if len(cells) == len(self.names):
+            return
+        what = f"{len(cells)} cell{'s' * (len(cells) != 1)}, but the header has {len(self.names)}"
+        if len(cells) < len(self.names):
+            raise self.error(f"{what}: complete the row or remove it.", line)
+        raise self.error(f"{what}: remove what is too much, and write decimals with a point.", line)
+
+    def _number(self, cell: str, place: int, line: int) -> float:
+        text = cell.strip()
+        if not text:
+            if not self._finite[place]:
+                return math.nan
+            raise self.error(f"column {self.columns[place]} is empty: {self._wording.not_finite}", line)
+        try:
+            # Python also takes 1_000 and the digits of other scripts, which no other reader does.
+            return float(text if text.isascii() and "_" not in text else "no number")
+        except ValueError:
+            what = f"holds {text[:40]!r}, which is not a number: correct or remove the row."
+            raise self.error(f"column {self.columns[place]} {what}", line) from None
+
+    def _text_cell(self, cell: str, line: int) -> bytes:
+        text = cell.encode()
+        if len(text) > _LONGEST_TEXT:
+            what = f"has {len(text)} bytes, more than {_LONGEST_TEXT}: it should hold {self._wording.text}."
+            raise self.error(f"column {self.names[self._text or 0]} {what}", line)
+        if any(mark in cell for mark in ',"\r'):
+            return b'"' + text.replace(b'"', b'""') + b'"'
+        return text
+
+    def _refuse_not_finite(self, rows: TableRows) -> None:
+        if not self._finite.any() or np.isfinite(rows.numbers).all():
+            return
+        bad = np.argwhere(~np.isfinite(rows.numbers) & self._finite)
+        if len(bad):
+            row, place = bad[0].tolist()
+            what = f"holds {rows.numbers[row, place]}: {self._wording.not_finite}"
+            raise self.error(f"column {self.columns[place]} {what}", int(rows.lines[row]))

@@ -1,0 +1,250 @@
+"""The twelve parameters from poses: two-stage least squares, then joint maximum likelihood.
+
+Observation model of pose i, with R_i = R_SW and independent Gaussian noise of known size:
+
+    F_i = R_i g + F0,    M_i = L x (R_i g) + M0
+
+The first stage is linear in (g, F0). The second takes the *predicted* R_i g as its regressor: a measured
+force would carry its noise into the regressor and shrink L towards zero (errors in variables). Both stages
+leave information on the table, because torques too say something about g; Gauss-Newton on all twelve,
+weighted by the noise, uses it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtrc, chdtri
+
+from pipeline.calibration.model import (
+    CENTRE_OF_MASS,
+    FORCE_BIAS,
+    GRAVITY,
+    TORQUE_BIAS,
+    cross_matrix,
+    prediction_jacobian,
+)
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.poses import Stack
+
+# What a parameter could be if the poses say nothing of it: N, N, m, N·m. Only directions that the poses do
+# not show get this uncertainty; it is wide, so that everything computed from it says "unknown".
+UNKNOWN = np.repeat([20.0, 20.0, 0.3, 3.0], 3)
+
+# Orientations are known to some tenths of a degree. What poses separate by less than this (as a sine, per
+# pose) they do not separate: a noise-free set spun about the vertical is as blind as one spun nearly so.
+BLIND = 5e-3
+
+ALL = np.ones(12, dtype=bool)
+_IDENTITY = np.eye(12)
+
+_STEPS, _HALVINGS = 25, 12
+_CONVERGED = 1e-4  # of a standard deviation
+
+
+@dataclass(frozen=True, eq=False)
+class PoseNoise:
+    """Standard deviation of a pose's *mean* reading: what averaging leaves, drift and hum included.
+
+    Parameters
+    ----------
+    force : float or (3,)
+        N, per axis of S.
+    torque : float or (3,)
+        N·m, per axis of S.
+    estimated : bool
+        The values come from the poses themselves.
+    freedom : (float, float)
+        Degrees of freedom behind the two values; infinite for values that are known.
+    least : (6,)
+        What the scatter within the poses says the noise is at least, N and N·m.
+    """
+
+    force: float | NDArray[np.float64]
+    torque: float | NDArray[np.float64]
+    estimated: bool = False
+    freedom: tuple[float, float] = (np.inf, np.inf)
+    least: NDArray[np.float64] = field(default_factory=lambda: np.zeros(6))
+
+    def __post_init__(self) -> None:
+        for name, value, unit in (("force", self.force, "N"), ("torque", self.torque, "N·m")):
+            array = np.asarray(value, dtype=np.float64)
+            if array.shape not in {(), (3,)} or not np.isfinite(array).all() or (array <= 0).any():
+                raise InputError(
+                    f"PoseNoise.{name}: give one or three finite numbers above 0, {unit}, not {value!r}"
+                )
+
+    @property
+    def sigmas(self) -> NDArray[np.float64]:
+        """(6,) standard deviations, N and N·m."""
+        both = np.empty(6)
+        both[:3], both[3:] = self.force, self.torque
+        return both
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A maximum of the likelihood.
+
+    Attributes
+    ----------
+    theta : (12,)
+        In the order of PARAMETERS.
+    covariance : (12, 12)
+        Inverse of the information matrix; directions that the poses do not show have the width of UNKNOWN.
+    residuals : (n, 6)
+        Read minus predicted, in standard deviations of the noise.
+    J : (n, 6, 12)
+        Change of the predictions with the parameters, in the same unit.
+    """
+
+    theta: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    residuals: NDArray[np.float64]
+    J: NDArray[np.float64]
+
+    @property
+    def cost(self) -> float:
+        """Sum of the squared residuals, chi-square distributed for a right model."""
+        return float(np.vdot(self.residuals, self.residuals))
+
+
+def two_stage(poses: Stack) -> NDArray[np.float64]:
+    """Return the parameters by least squares: (g, F0) from forces, then (L, M0) from torques.
+
+    Where the poses leave directions open, the answer with the smallest norm.
+    """
+    identity = np.broadcast_to(np.eye(3), poses.R_SW.shape)
+    forces = np.concatenate([poses.R_SW, identity], axis=2).reshape(-1, 6)
+    g_F0 = np.linalg.lstsq(forces, poses.F.ravel(), rcond=BLIND)[0]
+    weight = poses.R_SW @ g_F0[:3]
+    torques = np.concatenate([-cross_matrix(weight), identity], axis=2).reshape(-1, 6)
+    # Columns of L carry newtons, columns of M0 none: alike only once the weight is taken out.
+    scale = np.repeat([max(float(np.linalg.norm(g_F0[:3])), 1e-6), 1.0], 3)
+    L_M0 = np.linalg.lstsq(torques / scale, poses.M.ravel(), rcond=BLIND)[0] / scale
+    return np.concatenate([g_F0, L_M0])
+
+
+def predict(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the (n, 6) readings of an untouched sensor at orientations R_SW (n, 3, 3)."""
+    weight = R_SW @ theta[GRAVITY]
+    torque = weight @ cross_matrix(theta[CENTRE_OF_MASS]).T
+    return np.concatenate([weight + theta[FORCE_BIAS], torque + theta[TORQUE_BIAS]], axis=1)
+
+
+def maximise(
+    poses: Stack, sigmas: NDArray[np.float64], start: NDArray[np.float64], free: NDArray[np.bool_] = ALL
+) -> Fit:
+    """Maximise the likelihood from `start` by Gauss-Newton.
+
+    Parameters
+    ----------
+    poses : Stack
+    sigmas : (6,)
+        Noise of a pose's mean, N and N·m.
+    start : (12,)
+        Near the maximum: the answer of `two_stage`.
+    free : (12,) bool
+        Parameters to fit; the others stay where they are.
+    """
+    measured = np.concatenate([poses.F, poses.M], axis=1)
+    theta = start
+    residuals = (measured - predict(poses.R_SW, theta)) / sigmas
+    for _ in range(_STEPS):
+        J = prediction_jacobian(poses.R_SW, theta) / sigmas[:, None]
+        scaled = (J * (UNKNOWN * free)).reshape(-1, 12)
+        gradient = scaled.T @ residuals.ravel()
+        # The 1 is nothing beside what the readings say, and keeps the step short where they say nothing.
+        step = np.linalg.solve(scaled.T @ scaled + _IDENTITY, gradient)
+        theta, residuals, better = _descend(poses.R_SW, measured, sigmas, theta, residuals, UNKNOWN * step)
+        # The step's length in standard deviations; each is many times shorter than the one before.
+        if not better or step @ gradient < _CONVERGED**2:
+            break
+    J = prediction_jacobian(poses.R_SW, theta) / sigmas[:, None]
+    return Fit(theta, parameter_covariance(J, free), residuals, J)
+
+
+def _descend(
+    R_SW: NDArray[np.float64],
+    measured: NDArray[np.float64],
+    sigmas: NDArray[np.float64],
+    theta: NDArray[np.float64],
+    residuals: NDArray[np.float64],
+    step: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
+    """Go along `step` as far as the likelihood grows; the model is bilinear, so that is nearly always all of it."""
+    cost = float(np.vdot(residuals, residuals))
+    for _ in range(_HALVINGS):
+        attempt = theta + step
+        there = (measured - predict(R_SW, attempt)) / sigmas
+        if np.vdot(there, there) <= cost:
+            return attempt, there, True
+        step = 0.5 * step
+    return theta, residuals, False
+
+
+def parameter_covariance(J: NDArray[np.float64], free: NDArray[np.bool_] = ALL) -> NDArray[np.float64]:
+    """Return the inverse of the information in whitened Jacobians J (n, 6, 12).
+
+    Directions that the readings say less of than UNKNOWN, and parameters that are not free, get the width
+    of UNKNOWN: the result is always finite, and never claims what was not seen.
+    """
+    scaled = (J * (UNKNOWN * free)).reshape(-1, 12)
+    values, vectors = np.linalg.eigh(scaled.T @ scaled)
+    root = UNKNOWN[:, None] * vectors / np.sqrt(np.maximum(values, 1.0))
+    covariance: NDArray[np.float64] = root @ root.T
+    return covariance
+
+
+# ---- unknown noise -----------------------------------------------------------------------------
+
+_ROUNDS = 3
+# Below what any converter resolves; keeps noise-free data from dividing by zero.
+_LEAST = np.repeat([1e-6, 1e-8], 3)
+
+
+def fit_with_unknown_noise(
+    poses: Stack, least: NDArray[np.float64], *, kept: float = 1.0
+) -> tuple[Fit, PoseNoise]:
+    """Fit poses whose noise is not known: its size is taken from the residuals.
+
+    Parameters
+    ----------
+    poses : Stack
+    least : (6,)
+        Standard deviations that the mean of a pose has at least, N and N·m.
+    kept : float
+        Share of all poses that these are, if they were kept for having small residuals: their scatter then
+        says less than the whole noise, by a factor that is known for Gaussian noise.
+
+    Returns
+    -------
+    Fit, PoseNoise
+        The noise is marked as estimated, with its degrees of freedom.
+    """
+    n = len(poses)
+    freedom = max(3 * n - 6, 1)
+    theta = two_stage(poses)
+    measured = np.concatenate([poses.F, poses.M], axis=1)
+    for _ in range(_ROUNDS):
+        squares = (measured - predict(poses.R_SW, theta)) ** 2
+        variances = np.array([squares[:, :3].sum(), squares[:, 3:].sum()]) / (freedom * _truncation(kept))
+        sigmas = np.maximum(np.repeat(np.sqrt(variances), 3), np.maximum(least, _LEAST))
+        fit = maximise(poses, sigmas, theta)
+        theta = fit.theta
+    noise = PoseNoise(sigmas[:3], sigmas[3:], estimated=True, freedom=(freedom, freedom), least=least)
+    return fit, noise
+
+
+def _truncation(kept: float) -> float:
+    """Return the variance of the nearest share `kept` of Gaussian six-vectors, over that of all of them."""
+    if kept >= 1:
+        return 1.0
+    radius = chdtri(6, 1 - kept)
+    return float(1 - chdtrc(8, radius)) / kept

@@ -1,0 +1,166 @@
+"""What the poses can tell apart, and in words what they cannot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.fit import BLIND
+from pipeline.calibration.model import cross_matrix
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+# An axis this near to the vertical, as a cosine, is called vertical: 10 degrees.
+_UPRIGHT = 0.985
+# Condition beyond which poses are said to be too much alike; the faces of a cube have 2.2 and 1.2.
+WEAK = 10.0
+
+
+@dataclass(frozen=True)
+class Observability:
+    """
+    What a set of poses shows.
+
+    Attributes
+    ----------
+    rank : int
+        Of the twelve parameters, how many combinations the poses determine.
+    force_rank, torque_rank : int
+        Of the six of (gravity, force bias), and of the six of (centre of mass, torque bias).
+    force_condition, torque_condition : float
+        Ratio of the best to the worst determined combination, for a load of 1 N; infinite below full rank.
+    null_directions : tuple of str
+        What cannot be told apart, why, and which poses would show it.
+    weighs : bool
+        Whether the weight of the load is felt.
+    weak : str
+        The same for what is only badly determined; empty when all is well.
+    """
+
+    rank: int
+    force_rank: int
+    torque_rank: int
+    force_condition: float
+    torque_condition: float
+    null_directions: tuple[str, ...]
+    weighs: bool
+    weak: str
+
+    @property
+    def condition(self) -> float:
+        """The worse of the two conditions."""
+        return max(self.force_condition, self.torque_condition)
+
+
+def observe(
+    R_SW: NDArray[np.float64], gravity_W: NDArray[np.float64], *, weighs: bool = True
+) -> Observability:
+    """Tell what poses at orientations R_SW (n, 3, 3) determine.
+
+    Parameters
+    ----------
+    R_SW : (n, 3, 3)
+    gravity_W : (3,)
+        Only its direction counts: the noise of its estimate must not pass for a tilt.
+    weighs : bool
+        Whether the load's weight is felt at all; without it no pose shows the centre of mass.
+    """
+    size = float(np.linalg.norm(gravity_W))
+    down_W = gravity_W / size if size else np.array([0.0, 0.0, -1.0])
+    identity = np.broadcast_to(np.eye(3), R_SW.shape)
+    down_S = R_SW @ down_W
+    force = _design(R_SW, identity)
+    torque = _design(-cross_matrix(down_S), identity)
+    words = []
+    if force.rank < 6:
+        words.append(_force_words(force.null[:3]))
+    if not weighs:
+        words.append(
+            "The sensor feels no weight, so no pose shows the centre of mass. If there is a tool on the"
+            " sensor, check the units of the forces and that the sensor does not re-zero itself."
+        )
+    elif torque.rank < 6:
+        words.append(_torque_words(down_S))
+    torque_rank = torque.rank if weighs else 3
+    weak = ""
+    if not words and max(force.condition, torque.condition) > WEAK:
+        weak = (
+            f"All poses lie within about {_spread(R_SW):.0f}° of one another: bias and weight are told apart"
+            " only by small differences. Tilt the wrist further, up to 90° and beyond, about two axes."
+        )
+    return Observability(
+        force.rank + torque_rank,
+        force.rank,
+        torque_rank,
+        force.condition,
+        torque.condition if weighs else np.inf,
+        tuple(words),
+        weighs,
+        weak,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Design:
+    rank: int
+    condition: float
+    null: NDArray[np.float64]
+
+
+def _design(left: NDArray[np.float64], right: NDArray[np.float64]) -> _Design:
+    """Return rank, condition and null space (6, k) of the equations left_i x + right_i y."""
+    rows = np.concatenate([left, right], axis=2).reshape(-1, 6)
+    values, vectors = np.linalg.eigh(rows.T @ rows / len(left))
+    singular = np.sqrt(np.maximum(values, 0.0))
+    blind = singular < BLIND
+    condition = np.inf if blind.any() else float(singular[-1] / singular[0])
+    return _Design(int((~blind).sum()), condition, vectors[:, blind])
+
+
+def _force_words(null_W: NDArray[np.float64]) -> str:
+    """Say which part of gravity (columns, W) looks the same as bias in every pose."""
+    if null_W.shape[1] > 1:
+        return (
+            "Every pose has the same orientation: bias and weight cannot be told apart at all."
+            " Turn the wrist between poses, about two axes, by 60° or more."
+        )
+    axis = null_W[:, 0] / np.linalg.norm(null_W[:, 0])
+    if abs(axis[2]) > _UPRIGHT:
+        return (
+            "Every pose has the same tilt (they differ only by a turn about the vertical): gravity has the same"
+            " direction in the sensor every time, so weight and bias cannot be told apart."
+            " Turn the wrist about a horizontal axis."
+        )
+    if abs(axis[2]) < 1 - _UPRIGHT:
+        bearing = np.degrees(np.arctan2(axis[1], axis[0])) % 180
+        return (
+            f"All poses turn about one horizontal axis (bearing {bearing:.0f}° from the world's x): a tilt of the"
+            " base along that axis and the bias along it cannot be told apart. Tilt the wrist about another"
+            " axis too."
+        )
+    return (
+        f"All poses turn about one axis ({axis[0]:.2f}, {axis[1]:.2f}, {axis[2]:.2f} in the world): gravity and"
+        " bias along it cannot be told apart. Tilt the wrist about another axis too."
+    )
+
+
+def _torque_words(down_S: NDArray[np.float64]) -> str:
+    """Say what the directions of gravity in the sensor (n, 3) do not show of the centre of mass."""
+    if np.abs(down_S - down_S.mean(axis=0)).max() < 2 * BLIND:
+        return (
+            "Gravity has the same direction in the sensor in every pose: the centre of mass and the torque bias"
+            " cannot be told apart. Tilt the wrist about a horizontal axis."
+        )
+    return (
+        "Gravity has only two directions in the sensor: the centre of mass along the line between them and the"
+        " torque bias cannot be told apart. Add a pose with a third tilt."
+    )
+
+
+def _spread(R_SW: NDArray[np.float64]) -> float:
+    """Return the largest angle between two of the poses, degrees."""
+    traces = np.einsum("iab,jab->ij", R_SW, R_SW)
+    return float(np.degrees(np.arccos(np.clip((traces.min() - 1) / 2, -1, 1))))

@@ -1,0 +1,151 @@
+"""Orientations as robots and files write them, and the rotation matrices they mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.errors import InputError
+from pipeline.robot import Robot
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_UNIT = 0.02  # a quaternion written with two digits is this far from unit length
+
+
+class Kind(StrEnum):
+    """How an orientation is written."""
+
+    QUATERNION = "quaternion"  # qw qx qy qz
+    EULER = "euler"  # three angles about axes
+    ROTATION_VECTOR = "rotation vector"  # axis times angle
+    JOINTS = "joints"  # of a known robot
+
+
+class RowError(InputError):
+    """A row that cannot be used.
+
+    Attributes
+    ----------
+    row : int
+        Its index, from 0.
+    what : str
+        What is wrong with it and the remedy, without the row.
+    """
+
+    def __init__(self, row: int, what: str) -> None:
+        super().__init__(f"row {row + 1}: {what}")
+        self.row, self.what = row, what
+
+
+@dataclass(frozen=True)
+class Convention:
+    """How the numbers of an orientation are meant.
+
+    Parameters
+    ----------
+    kind : Kind
+    order : str
+        For Euler angles: the axes in the order in which the columns name their angles; lower case for fixed
+        axes (``xyz``: R = Rz Ry Rx), upper case for axes that turn along (``ZYX``: R = Rz Ry Rx too).
+    degrees : bool
+        Angles are in degrees, else rad.
+    robot : str
+        For joints: which robot, as in pipeline.robot.
+    inverse : bool
+        The numbers mean R_SW instead of R_WS.
+
+    Raises
+    ------
+    InputError
+        There is no such order.
+    """
+
+    kind: Kind = Kind.QUATERNION
+    order: str = "xyz"
+    degrees: bool = True
+    robot: str = ""
+    inverse: bool = False
+
+    def __post_init__(self) -> None:
+        axes = self.order.lower()
+        one_case = self.order in {axes, self.order.upper()}
+        if (
+            len(axes) != 3
+            or set(axes) - set("xyz")
+            or axes[0] == axes[1]
+            or axes[1] == axes[2]
+            or not one_case
+        ):
+            raise InputError(
+                f"Euler order {self.order!r}: give three axes, such as xyz (fixed axes) or ZYX (axes that turn along)"
+            )
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns that hold such an orientation."""
+        return {
+            Kind.QUATERNION: ("qw", "qx", "qy", "qz"),
+            Kind.EULER: ("rx", "ry", "rz"),
+            Kind.ROTATION_VECTOR: ("rx", "ry", "rz"),
+            Kind.JOINTS: tuple(f"j{number}" for number in range(1, 7)),
+        }[self.kind]
+
+
+def rotations(values: NDArray[np.float64], convention: Convention) -> NDArray[np.float64]:
+    """Return R_WS (n, 3, 3) of orientations as they are written.
+
+    Parameters
+    ----------
+    values : (n, k)
+        Finite; columns as `convention.columns`. Joints give the flange: then S stands for E.
+    convention : Convention
+
+    Raises
+    ------
+    RowError
+        A quaternion is not of unit length, or a joint is outside its limits.
+    InputError
+        The robot is unknown.
+    """
+    R = _matrices(values, convention)
+    return np.ascontiguousarray(R.transpose(0, 2, 1)) if convention.inverse else R
+
+
+def _matrices(values: NDArray[np.float64], convention: Convention) -> NDArray[np.float64]:
+    angles = np.radians(values) if convention.degrees else values
+    match convention.kind:
+        case Kind.QUATERNION:
+            return _from_quaternions(values)
+        case Kind.EULER:
+            return Rotation.from_euler(convention.order, angles).as_matrix()
+        case Kind.ROTATION_VECTOR:
+            return Rotation.from_rotvec(angles).as_matrix()
+        case Kind.JOINTS:
+            return _from_joints(angles, convention.robot)
+
+
+def _from_quaternions(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    lengths = np.linalg.norm(values, axis=1)
+    wrong = np.flatnonzero(np.abs(lengths - 1) > _UNIT)
+    if len(wrong):
+        row = int(wrong[0])
+        raise RowError(
+            row, f"the quaternion has length {lengths[row]:.4g}, not 1: check the columns qw, qx, qy, qz."
+        )
+    return Rotation.from_quat(values[:, [1, 2, 3, 0]]).as_matrix()  # scipy puts the scalar last
+
+
+def _from_joints(q: NDArray[np.float64], name: str) -> NDArray[np.float64]:
+    robot = Robot.named(name)
+    for row, joints in enumerate(q):
+        try:
+            robot.check_joints(joints)
+        except InputError as error:
+            raise RowError(row, str(error)) from None
+    return robot.flange_rotations(q)

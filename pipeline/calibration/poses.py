@@ -1,0 +1,153 @@
+"""What a calibration is made from: still, contact-free poses of the sensor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+# A rotation typed with four digits is off by 1e-4; one with a wrong sign by 1.
+_ROTATION_TOLERANCE = 1e-3
+# No sensor behind a hand-held probe reads this much; a count or a float misread does.
+_LARGEST_FORCE, _LARGEST_TORQUE = 1e5, 1e5
+
+
+class PoseError(InputError):
+    """A pose that cannot be used: names the pose, the field, and the remedy."""
+
+
+@dataclass(frozen=True, eq=False)
+class PoseSample:
+    """One still, contact-free pose: where the sensor was and what it read on average.
+
+    Parameters
+    ----------
+    R_WS : array_like (3, 3)
+        Orientation of the sensor frame S in the world W (z up): ``v_W = R_WS @ v_S``.
+    force, torque : array_like (3,)
+        Mean reading in S, N and N·m about the sensor origin, as the sensor gives it: with bias and weight.
+    count : int
+        Samples averaged.
+    force_sd, torque_sd : array_like (3,), optional
+        Standard deviation of the single samples, N and N·m.
+    temperature : float, optional
+        Of the sensor, degrees Celsius.
+    time : float, optional
+        s, from any beginning that all poses share.
+    name : str
+        What messages call it; empty: its number, from 1.
+
+    Raises
+    ------
+    PoseError
+        A value is not finite or not plausible, a shape is wrong, or R_WS is no rotation.
+    """
+
+    R_WS: NDArray[np.float64]
+    force: NDArray[np.float64]
+    torque: NDArray[np.float64]
+    count: int = 1
+    force_sd: NDArray[np.float64] | None = None
+    torque_sd: NDArray[np.float64] | None = None
+    temperature: float | None = None
+    time: float | None = None
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__  # frozen for everybody else
+        put(self, "R_WS", self._rotation())
+        put(self, "force", self._three("force", self.force, _LARGEST_FORCE, "N"))
+        put(self, "torque", self._three("torque", self.torque, _LARGEST_TORQUE, "N·m"))
+        for field, largest, unit in (
+            ("force_sd", _LARGEST_FORCE, "N"),
+            ("torque_sd", _LARGEST_TORQUE, "N·m"),
+        ):
+            value = getattr(self, field)
+            if value is not None:
+                array = self._three(field, value, largest, unit)
+                if (array < 0).any():
+                    raise self._error(f"{field} is negative: a standard deviation is at least 0")
+                put(self, field, array)
+        if self.count < 1:
+            raise self._error(f"count is {self.count}: a mean needs at least one sample")
+        for field in ("temperature", "time"):
+            value = getattr(self, field)
+            if value is not None and not np.isfinite(value):
+                raise self._error(f"{field} is {value}: give a finite number, or leave it out")
+
+    def _error(self, what: str) -> PoseError:
+        return PoseError(f"{self.name or 'pose'}: {what}.")
+
+    def _rotation(self) -> NDArray[np.float64]:
+        R = np.array(self.R_WS, dtype=np.float64)
+        if R.shape != (3, 3) or not np.isfinite(R).all():
+            raise self._error(
+                f"R_WS must be a finite (3, 3) rotation, not shape {R.shape} with {R.ravel()[:3]}..."
+            )
+        if np.abs(R.T @ R - np.eye(3)).max() > _ROTATION_TOLERANCE:
+            raise self._error("R_WS is no rotation: its columns are not unit vectors at right angles")
+        U, _, Vt = np.linalg.svd(R)  # the nearest rotation: typed digits are rounded
+        R = U @ Vt
+        if np.linalg.det(R) < 0:
+            raise self._error("R_WS is a reflection (determinant -1): one axis has the wrong sign")
+        return _frozen(R)
+
+    def _three(self, field: str, value: ArrayLike, largest: float, unit: str) -> NDArray[np.float64]:
+        array = np.array(value, dtype=np.float64)
+        if array.shape != (3,):
+            raise self._error(f"{field} needs three numbers, {unit}, not shape {array.shape}")
+        if not (np.abs(array) <= largest).all():
+            raise self._error(f"{field} is {array} {unit}: give finite numbers below {largest:g} {unit}")
+        return _frozen(array)
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """Poses as arrays, for computing.
+
+    Attributes
+    ----------
+    R_SW : (n, 3, 3)
+        World components to sensor components: the transposes of the poses' R_WS.
+    F, M : (n, 3)
+        Mean readings, S, N and N·m.
+    """
+
+    R_SW: NDArray[np.float64]
+    F: NDArray[np.float64]
+    M: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.F)
+
+    def take(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Stack:
+        """Return some of the poses."""
+        return Stack(self.R_SW[chosen], self.F[chosen], self.M[chosen])
+
+
+def stack(poses: Sequence[PoseSample]) -> Stack:
+    """Return the arrays of `poses`."""
+    R_WS = np.array([pose.R_WS for pose in poses]).reshape(-1, 3, 3)
+    return Stack(
+        np.ascontiguousarray(R_WS.transpose(0, 2, 1)),
+        np.array([pose.force for pose in poses]).reshape(-1, 3),
+        np.array([pose.torque for pose in poses]).reshape(-1, 3),
+    )
+
+
+def named(poses: Sequence[PoseSample], index: int) -> str:
+    """Return what to call a pose: its name, or its number from 1."""
+    return poses[index].name or f"pose {index + 1}"
+
+
+def _frozen(array: NDArray[np.float64]) -> NDArray[np.float64]:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,202 @@
+"""A robot arm as data: joints, limits, flange, and a rough envelope of its links."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pipeline.errors import InputError
+
+Triple = tuple[float, float, float]
+
+TOOL = "tool"  # the capsule that a clearance check adds; no link may be called that
+
+
+@dataclass(frozen=True)
+class Joint:
+    """One revolute joint; it turns about the z axis of its own frame.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    origin_xyz : (3,) floats
+        Origin of the joint frame in the frame of the joint before it (the first: in the base frame B), m.
+    origin_rpy : (3,) floats
+        Its rotation there: turns about the fixed x, then y, then z axis, rad (the convention of URDF).
+    lower, upper : float
+        Joint limits, rad.
+    velocity : float
+        Largest speed, rad/s.
+    effort : float
+        Largest torque, N·m.
+    child_mass : float
+        Mass of the link that the joint moves, kg.
+
+    Raises
+    ------
+    InputError
+        A number is not finite, the limits are in the wrong order, or a speed, torque or mass is not positive.
+    """
+
+    name: str
+    origin_xyz: Triple
+    origin_rpy: Triple
+    lower: float
+    upper: float
+    velocity: float
+    effort: float
+    child_mass: float
+
+    def __post_init__(self) -> None:
+        where = f"joint {self.name}"
+        _refuse_triples(where, origin_xyz=self.origin_xyz, origin_rpy=self.origin_rpy)
+        if not (np.isfinite([self.lower, self.upper]).all() and self.lower < self.upper):
+            raise InputError(
+                f"{where}: limits must be finite with lower < upper, not {self.lower} .. {self.upper}"
+            )
+        _refuse_not_positive(where, velocity=self.velocity, effort=self.effort, child_mass=self.child_mass)
+
+
+@dataclass(frozen=True)
+class Capsule:
+    """A link's envelope: every point nearer than `radius` to a line segment fixed in the link.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    body : int
+        0 for the base, otherwise the number (from 1) of the joint that moves it.
+    start_xyz, end_xyz : (3,) floats
+        Ends of the segment in the frame of that joint (the base: in B), m. They must differ.
+    radius : float
+        m.
+
+    Raises
+    ------
+    InputError
+        A number is not finite, the ends coincide, or the radius is not positive.
+    """
+
+    name: str
+    body: int
+    start_xyz: Triple
+    end_xyz: Triple
+    radius: float
+
+    def __post_init__(self) -> None:
+        where = f"capsule {self.name}"
+        _refuse_triples(where, start_xyz=self.start_xyz, end_xyz=self.end_xyz)
+        _refuse_not_positive(where, radius=self.radius)
+        if self.start_xyz == self.end_xyz:
+            raise InputError(f"{where}: start_xyz and end_xyz must differ, both are {self.start_xyz}")
+
+
+@dataclass(frozen=True)
+class RobotDescription:
+    """A serial arm of revolute joints.
+
+    Parameters
+    ----------
+    name : str
+        The arm's name.
+    joints : tuple of Joint
+        From the base to the flange.
+    flange_xyz, flange_rpy : (3,) floats
+        The flange frame E in the frame of the last joint; m, rad, convention as in `Joint`.
+    capsules : tuple of Capsule
+        Envelope of the links, for clearance alone: kinematics never look at it.
+    never_touch : tuple of pairs of str
+        Capsules that overlap or come close by construction, though the links themselves cannot meet. Pairs
+        on the same link or on neighbouring links need no entry.
+
+    Raises
+    ------
+    InputError
+        No joint, a name twice, a capsule on a joint that is not there, or a pair of unknown capsules.
+    """
+
+    name: str
+    joints: tuple[Joint, ...]
+    flange_xyz: Triple
+    flange_rpy: Triple = (0.0, 0.0, 0.0)
+    capsules: tuple[Capsule, ...] = ()
+    never_touch: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        where = f"robot {self.name}"
+        if not self.joints:
+            raise InputError(f"{where}: at least one joint is needed")
+        _refuse_triples(where, flange_xyz=self.flange_xyz, flange_rpy=self.flange_rpy)
+        _refuse_twice(where, [joint.name for joint in self.joints])
+        _refuse_twice(where, [capsule.name for capsule in self.capsules] + [TOOL])
+        for capsule in self.capsules:
+            if not 0 <= capsule.body <= len(self.joints):
+                raise InputError(
+                    f"{where}: capsule {capsule.name} sits on body {capsule.body}, "
+                    f"but bodies run from 0 to {len(self.joints)}"
+                )
+        unknown = {name for pair in self.never_touch for name in pair} - {c.name for c in self.capsules}
+        if unknown:
+            raise InputError(
+                f"{where}: never_touch names no capsule of this arm: {', '.join(sorted(unknown))}"
+            )
+
+
+def joint_angles(
+    description: RobotDescription, q: ArrayLike, *, where: str = "", ndim: int | None = 1
+) -> NDArray[np.float64]:
+    """Joint angles as an array, refused unless they are finite numbers for this arm.
+
+    Parameters
+    ----------
+    description : RobotDescription
+        The arm, with n joints.
+    q : (..., n) array_like
+        Joint angles, rad; limits are not looked at.
+    where : str
+        Begins the message, such as "poses.csv, line 3".
+    ndim : int, optional
+        How many axes to insist on; None takes any.
+
+    Returns
+    -------
+    (..., n) array
+        The angles.
+
+    Raises
+    ------
+    InputError
+        The shape is wrong or a number is not finite.
+    """
+    angles = np.asarray(q, dtype=np.float64)
+    n = len(description.joints)
+    where = f"{where}: " if where else ""
+    if angles.shape[-1:] != (n,) or ndim not in {None, angles.ndim}:
+        wanted = {1: f"({n},)", 2: f"(m, {n})"}.get(ndim or 0, f"(..., {n})")
+        raise InputError(
+            f"{where}joint angles of {description.name} have the shape {wanted}, not {angles.shape}"
+        )
+    if not np.isfinite(angles).all():
+        raise InputError(f"{where}joint angles must be finite (rad), not {angles}")
+    return angles
+
+
+def _refuse_triples(where: str, **fields: Triple) -> None:
+    for field, value in fields.items():
+        if np.shape(value) != (3,) or not np.isfinite(value).all():
+            raise InputError(f"{where}: {field} must be three finite numbers, not {value!r}")
+
+
+def _refuse_not_positive(where: str, **fields: float) -> None:
+    for field, value in fields.items():
+        if not (np.isfinite(value) and value > 0):
+            raise InputError(f"{where}: {field} must be finite and above 0, not {value!r}")
+
+
+def _refuse_twice(where: str, names: list[str]) -> None:
+    for name, following in pairwise(sorted(names)):
+        if name == following:
+            raise InputError(f"{where}: the name {name} is given twice")

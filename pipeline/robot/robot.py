@@ -1,0 +1,293 @@
+"""Kinematics of one arm: flange pose, Jacobian, limits, and where it could go next."""
+
+from functools import cached_property
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pipeline.errors import InputError
+from pipeline.robot.candidates import WRIST_JOINTS, draw_candidates
+from pipeline.robot.clearance import Clearance, ClearanceCheck
+from pipeline.robot.description import RobotDescription, joint_angles
+from pipeline.robot.known import ROBOTS
+from pipeline.robot.model import Kinematics
+
+
+class Robot:
+    """An arm with n revolute joints, from the base frame B to the flange frame E.
+
+    Joint angles are in rad everywhere. Poses and Jacobians need MuJoCo, which is loaded when the first one
+    is asked for; limits and travel times do without. Several threads may share one robot.
+
+    Parameters
+    ----------
+    description : RobotDescription
+        The arm.
+
+    Examples
+    --------
+    >>> robot = Robot.named("elfin3")
+    >>> R_BE, p_BE_B = robot.flange_pose([0, 0, pi / 2, 0, pi / 2, 0])
+    >>> p_BE_B.round(4)
+    array([0.324 , 0.    , 0.3035])
+    """
+
+    def __init__(self, description: RobotDescription) -> None:
+        self.description = description
+        joints = description.joints
+        self._lower = _constant([joint.lower for joint in joints])
+        self._upper = _constant([joint.upper for joint in joints])
+        self._velocity_limits = _constant([joint.velocity for joint in joints])
+
+    @classmethod
+    def named(cls, name: str) -> "Robot":
+        """Look up a known arm.
+
+        Parameters
+        ----------
+        name : str
+            A key of `ROBOTS`, such as "elfin3".
+
+        Raises
+        ------
+        InputError
+            There is none of that name.
+        """
+        if name not in ROBOTS:
+            raise InputError(f"there is no robot named {name!r}; known: {', '.join(sorted(ROBOTS))}")
+        return cls(ROBOTS[name])
+
+    @property
+    def lower(self) -> NDArray[np.float64]:
+        """(n,) lower joint limits, rad; read-only."""
+        return self._lower
+
+    @property
+    def upper(self) -> NDArray[np.float64]:
+        """(n,) upper joint limits, rad; read-only."""
+        return self._upper
+
+    @property
+    def velocity_limits(self) -> NDArray[np.float64]:
+        """(n,) largest joint speeds, rad/s; read-only."""
+        return self._velocity_limits
+
+    def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Pose of the flange.
+
+        Parameters
+        ----------
+        q : (n,) array_like
+            Joint angles, rad. They may lie outside the limits: a reading is never refused.
+
+        Returns
+        -------
+        R_BE : (3, 3) array
+            Orientation; columns are the axes of E in B.
+        p_BE_B : (3,) array
+            Position, m.
+
+        Raises
+        ------
+        InputError
+            The shape is wrong, a number is not finite, or MuJoCo is not installed.
+        """
+        return self._kinematics.flange(joint_angles(self.description, q))
+
+    def flange_rotations(self, Q: ArrayLike) -> NDArray[np.float64]:
+        """Orientations of the flange for many configurations.
+
+        Parameters
+        ----------
+        Q : (m, n) array_like
+            Joint angles, rad.
+
+        Returns
+        -------
+        (m, 3, 3) array
+            R_BE, each as `flange_pose` gives it.
+
+        Raises
+        ------
+        InputError
+            As `flange_pose`.
+        """
+        return self._kinematics.rotations(joint_angles(self.description, Q, ndim=2))
+
+    def flange_jacobian(self, q: ArrayLike) -> NDArray[np.float64]:
+        """Jacobian of the flange's motion, in B, at the origin of E.
+
+        Parameters
+        ----------
+        q : (n,) array_like
+            Joint angles, rad.
+
+        Returns
+        -------
+        (6, n) array
+            J with [v; w] = J dq/dt: three rows for the velocity v of the origin of E (m/s per rad/s), then
+            three for the angular velocity w (rad/s per rad/s).
+
+        Raises
+        ------
+        InputError
+            As `flange_pose`.
+        """
+        return self._kinematics.jacobian(joint_angles(self.description, q))
+
+    def within_limits(self, q: ArrayLike, *, margin: float = 0.0) -> NDArray[np.bool_]:
+        """Tell whether every joint is within its limits, ends included.
+
+        Parameters
+        ----------
+        q : (..., n) array_like
+            Joint angles, rad.
+        margin : float
+            Distance to keep from the limits, rad; a negative one lets rounded readings pass.
+
+        Returns
+        -------
+        (...) array of bool
+            One answer per configuration; without leading axes it has shape () and works in an ``if``.
+
+        Raises
+        ------
+        InputError
+            The last axis does not have n entries, or a number is not finite.
+        """
+        angles = joint_angles(self.description, q, ndim=None)
+        inside = (angles >= self._lower + margin) & (angles <= self._upper - margin)
+        return np.asarray(inside.all(axis=-1))
+
+    def check_joints(self, q: ArrayLike, where: str = "") -> NDArray[np.float64]:
+        """Refuse joint angles that the arm cannot take.
+
+        Parameters
+        ----------
+        q : (n,) array_like
+            Joint angles, rad.
+        where : str
+            Where they come from, such as "poses.csv, line 3"; begins the message.
+
+        Returns
+        -------
+        (n,) array
+            The angles.
+
+        Raises
+        ------
+        InputError
+            The shape is wrong, a number is not finite, or a joint is outside its limits: the message names
+            it, its value and its limits.
+        """
+        angles = joint_angles(self.description, q, where=where)
+        for joint, value in zip(self.description.joints, angles, strict=True):
+            if joint.lower <= value <= joint.upper:
+                continue
+            prefix = f"{where}: " if where else ""
+            hint = "; are these degrees?" if np.abs(angles).max() > 2 * pi else ""
+            raise InputError(
+                f"{prefix}joint {joint.name} is at {value:.4f} rad ({np.degrees(value):.2f}°), outside "
+                f"its limits {joint.lower:.4f} .. {joint.upper:.4f} rad "
+                f"({np.degrees(joint.lower):.2f}° .. {np.degrees(joint.upper):.2f}°){hint}"
+            )
+        return angles
+
+    def travel(self, q_a: ArrayLike, q_b: ArrayLike) -> NDArray[np.float64]:
+        """Time that a move takes when every joint goes at its limit: the slowest joint decides.
+
+        Accelerations are left out, so short moves take longer than this; the order of moves stays useful.
+
+        Parameters
+        ----------
+        q_a, q_b : (..., n) array_like
+            Start and end, rad; leading axes broadcast.
+
+        Returns
+        -------
+        (...) array
+            max over joints of |q_b - q_a| / velocity limit, s.
+
+        Raises
+        ------
+        InputError
+            A shape is wrong or a number is not finite.
+        """
+        start, end = (joint_angles(self.description, q, ndim=None) for q in (q_a, q_b))
+        try:
+            moved = np.abs(end - start)
+        except ValueError as error:
+            raise InputError(f"travel: shapes {start.shape} and {end.shape} do not broadcast") from error
+        return np.asarray((moved / self._velocity_limits).max(axis=-1))
+
+    def candidate_joints(
+        self,
+        q_start: ArrayLike,
+        *,
+        count: int = 64,
+        seed: int | np.random.Generator = 0,
+        wrist_only: bool = True,
+        wrist_reach: float = 2 * pi,
+        arm_reach: float = 0.5,
+        margin: float = 0.05,
+        clearance: Clearance | None = None,
+    ) -> NDArray[np.float64]:
+        """Propose configurations for a calibration: spread evenly, within limits, clear of base and floor.
+
+        The last three joints tilt the tool any way while the arm stays put, so by default only they move. The
+        spread is even in joint angles, from the first candidate on: more candidates with the same integer
+        seed only append to fewer. Nothing is said about the way there:
+        `ClearanceCheck.path_conflict` looks along it.
+
+        Parameters
+        ----------
+        q_start : (n,) array_like
+            Present configuration, rad, within the limits.
+        count : int
+            Number of candidates wanted.
+        seed : int or numpy.random.Generator
+            Another seed, another set; the same integer gives the same set on every machine.
+        wrist_only : bool
+            Keep all joints but the last three where they are.
+        wrist_reach, arm_reach : float
+            How far the last three and the other joints may go from q_start, rad.
+        margin : float
+            Distance that moving joints keep from their limits, rad.
+        clearance : Clearance, optional
+            Tool, floor and gaps; the default has a tool of 0.2 m along z of E and a table at the base.
+
+        Returns
+        -------
+        (m, n) array
+            1 <= m <= count candidates, rad; fewer than count where little is clear.
+
+        Raises
+        ------
+        InputError
+            q_start or an option is no use, no candidate is clear, or MuJoCo is not installed.
+        """
+        start = self.check_joints(q_start, "candidate_joints: q_start")
+        if count < 1:
+            raise InputError(f"candidate_joints: count must be at least 1, not {count}")
+        for name, value in {"wrist_reach": wrist_reach, "arm_reach": arm_reach}.items():
+            if not (np.isfinite(value) and value > 0):
+                raise InputError(f"candidate_joints: {name} must be finite and above 0 rad, not {value!r}")
+        if not (np.isfinite(margin) and margin >= 0):
+            raise InputError(f"candidate_joints: margin must be finite and at least 0 rad, not {margin!r}")
+        reach = np.full(len(start), 0.0 if wrist_only else arm_reach)
+        reach[-WRIST_JOINTS:] = wrist_reach
+        check = ClearanceCheck(self.description, clearance or Clearance())
+        return draw_candidates(
+            self.description, start, check, count=count, seed=seed, reach=reach, margin=margin
+        )
+
+    @cached_property
+    def _kinematics(self) -> Kinematics:
+        return Kinematics(self.description)
+
+
+def _constant(values: list[float]) -> NDArray[np.float64]:
+    array = np.array(values)
+    array.flags.writeable = False
+    return array

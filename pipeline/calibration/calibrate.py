@@ -209,7 +209,7 @@ def calibrate(
     error = task.calibration_error(fit.theta, fit.covariance)
     if fit is not first:
         far = deviates(arrays, ~bumped, fit, noise)
-    residuals = np.concatenate([arrays.F, arrays.M], axis=1) - predict(arrays.R_SW, fit.theta)
+    residuals = arrays.wrenches - predict(arrays.R_SW, fit.theta)
     calibration = Calibration(
         model=GravityModel.from_vector(fit.theta, fit.covariance),
         noise=noise,

@@ -15,7 +15,6 @@ from pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_YAWS = np.radians([0.0, 90.0])
 _RINGS = 2  # of tilts beside upright
 _ROUND = 6  # tilts on a ring
 _SIDES = 4  # directions in which friction may pull
@@ -90,14 +89,14 @@ class ContactTask:
 
     @cached_property
     def _sensitivities(self) -> NDArray[np.float64]:
-        """(m, 3, 6) change of the contact point with the wrench, m/N and m/(N·m), for each force."""
-        return contact_sensitivity(self.point, self.normal, self.forces)
+        """(m, 2, 6) shift of the contact point in the surface with the wrench, m/N and m/(N·m), by force."""
+        in_surface: NDArray[np.float64] = np.array(_across(self.normal))
+        return in_surface @ contact_sensitivity(self.point, self.normal, self.forces)
 
     def parameter_sensitivity(self, theta: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return how the contact point moves with the calibration's parameters (k m, 3, 12)."""
-        J = prediction_jacobian(self.orientations, theta)
-        both = self._sensitivities[None] @ J[:, None]  # the sign of a change does not matter here
-        return both.reshape(-1, 3, 12)
+        """Return how the contact point moves in the surface with the calibration's parameters (k m, 2, 12)."""
+        J = prediction_jacobian(self.orientations, theta)  # the sign of a change does not matter here
+        return (self._sensitivities.reshape(-1, 6) @ J).reshape(-1, 2, 12)
 
     def calibration_error(self, theta: NDArray[np.float64], covariance: NDArray[np.float64]) -> float:
         """Return the calibration's share of the contact error: the worst 1 sigma over all touches, m.
@@ -108,13 +107,11 @@ class ContactTask:
         covariance : (12, 12)
             Of the parameters.
         """
-        A = self.parameter_sensitivity(theta)
-        return float(np.sqrt(largest_eigenvalue(A @ covariance @ A.transpose(0, 2, 1)).max()))
+        return worst_sigma(self.parameter_sensitivity(theta), covariance)
 
     def sensor_error(self, sigmas: NDArray[np.float64]) -> float:
         """Return what noise of sigmas (6,), N and N·m, in the live wrench adds: the worst 1 sigma, m."""
-        A = self._sensitivities * sigmas
-        return float(np.sqrt(largest_eigenvalue(A @ A.transpose(0, 2, 1)).max()))
+        return worst_sigma(self._sensitivities, np.diag(sigmas**2))
 
 
 @cache
@@ -163,10 +160,17 @@ def force_directions(
     return directions
 
 
+def worst_sigma(A: NDArray[np.float64], covariance: NDArray[np.float64]) -> float:
+    """Return the largest 1 sigma in any direction of any ``A[k] covariance A[k]'``, for A (k, 2, m)."""
+    AC = (A.reshape(-1, A.shape[-1]) @ covariance).reshape(A.shape)  # one product instead of k
+    return float(np.sqrt(largest_eigenvalue(AC @ A.swapaxes(1, 2)).max()))
+
+
 def largest_eigenvalue(C: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the largest eigenvalue (k,) of covariances (k, 3, 3), at least 0."""
-    largest: NDArray[np.float64] = np.maximum(np.linalg.eigvalsh(C)[..., -1], 0.0)
-    return largest
+    """Return the largest eigenvalue (...) of covariances (..., 2, 2), at least 0."""
+    a, b, c = C[..., 0, 0], C[..., 0, 1], C[..., 1, 1]
+    largest: NDArray[np.float64] = 0.5 * (a + c) + np.hypot(0.5 * (a - c), b)
+    return np.maximum(largest, 0.0)
 
 
 def _cone(normal_S: NDArray[np.float64], tilt: float) -> NDArray[np.float64]:
@@ -180,10 +184,11 @@ def _cone(normal_S: NDArray[np.float64], tilt: float) -> NDArray[np.float64]:
         for step in range(_ROUND)
     ]
     turn = Rotation.from_rotvec
+    # Yaw matters only for the little that gravity is off the vertical: it alternates from tilt to tilt.
     rotations = [
-        R_ST @ (turn([a * np.cos(b), a * np.sin(b), 0.0]) * turn([0.0, 0.0, yaw])).as_matrix()
-        for a, b in tilts
-        for yaw in _YAWS
+        R_ST
+        @ (turn([a * np.cos(b), a * np.sin(b), 0.0]) * turn([0.0, 0.0, np.pi / 2 * (number % 2)])).as_matrix()
+        for number, (a, b) in enumerate(tilts)
     ]
     return np.array(rotations)
 

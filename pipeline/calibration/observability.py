@@ -70,64 +70,69 @@ def observe(
     """
     size = float(np.linalg.norm(gravity_W))
     down_W = gravity_W / size if size else np.array([0.0, 0.0, -1.0])
-    identity = np.broadcast_to(np.eye(3), R_SW.shape)
     down_S = R_SW @ down_W
-    force = _design(R_SW, identity)
-    torque = _design(-cross_matrix(down_S), identity)
+    force_rank, force_condition, alike_W = _forces(R_SW)
+    torque_rank, torque_condition = _torques(down_S) if weighs else (3, np.inf)
     words = []
-    if force.rank < 6:
-        words.append(_force_words(force.null[:3]))
+    if force_rank < 6:
+        words.append(_force_words(alike_W))
     if not weighs:
         words.append(
             "The sensor feels no weight, so no pose shows the centre of mass. If there is a tool on the"
             " sensor, check the units of the forces and that the sensor does not re-zero itself."
         )
-    elif torque.rank < 6:
+    elif torque_rank < 6:
         words.append(_torque_words(down_S))
-    torque_rank = torque.rank if weighs else 3
     weak = ""
-    if not words and max(force.condition, torque.condition) > WEAK:
+    if not words and max(force_condition, torque_condition) > WEAK:
         weak = (
             f"All poses lie within about {_spread(R_SW):.0f}° of one another: bias and weight are told apart"
             " only by small differences. Tilt the wrist further, up to 90° and beyond, about two axes."
         )
     return Observability(
-        force.rank + torque_rank,
-        force.rank,
+        force_rank + torque_rank,
+        force_rank,
         torque_rank,
-        force.condition,
-        torque.condition if weighs else np.inf,
+        force_condition,
+        torque_condition,
         tuple(words),
         weighs,
         weak,
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Design:
-    rank: int
-    condition: float
-    null: NDArray[np.float64]
+def _forces(R_SW: NDArray[np.float64]) -> tuple[int, float, NDArray[np.float64]]:
+    """Return rank and condition of the equations R_i g + F0, and what they cannot tell from bias (k, 3), W.
+
+    Their normal matrix, per pose, is [[1, R'], [R, 1]] with R the mean of the rotations: its eigenvalues are
+    1 plus and minus the singular values of R. A direction that every pose turns alike has singular value 1.
+    """
+    _, values, vectors = np.linalg.svd(R_SW.mean(axis=0))
+    return *_rank(np.concatenate([1 + values, 1 - values])), vectors[1 - values < BLIND**2]
 
 
-def _design(left: NDArray[np.float64], right: NDArray[np.float64]) -> _Design:
-    """Return rank, condition and null space (6, k) of the equations left_i x + right_i y."""
-    rows = np.concatenate([left, right], axis=2).reshape(-1, 6)
-    values, vectors = np.linalg.eigh(rows.T @ rows / len(left))
-    singular = np.sqrt(np.maximum(values, 0.0))
-    blind = singular < BLIND
-    condition = np.inf if blind.any() else float(singular[-1] / singular[0])
-    return _Design(int((~blind).sum()), condition, vectors[:, blind])
+def _torques(down_S: NDArray[np.float64]) -> tuple[int, float]:
+    """Return rank and condition of the equations L x down_i + M0, for a load of 1 N."""
+    normal, mean = np.eye(6), cross_matrix(down_S.mean(axis=0))
+    normal[:3, :3] -= down_S.T @ down_S / len(down_S)
+    normal[:3, 3:], normal[3:, :3] = mean, -mean
+    return _rank(np.asarray(np.linalg.eigvalsh(normal), dtype=np.float64))
 
 
-def _force_words(null_W: NDArray[np.float64]) -> str:
-    """Say which part of gravity (columns, W) looks the same as bias in every pose."""
-    if null_W.shape[1] > 1:
+def _rank(squares: NDArray[np.float64]) -> tuple[int, float]:
+    """Return rank and condition for squared singular values, per pose."""
+    rank = int((squares >= BLIND**2).sum())
+    return rank, float(np.sqrt(squares.max() / squares.min())) if rank == len(squares) else np.inf
+
+
+def _force_words(alike_W: NDArray[np.float64]) -> str:
+    """Say which part of gravity (k, 3), W, looks the same as bias in every pose."""
+    if len(alike_W) > 1:
         return (
             "Every pose has the same orientation: bias and weight cannot be told apart at all."
             " Turn the wrist between poses, about two axes, by 60° or more."
         )
-    axis = null_W[:, 0] / np.linalg.norm(null_W[:, 0])
+    axis = alike_W[0]
     if abs(axis[2]) > _UPRIGHT:
         return (
             "Every pose has the same tilt (they differ only by a turn about the vertical): gravity has the same"

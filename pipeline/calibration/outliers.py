@@ -17,14 +17,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtri
 
-from pipeline.calibration.fit import Fit, PoseNoise, fit_with_unknown_noise, maximise, predict, two_stage
+from pipeline.calibration.fit import (
+    Fit,
+    PoseNoise,
+    fit_with_unknown_noise,
+    free_jacobian,
+    maximise,
+    predict,
+    solve_with_offset,
+    two_stage,
+)
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
     GRAVITY,
     TORQUE_BIAS,
     cross_matrix,
-    prediction_jacobian,
 )
 from pipeline.calibration.poses import named
 
@@ -45,8 +53,9 @@ _START = 4  # poses: three determine the parameters, the fourth tells whether th
 _FEWEST = 5  # with fewer, leaving one out leaves nothing to check it with
 _MOST_STARTS = 500
 _REFINED = 10
-# A direction in which a pose alone decides (leverage above 98 %) shows no residual and cannot be tested.
-_SHOWN = 0.02
+# The variance of a residual, over the noise's, is 1 less the leverage. A pose that alone decides a direction has
+# no residual there; the little more keeps 0 / 0 away, and costs the other poses a few thousandths.
+_WHOLE = 1.005 * np.eye(3)
 _MEDIAN = 2.366  # of the sum of three squared standard normal numbers
 _TINY, _FAR = 1e-280, 35.0  # a probability that still has a deviate, and a deviate beyond all that have one
 
@@ -125,34 +134,30 @@ def deviates(poses: Stack, inside: NDArray[np.bool_], fit: Fit, noise: PoseNoise
     """
     J, residuals = fit.J, fit.residuals
     if not inside.all():
-        J = prediction_jacobian(poses.R_SW, fit.theta) / noise.sigmas[:, None]
-        measured = np.concatenate([poses.F, poses.M], axis=1)
-        residuals = (measured - predict(poses.R_SW, fit.theta)) / noise.sigmas
+        J = free_jacobian(poses.R_SW, fit.theta, noise.sigmas, fit.free)
+        residuals = (poses.wrenches - predict(poses.R_SW, fit.theta)) / noise.sigmas
     # A pose that helped to make the fit is nearer to it than noise alone; any other is further away.
     sign = np.where(inside, -1.0, 1.0)[:, None, None]
     halves = J.reshape(-1, 2, 3, 12)
-    blocks = np.eye(3) + sign[..., None] * (halves @ fit.covariance @ halves.swapaxes(2, 3))
-    values, vectors = np.linalg.eigh(blocks)
-    along = (vectors.transpose(0, 1, 3, 2) @ residuals.reshape(-1, 2, 3, 1))[..., 0]
-    shown = values > _SHOWN
-    squares = np.where(shown, along**2 / np.maximum(values, _SHOWN), 0.0).sum(axis=2)
-    return _as_deviates(squares, shown.sum(axis=2), inside, noise)
+    covariance = _WHOLE + sign[..., None] * (halves @ fit.covariance @ halves.swapaxes(2, 3))
+    r = residuals.reshape(-1, 2, 3, 1)
+    squares = (r.swapaxes(2, 3) @ np.linalg.solve(covariance, r))[..., 0, 0]
+    return _as_deviates(squares, inside, noise)
 
 
 def _as_deviates(
-    squares: NDArray[np.float64], count: NDArray[np.intp], inside: NDArray[np.bool_], noise: PoseNoise
+    squares: NDArray[np.float64], inside: NDArray[np.bool_], noise: PoseNoise
 ) -> NDArray[np.float64]:
-    """Turn sums of `count` squares into normal deviates of the same probability."""
-    count = np.maximum(count, 1)
+    """Turn sums of three squares into normal deviates of the same probability."""
     if noise.estimated:
         freedom = np.broadcast_to(np.array(noise.freedom), squares.shape)
         # Without the pose itself, whose own residual would make the noise look large.
-        rest = np.where(inside[:, None], np.maximum(freedom - count, 1.0), freedom)
+        rest = np.where(inside[:, None], np.maximum(freedom - 3, 1.0), freedom)
         without = np.maximum(freedom - squares, 1e-9 * freedom)
         squares = np.where(inside[:, None], squares * rest / without, squares)
-        probability = fdtrc(count, rest, squares / count)
+        probability = fdtrc(3, rest, squares / 3)
     else:
-        probability = chdtrc(count, squares)
+        probability = chdtrc(3, squares)
     plain = np.sqrt(squares)
     return np.where(probability > _TINY, -ndtri(np.maximum(probability, _TINY) / 2), np.maximum(plain, _FAR))
 
@@ -203,21 +208,10 @@ def _starts(n: int) -> NDArray[np.intp]:
 def _fit_many(poses: Stack, sets: NDArray[np.intp]) -> NDArray[np.float64]:
     """Return the two-stage parameters (k, 12) of each set of poses (k, m)."""
     R, F, M = poses.R_SW[sets], poses.F[sets], poses.M[sets]
-    first = _solve_with_offset(R, F)
-    weight = (R @ first[:, None, :3, None])[..., 0]
-    second = _solve_with_offset(-cross_matrix(weight), M)
-    return np.concatenate([first, second], axis=1)
-
-
-def _solve_with_offset(A: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return x, offset (k, 6) that minimise sum |A_i x + offset - b_i|² for A (k, m, 3, 3), b (k, m, 3)."""
-    middle_A, middle_b = A.mean(axis=1), b.mean(axis=1)
-    dA, db = A - middle_A[:, None], b - middle_b[:, None]
-    square = np.einsum("kmij,kmil->kjl", dA, dA)
-    # Poses that leave a direction open must not stop the others; such sets lose by their residuals.
-    square += (1e-9 * np.trace(square, axis1=1, axis2=2)[:, None, None] + 1e-30) * np.eye(3)
-    x = np.linalg.solve(square, np.einsum("kmij,kmi->kj", dA, db)[..., None])
-    return np.concatenate([x[..., 0], middle_b - (middle_A @ x)[..., 0]], axis=1)
+    g, F0 = solve_with_offset(R, F)
+    weight = (R @ g[:, None, :, None])[..., 0]
+    L, M0 = solve_with_offset(-cross_matrix(weight), M)
+    return np.concatenate([g, F0, L, M0], axis=1)
 
 
 def _square_residuals(

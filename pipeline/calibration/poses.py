@@ -117,30 +117,37 @@ class Stack:
     ----------
     R_SW : (n, 3, 3)
         World components to sensor components: the transposes of the poses' R_WS.
-    F, M : (n, 3)
-        Mean readings, S, N and N·m.
+    wrenches : (n, 6)
+        Mean readings, force before torque, S, N and N·m.
     """
 
     R_SW: NDArray[np.float64]
-    F: NDArray[np.float64]
-    M: NDArray[np.float64]
+    wrenches: NDArray[np.float64]
 
     def __len__(self) -> int:
-        return len(self.F)
+        return len(self.wrenches)
+
+    @property
+    def F(self) -> NDArray[np.float64]:
+        """(n, 3) forces, N."""
+        return self.wrenches[:, :3]
+
+    @property
+    def M(self) -> NDArray[np.float64]:
+        """(n, 3) torques, N·m."""
+        return self.wrenches[:, 3:]
 
     def take(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Stack:
         """Return some of the poses."""
-        return Stack(self.R_SW[chosen], self.F[chosen], self.M[chosen])
+        return Stack(self.R_SW[chosen], self.wrenches[chosen])
 
 
 def stack(poses: Sequence[PoseSample]) -> Stack:
     """Return the arrays of `poses`."""
     R_WS = np.array([pose.R_WS for pose in poses]).reshape(-1, 3, 3)
-    return Stack(
-        np.ascontiguousarray(R_WS.transpose(0, 2, 1)),
-        np.array([pose.force for pose in poses]).reshape(-1, 3),
-        np.array([pose.torque for pose in poses]).reshape(-1, 3),
-    )
+    wrenches = np.empty((len(R_WS), 6))
+    wrenches[:, :3], wrenches[:, 3:] = [pose.force for pose in poses], [pose.torque for pose in poses]
+    return Stack(np.ascontiguousarray(R_WS.transpose(0, 2, 1)), wrenches)
 
 
 def named(poses: Sequence[PoseSample], index: int) -> str:

@@ -1,0 +1,305 @@
+"""Which pose to take next, and which poses to take at all: those that help the contact point most."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise, permutations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, usual_task, worst_sigma
+from pipeline.calibration.fit import UNKNOWN, PoseNoise
+from pipeline.calibration.model import GravityModel, prediction_jacobian
+from pipeline.calibration.reachable import describe
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.calibrate import Calibration
+    from pipeline.calibration.reachable import Reachable
+
+# What a pose means before anything was measured: a probe of half a kilogram, like the bundled ones.
+USUAL_LOAD = GravityModel(np.array([0.0, 0.0, -5.0]), np.zeros(3), np.array([0.0, 0.0, 0.05]), np.zeros(3))
+USUAL_NOISE = PoseNoise(0.05, 0.002)
+
+# Of poses that are this nearly as good as the best one, the nearest is taken.
+_NEARLY = 1.05
+_PASSES = 8
+_STARTS = 3
+_ALL_ORDERS = 7  # poses whose every order is tried: 5,040
+_LARGEST_PLAN = 60
+
+
+@dataclass(frozen=True, eq=False)
+class Suggestion:
+    """A pose to take.
+
+    Attributes
+    ----------
+    R_WS : (3, 3)
+    joints : (6,) or None
+        Of the robot, rad.
+    travel : float
+        s for a robot, rad by hand.
+    error_before, error_after : float
+        The calibration's share of the contact error, worst 1 sigma, m: now, and predicted with this pose.
+    sentence : str
+        What to do and what it gains.
+    """
+
+    R_WS: NDArray[np.float64]
+    joints: NDArray[np.float64] | None
+    travel: float
+    error_before: float
+    error_after: float
+    sentence: str
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """Poses to take, in this order.
+
+    Attributes
+    ----------
+    R_WS : (n, 3, 3)
+    joints : (n, 6) or None
+        Of the robot, rad.
+    errors : (n,)
+        Predicted share of the calibration in the contact error after each pose, worst 1 sigma, m; values
+        far beyond a probe's size mean that something is still undetermined.
+    warnings : tuple of str
+        Moves that are not clear.
+    """
+
+    R_WS: NDArray[np.float64]
+    joints: NDArray[np.float64] | None
+    errors: NDArray[np.float64]
+    warnings: tuple[str, ...]
+
+    @property
+    def error(self) -> float:
+        """After the last pose, m."""
+        return float(self.errors[-1])
+
+
+def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
+    """Return the pose that lowers most the predicted error at the contact.
+
+    Every candidate's reading would add its information to the calibration's; the covariance that would be
+    left is carried to the contact points of the calibration's task, and the worst 1 sigma counts. Among
+    candidates within five per cent of the best, the nearest one is taken.
+
+    Parameters
+    ----------
+    calibration : Calibration
+        May be one that is refused: that is when a suggestion is needed.
+    reachable : Reachable
+        The candidates.
+
+    Raises
+    ------
+    InputError
+        No candidate can be reached by a clear move.
+    """
+    theta = calibration.model.vector
+    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / calibration.noise.sigmas[:, None]
+    A = calibration.task.parameter_sensitivity(theta)
+    errors = _errors_with(calibration.covariance, J, A)
+    chosen = _nearest_good(errors, reachable)
+    before, after = calibration.contact_error, float(errors[chosen])
+    sentence = (
+        f"Next: {_how(reachable, chosen)}. Predicted share of the calibration in the contact error:"
+        f" {1e3 * before:.2g} -> {1e3 * after:.2g} mm (1 sigma, worst case)."
+    )
+    return Suggestion(
+        reachable.R_WS[chosen],
+        reachable.joint_vector(chosen),
+        float(reachable.travel[chosen]),
+        before,
+        after,
+        sentence,
+    )
+
+
+def plan_poses(
+    count: int,
+    reachable: Reachable,
+    *,
+    load: GravityModel = USUAL_LOAD,
+    noise: PoseNoise = USUAL_NOISE,
+    task: ContactTask | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Plan:
+    """Return `count` poses that together leave the least error at the contact.
+
+    Poses are added one by one, then exchanged one for another as long as that helps (Fedorov's exchange),
+    from several beginnings; the best set is ordered for short and clear moves.
+
+    Parameters
+    ----------
+    count : int
+        At least 3.
+    reachable : Reachable
+        What to choose from.
+    load : GravityModel
+        About what hangs on the sensor; only mass and centre of mass count.
+    noise : PoseNoise
+        Of a pose's mean.
+    task : ContactTask, optional
+        The touches to come.
+    progress : callable, optional
+        Told how many of how many exchanges are done; raises to stop.
+
+    Raises
+    ------
+    InputError
+        There are too few or too many poses to plan, or too few to choose from.
+    """
+    if not 3 <= count <= _LARGEST_PLAN:
+        raise InputError(f"a plan has 3 to {_LARGEST_PLAN} poses, not {count}")
+    if len(reachable) < count:
+        raise InputError(f"only {len(reachable)} poses can be reached, fewer than the {count} asked for")
+    theta = load.vector
+    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / noise.sigmas[:, None]
+    A = (task or usual_task()).parameter_sensitivity(theta)
+
+    def done(start: int, exchanges: int) -> None:
+        if progress:
+            progress(start * _PASSES * count + exchanges, _STARTS * _PASSES * count)
+
+    designs = [_exchange(count, start, J, A, partial(done, start)) for start in range(_STARTS)]
+    _, chosen = min(designs, key=lambda design: design[0])
+    order, warnings = _ordered(chosen, reachable)
+    errors = [worst_sigma(A, _covariance(J[order[: k + 1]])) for k in range(count)]
+    joints = None if reachable.joints is None else reachable.joints[order]
+    return Plan(reachable.R_WS[order], joints, np.array(errors), warnings)
+
+
+def plan_error(
+    R_WS: NDArray[np.float64],
+    *,
+    load: GravityModel = USUAL_LOAD,
+    noise: PoseNoise = USUAL_NOISE,
+    task: ContactTask | None = None,
+) -> float:
+    """Return the predicted share of the calibration in the contact error after poses R_WS (n, 3, 3), m."""
+    J = prediction_jacobian(R_WS.swapaxes(1, 2), load.vector) / noise.sigmas[:, None]
+    return worst_sigma((task or usual_task()).parameter_sensitivity(load.vector), _covariance(J))
+
+
+# ---- information -------------------------------------------------------------------------------
+
+
+def _covariance(J: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the covariance (12, 12) that poses with whitened Jacobians J (n, 6, 12) leave."""
+    rows = J.reshape(-1, 12)
+    return np.asarray(np.linalg.inv(rows.T @ rows + np.diag(UNKNOWN**-2.0)), dtype=np.float64)
+
+
+def _errors_with(
+    C: NDArray[np.float64], J: NDArray[np.float64], A: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the contact error (k,) if one more pose, with Jacobian J[k], were added to covariance C.
+
+    The covariance with one more pose is C less ``C J' inv(1 + J C J') J C``; carried to the contact.
+    """
+    JC = J @ C
+    gain = np.linalg.cholesky(np.eye(6) + JC @ J.transpose(0, 2, 1))
+    lowered = np.linalg.solve(gain, JC)  # (k, 6, 12): what is taken off is its square
+    off = A @ lowered.transpose(0, 2, 1)[:, None]  # (k, touches, 2, 6)
+    left = A @ C @ A.transpose(0, 2, 1) - off @ off.swapaxes(2, 3)
+    return np.asarray(np.sqrt(largest_eigenvalue(left).max(axis=1)), dtype=np.float64)
+
+
+def _exchange(
+    count: int,
+    start: int,
+    J: NDArray[np.float64],
+    A: NDArray[np.float64],
+    progress: Callable[[int], None],
+) -> tuple[float, list[int]]:
+    """Return error and poses of a set that no single exchange improves."""
+    chosen = [start * (len(J) // _STARTS)]
+    while len(chosen) < count:
+        errors = _errors_with(_covariance(J[chosen]), J, A)
+        errors[chosen] = np.inf
+        chosen.append(int(np.argmin(errors)))
+    best = worst_sigma(A, _covariance(J[chosen]))
+    for done in range(_PASSES * count):
+        progress(done)
+        place = done % count
+        if place == 0:
+            before = best
+        others = chosen[:place] + chosen[place + 1 :]
+        errors = _errors_with(_covariance(J[others]), J, A)
+        errors[others] = np.inf
+        if errors.min() < best * (1 - 1e-6):
+            chosen[place], best = int(np.argmin(errors)), float(errors.min())
+        if place == count - 1 and best == before:
+            break
+    return best, chosen
+
+
+# ---- moves -------------------------------------------------------------------------------------
+
+
+def _nearest_good(errors: NDArray[np.float64], reachable: Reachable) -> int:
+    """Return the nearest candidate that is nearly as good as the best one and can be reached."""
+    good = errors <= _NEARLY * errors.min()
+    in_turn = np.lexsort(
+        (np.where(good, reachable.travel, errors), ~good)
+    )  # good ones by travel, then by error
+    for index in in_turn.tolist():
+        if reachable.obstacle(None, index) is None:
+            return int(index)
+    raise InputError(
+        "no candidate can be reached by a straight joint move from here: move the robot to a freer place first"
+    )
+
+
+def _ordered(chosen: list[int], reachable: Reachable) -> tuple[list[int], tuple[str, ...]]:
+    """Return the poses in an order of short moves, and what is in the way of some."""
+    first, between = reachable.travel[chosen], reachable.between(chosen)
+
+    def length(order: tuple[int, ...]) -> float:
+        return float(first[order[0]] + sum(between[i, j] for i, j in pairwise(order)))
+
+    if len(chosen) <= _ALL_ORDERS:
+        order = min(permutations(range(len(chosen))), key=length)
+    else:
+        order = _nearest_next(first, between)
+    poses = [chosen[place] for place in order]
+    warnings = []
+    for number, (here, there) in enumerate(pairwise([None, *poses]), 1):
+        obstacle = reachable.obstacle(here, there)  # type: ignore[arg-type]  # only the first is None
+        if obstacle:
+            warnings.append(f"The straight joint move to pose {number} is not clear ({obstacle}): go around.")
+    return poses, tuple(warnings)
+
+
+def _nearest_next(first: NDArray[np.float64], between: NDArray[np.float64]) -> tuple[int, ...]:
+    order = [int(np.argmin(first))]
+    left = set(range(len(first))) - set(order)
+    while left:
+        order.append(min(left, key=lambda place: (between[order[-1], place], place)))
+        left.remove(order[-1])
+    return tuple(order)
+
+
+def _how(reachable: Reachable, index: int) -> str:
+    """Say how to take a pose."""
+    stands = describe(reachable.R_WS[index])
+    joints, start = reachable.joint_vector(index), reachable.start
+    if joints is None or start is None:
+        return stands
+    moves = [
+        f"joint {number} to {np.degrees(there):.0f}°"
+        for number, (here, there) in enumerate(zip(start, joints, strict=True), 1)
+        if abs(there - here) > np.radians(0.5)
+    ]
+    return f"{', '.join(moves) or 'stay where you are'} ({stands})"

@@ -18,7 +18,7 @@ from pipeline.calibration.fit import (
     predict,
     two_stage,
 )
-from pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, PARAMETERS, GravityModel
+from pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, PARAMETERS, TORQUE_BIAS, GravityModel
 from pipeline.calibration.observability import Observability, observe
 from pipeline.calibration.outliers import LARGEST_SHARE, Rejection, deviates, find_bumped, refit, rejection
 from pipeline.calibration.poses import PoseError, Stack, stack
@@ -143,15 +143,15 @@ class Calibration:
         """Return d² such that ``e' inv(covariance) e < d²`` holds for the errors e with this probability.
 
         Chi-square for noise that is known. For noise estimated from the poses, forces and torques each
-        contribute six times an F variable; their sum is matched in mean and variance by one F variable.
+        contribute six times an F variable; one F variable is matched to the mean and variance of their sum.
         """
-        freedom = min(self.noise.freedom)
-        if not np.isfinite(freedom):
+        if not self.noise.estimated:
             return float(chdtri(12, 1 - probability))
-        freedom = max(freedom, 4.5)  # below, the variance to match does not exist
-        matched = 1.75 * freedom - 3
-        mean = 12 * freedom / (freedom - 2)
-        return float(mean * (matched - 2) / matched * fdtri(12, matched, probability))
+        freedom = np.maximum(self.noise.freedom, 4.5)  # below, the variance to match does not exist
+        means = 6 * freedom / (freedom - 2)
+        ratio = float((means**2 * (freedom + 4) / (3 * (freedom - 4))).sum() / means.sum() ** 2)
+        matched = (10 + 24 * ratio) / (6 * ratio - 1)
+        return float(means.sum() * (matched - 2) / matched * fdtri(12, matched, probability))
 
 
 def calibrate(
@@ -195,7 +195,7 @@ def calibrate(
             " more to check them against one another."
         )
     arrays = stack(poses)
-    first, noise = fit, noise = _first_fit(arrays, noise, poses)
+    fit, noise = _first_fit(arrays, noise, poses)
     far = deviates(arrays, np.ones(len(poses), dtype=bool), fit, noise)
     bumped = find_bumped(arrays, noise, far)
     agree = bool(bumped.mean() <= LARGEST_SHARE)
@@ -203,12 +203,12 @@ def calibrate(
         bumped[:] = False  # nobody can say who is right: show them all
     elif bumped.any():
         fit, noise = refit(arrays, ~bumped, noise)
+    if bumped.any():
+        far = deviates(arrays, ~bumped, fit, noise)
     fit, sight = _observed(arrays.take(~bumped), fit, noise)
     fit, scatter, plausible = _with_scatter(fit, noise, sight.rank)
     task = task or usual_task()
     error = task.calibration_error(fit.theta, fit.covariance)
-    if fit is not first:
-        far = deviates(arrays, ~bumped, fit, noise)
     residuals = arrays.wrenches - predict(arrays.R_SW, fit.theta)
     calibration = Calibration(
         model=GravityModel.from_vector(fit.theta, fit.covariance),
@@ -250,12 +250,32 @@ def _observed(inside: Stack, fit: Fit, noise: PoseNoise) -> tuple[Fit, Observabi
     g = fit.theta[GRAVITY]
     sight = observe(inside.R_SW, g)
     felt = g @ np.linalg.solve(fit.covariance[GRAVITY, GRAVITY], g) > _FELT**2
-    if felt or sight.force_rank < 6:  # what looks alike in every pose may well be weight
-        return fit, sight
-    free = ALL.copy()
-    free[CENTRE_OF_MASS] = False
-    fit = maximise(inside, noise.sigmas, np.where(free, fit.theta, 0.0), free)
-    return fit, observe(inside.R_SW, g, weighs=False)
+    if not felt:
+        free = ALL.copy()
+        free[CENTRE_OF_MASS] = False
+        fit = maximise(inside, noise.sigmas, np.where(free, fit.theta, 0.0), free)
+        if not (sight.null_directions or sight.weak):  # poses that are too much alike may well hide a weight
+            sight = observe(inside.R_SW, g, weighs=False)
+    if sight.null_directions or sight.weak:
+        fit = replace(fit, covariance=fit.covariance + _product(fit.covariance, inside.R_SW))
+    return fit, sight
+
+
+def _product(C: NDArray[np.float64], R_SW: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the covariance (12, 12) that the product of two errors leaves in the torque bias.
+
+    The torque L x (R g) is bilinear. Where both g and L are hardly known, their errors' product is no longer
+    small beside what the Jacobian says; its mean over the poses ends up in M0. For independent a and b with
+    covariances A and B, a x b has (tr A tr B - tr AB) 1 - tr A B - tr B A + AB + BA.
+    """
+    A = C[CENTRE_OF_MASS, CENTRE_OF_MASS]
+    B = np.mean(R_SW @ C[GRAVITY, GRAVITY] @ R_SW.transpose(0, 2, 1), axis=0)
+    trace_A, trace_B, AB = np.trace(A), np.trace(B), A @ B
+    added = np.zeros((12, 12))
+    added[TORQUE_BIAS, TORQUE_BIAS] = (
+        (trace_A * trace_B - np.trace(AB)) * np.eye(3) - trace_A * B - trace_B * A + AB + AB.T
+    )
+    return added
 
 
 def _with_scatter(fit: Fit, noise: PoseNoise, rank: int) -> tuple[Fit, float, bool]:

@@ -39,7 +39,7 @@ UNKNOWN = np.repeat([20.0, 20.0, 0.3, 3.0], 3)
 
 # Orientations are known to some tenths of a degree. What poses separate by less than this (as a sine, per
 # pose) they do not separate: a noise-free set spun about the vertical is as blind as one spun nearly so.
-BLIND = 5e-3
+BLIND = 2e-3
 
 ALL = np.ones(12, dtype=bool)
 _IDENTITY, _THREE = np.eye(12), np.eye(3)
@@ -255,16 +255,18 @@ def fit_with_unknown_noise(
         The noise is marked as estimated, with its degrees of freedom.
     """
     n = len(poses)
-    freedom = max(3 * n - 6, 1)
-    theta = two_stage(poses)
+    theta, freedom = two_stage(poses), np.full(2, max(3.0 * n - 6.0, 1.0))
     for _ in range(_ROUNDS):
         squares = (poses.wrenches - predict(poses.R_SW, theta)) ** 2
-        variances = np.array([squares[:, :3].sum(), squares[:, 3:].sum()]) / (freedom * _truncation(kept))
+        variances = squares.reshape(n, 2, 3).sum(axis=(0, 2)) / (freedom * _truncation(kept))
         sigmas = np.maximum(np.repeat(np.sqrt(variances), 3), np.maximum(least, _LEAST))
         fit = maximise(poses, sigmas, theta)
         theta = fit.theta
-    noise = PoseNoise(sigmas[:3], sigmas[3:], estimated=True, freedom=(freedom, freedom), least=least)
-    return fit, noise
+        # Torques help to find the weight, so they pay for some of its degrees of freedom.
+        paid = np.einsum("nij,jk,nik->ni", fit.J, fit.covariance, fit.J).reshape(n, 2, 3).sum(axis=(0, 2))
+        freedom = np.maximum(3 * n - paid, 1.0)
+    both = (float(freedom[0]), float(freedom[1]))
+    return fit, PoseNoise(sigmas[:3], sigmas[3:], estimated=True, freedom=both, least=least)
 
 
 def _truncation(kept: float) -> float:

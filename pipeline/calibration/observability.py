@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 _UPRIGHT = 0.985
 # Condition beyond which poses are said to be too much alike; the faces of a cube have 2.2 and 1.2.
 WEAK = 10.0
+# Poses that differ by less than this are one pose, and by less than that are too much alike, degrees.
+_SAME, _CLOSE = 0.2, 30.0
 
 
 @dataclass(frozen=True)
@@ -73,22 +75,20 @@ def observe(
     down_S = R_SW @ down_W
     force_rank, force_condition, alike_W = _forces(R_SW)
     torque_rank, torque_condition = _torques(down_S) if weighs else (3, np.inf)
-    words = []
-    if force_rank < 6:
+    words, weak = [], ""
+    if max(force_condition, torque_condition) > WEAK and weighs:
+        weak = _close_words(R_SW)
+    if not weak and force_rank < 6:
         words.append(_force_words(alike_W))
     if not weighs:
         words.append(
             "The sensor feels no weight, so no pose shows the centre of mass. If there is a tool on the"
             " sensor, check the units of the forces and that the sensor does not re-zero itself."
         )
-    elif torque_rank < 6:
+    elif not weak and torque_rank < 6:
         words.append(_torque_words(down_S))
-    weak = ""
-    if not words and max(force_condition, torque_condition) > WEAK:
-        weak = (
-            f"All poses lie within about {_spread(R_SW):.0f}° of one another: bias and weight are told apart"
-            " only by small differences. Tilt the wrist further, up to 90° and beyond, about two axes."
-        )
+    if weak and force_rank + torque_rank < 12:
+        words, weak = [weak], ""
     return Observability(
         force_rank + torque_rank,
         force_rank,
@@ -165,7 +165,18 @@ def _torque_words(down_S: NDArray[np.float64]) -> str:
     )
 
 
+def _close_words(R_SW: NDArray[np.float64]) -> str:
+    """Say that poses are too much alike, if that is what is wrong with them; else nothing."""
+    spread = _spread(R_SW)
+    if not _SAME < spread < _CLOSE:
+        return ""
+    return (
+        f"All poses lie within about {np.ceil(spread):.0f}° of one another: bias and weight are told apart"
+        " only by small differences. Tilt the wrist further, up to 90° and beyond, about two axes."
+    )
+
+
 def _spread(R_SW: NDArray[np.float64]) -> float:
     """Return the largest angle between two of the poses, degrees."""
-    traces = np.einsum("iab,jab->ij", R_SW, R_SW)
-    return float(np.degrees(np.arccos(np.clip((traces.min() - 1) / 2, -1, 1))))
+    rows = R_SW.reshape(-1, 9)
+    return float(np.degrees(np.arccos(np.clip(((rows @ rows.T).min() - 1) / 2, -1, 1))))

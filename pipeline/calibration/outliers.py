@@ -51,7 +51,7 @@ LARGEST_SHARE = 0.4
 
 _START = 4  # poses: three determine the parameters, the fourth tells whether they agree
 _FEWEST = 5  # with fewer, leaving one out leaves nothing to check it with
-_MOST_STARTS = 500
+_MOST_STARTS = 200  # one in eight is clean even when two poses in five are bumped
 _REFINED = 10
 # The variance of a residual, over the noise's, is 1 less the leverage. A pose that alone decides a direction has
 # no residual there; the little more keeps 0 / 0 away, and costs the other poses a few thousandths.

@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, usual_task, worst_sigma
 from pipeline.calibration.fit import UNKNOWN, PoseNoise
-from pipeline.calibration.model import GravityModel, prediction_jacobian
+from pipeline.calibration.model import GRAVITY, GravityModel, prediction_jacobian
 from pipeline.calibration.reachable import describe
 from pipeline.errors import InputError
 
@@ -29,6 +29,7 @@ USUAL_NOISE = PoseNoise(0.05, 0.002)
 
 # Of poses that are this nearly as good as the best one, the nearest is taken.
 _NEARLY = 1.05
+_LEAST_WEIGHT = 0.5  # N
 _PASSES = 8
 _STARTS = 3
 _ALL_ORDERS = 7  # poses whose every order is tried: 5,040
@@ -106,7 +107,7 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
     InputError
         No candidate can be reached by a clear move.
     """
-    theta = calibration.model.vector
+    theta = _plausible(calibration)
     J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / calibration.noise.sigmas[:, None]
     A = calibration.task.parameter_sensitivity(theta)
     errors = _errors_with(calibration.covariance, J, A)
@@ -190,6 +191,14 @@ def plan_error(
     """Return the predicted share of the calibration in the contact error after poses R_WS (n, 3, 3), m."""
     J = prediction_jacobian(R_WS.swapaxes(1, 2), load.vector) / noise.sigmas[:, None]
     return worst_sigma((task or usual_task()).parameter_sensitivity(load.vector), _covariance(J))
+
+
+def _plausible(calibration: Calibration) -> NDArray[np.float64]:
+    """Return the parameters (12,), with a usual weight where none was felt yet: poses would show nothing else."""
+    theta, usual = calibration.model.vector, USUAL_LOAD.vector
+    if np.linalg.norm(theta[GRAVITY]) < _LEAST_WEIGHT:
+        theta[GRAVITY] = usual[GRAVITY]
+    return theta
 
 
 # ---- information -------------------------------------------------------------------------------

@@ -90,13 +90,14 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
     sight = calibration.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
         words.extend(sight.null_directions)
-    elif sight.weighs and _points_up(calibration):
+    elif sight.weighs and not sight.weak and _points_up(calibration):
         words.append(
             "Gravity comes out pointing up. The sensor reports the opposite sign, or the orientations are"
             " turned over: contactbench diagnose tells which."
         )
     if not words and calibration.contact_error > limits.usable_error:
         remedy = sight.weak or "Take more poses with tilts about two axes, or average each for longer."
+        words.extend(sight.null_directions)
         words.append(f"{error}; more than {1e3 * limits.usable_error:g} mm is refused. {remedy}")
     return words
 

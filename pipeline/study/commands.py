@@ -86,6 +86,30 @@ def hard_cases(
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
+@study_app.command(epilog="Example: contactbench study gravity --trials 500 --out gravity.md")
+def gravity(
+    trials: Annotated[int, typer.Option(help="Random set-ups for each statistical figure.")] = 2_000,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure gravity calibration: efficiency, coverage, bumped poses, blind sets, plans, time.
+
+    Needs mujoco for the plans. Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study import gravity as study
+
+    report = study.run(trials=trials, seed=seed, progress=say)
+    if out:
+        _write(out, report.markdown())
+    if as_json:
+        print_json(report.to_json())
+    else:
+        _show([report.table()])
+    if not report.passed:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
 def _whole_number(text: str) -> int:
     try:
         value = int(text)

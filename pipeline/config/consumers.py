@@ -1,0 +1,294 @@
+"""Files for the programs that compensate gravity, each in the consumer's own convention.
+
+This is the project's convention, which the exports translate (S sensor, W world with z up, SI):
+
+    F = R_SW g_W + F0,    M = L_S x (R_SW g_W) + M0
+
+``ros2_control``: names, types and formulas as in the master branches of ros2_controllers, 2023 (4.2) to 2025,
+and of kinematics_interface with its KDL plugin. The broadcaster has offsets from ros2_controllers 4.16 on
+(Jazzy) and multipliers from Kilted on; an older one ignores them.
+
+``force_torque_tools`` (KTH, ROS 1): as in the sources behind release 1.2 (2018). `ft_calib_yaml` says what
+became of the sign of the imu reading in 2021.
+
+The text is YAML 1.1 in ASCII. Every number carries a decimal point, every string is quoted: ROS 2 refuses an
+int where it wants a double, and a list that mixes the two.
+"""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline import __version__
+from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, STANDARD_GRAVITY, TORQUE_BIAS
+from pipeline.config.vertical import residual_of, vertical_residual
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import GravityModel
+    from pipeline.config.vertical import VerticalResidual
+
+# What every version of tf, the robot description and a YAML string in quotes agree upon. tf2 refuses a
+# leading slash.
+_FRAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.\-]*(/[A-Za-z0-9_.\-]+)*", re.ASCII)
+_NODE = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
+# Node names are keys; these would be read as a truth value or as nothing.
+_YAML_WORDS = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"}
+
+
+def ros2_yaml(
+    model: GravityModel,
+    *,
+    sensor_frame: str,
+    world_frame: str,
+    sensor_name: str | None = None,
+    broadcaster: str = "force_torque_sensor_broadcaster",
+    admittance: str = "admittance_controller",
+) -> str:
+    """Return parameters for ros2_control's force_torque_sensor_broadcaster and admittance_controller.
+
+    The broadcaster publishes ``(reading + offset) * multiplier``, axis by axis: the offset is minus the bias.
+
+    The admittance controller removes no bias. It rotates the reading into its fixed world frame and
+    subtracts a weight that points along -z there; in the sensor frame, with ``w = (0, 0, -CoG.force)``:
+
+        F - R_SW w,    M - pos x (R_SW w)
+
+    Then it smooths, by ``ft_sensor.filter_coefficient``, which is not written here. ``CoG.pos`` is only
+    rotated, by the rotation of ``gravity_compensation.frame.id``; that frame's origin plays no part, so the
+    position counts from where the torque counts, the sensor origin. The frame written is therefore the
+    sensor's own. (``external``, seen in old example files, is no parameter.)
+
+    ``fixed_world_frame`` has to be a link of the kinematics chain. It enters as the rotation that forward
+    kinematics gives for it, R_BW, where R_WB is meant. Both are the identity when it is the base B of the
+    chain itself, which is why the file recommends that; turned about the vertical or by half a turn, it
+    works too.
+
+    Parameters
+    ----------
+    model : GravityModel
+    sensor_frame : str
+        Frame S that the readings are in, as the robot description names it.
+    world_frame : str
+        Frame W, z up, against which the calibration's orientations were given.
+    sensor_name : str, optional
+        The sensor as ros2_control names it. The broadcaster then reads it, and the admittance controller
+        reads what the broadcaster exports, already without bias.
+    broadcaster, admittance : str
+        Names of the two controllers, with namespace if they have one.
+
+    Returns
+    -------
+    str
+        YAML. The warnings of `vertical_residual` stand in it as comments; the verdict on the calibration
+        does not: look at it first.
+
+    Raises
+    ------
+    InputError
+        A name has characters that the consumers do not take, or gravity points up.
+    """
+    _check(_FRAME, "ros2_yaml", sensor_frame=sensor_frame, world_frame=world_frame)
+    if sensor_name is not None:
+        _check(_FRAME, "ros2_yaml", sensor_name=sensor_name)
+    _check(_NODE, "ros2_yaml", broadcaster=broadcaster, admittance=admittance)
+    if broadcaster == admittance:
+        raise InputError(f"ros2_yaml: broadcaster and admittance are both {admittance!r}: name two nodes")
+    vertical = vertical_residual(model)
+    # The exported interfaces carry the node's name without its namespace.
+    source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or 'SENSOR_NAME'}"
+    return _document(
+        _head("ros2_control", sensor_frame),
+        *_warn("WARNING: ", vertical),
+        "# Needs ros2_controllers 4.16 or newer: older broadcasters ignore the offset.",
+        f"{_key(broadcaster)}:",
+        "  ros__parameters:",
+        f"    frame_id: {_text(sensor_frame)}",
+        *([f"    sensor_name: {_text(sensor_name)}"] if sensor_name else []),
+        "    # ADDED to the reading: minus the bias. N and N*m.",
+        "    offset:",
+        *_axes("force", -model.force_bias, _sigma(model, FORCE_BIAS)),
+        *_axes("torque", -model.torque_bias, _sigma(model, TORQUE_BIAS)),
+        "    # Applied after the offset; the calibration holds for 1.0 only.",
+        "    multiplier:",
+        *_axes("force", np.ones(3)),
+        *_axes("torque", np.ones(3)),
+        f"{_key(admittance)}:",
+        "  ros__parameters:",
+        "    ft_sensor:",
+        "      # This controller removes no bias. It has to read what the broadcaster exports (start that",
+        "      # one first), not the sensor itself.",
+        f"      {'' if sensor_name else '# '}name: {_text(source)}",
+        "      frame:",
+        f"        id: {_text(sensor_frame)}",
+        "    # z up. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that",
+        "    # base, as on a wall, is used the wrong way round.",
+        "    fixed_world_frame:",
+        "      frame:",
+        f"        id: {_text(world_frame)}",
+        "    gravity_compensation:",
+        "      frame:",
+        f"        id: {_text(sensor_frame)}",
+        "      CoG:",
+        "        # From the sensor origin, in the frame above, m.",
+        *_sigma_comment("        ", _sigma(model, CENTRE_OF_MASS)),
+        f"        pos: {_list(model.centre_of_mass_S)}",
+        "        # Weight, N (not kg), taken along -z of fixed_world_frame.",
+        *_sigma_comment("        ", _sigma(model, GRAVITY)[2:]),
+        f"        force: {yaml_number(vertical.weight)}",
+    )
+
+
+def ft_calib_yaml(model: GravityModel, *, com_frame: str, child_frame: str = "gripper_com") -> str:
+    """Return the calibration file of KTH's force_torque_tools, which its gravity_compensation node loads.
+
+    With ``a_S`` the gravity vector, rotated by tf from the frame of the imu message into that of the wrench,
+    the node computes, torques about the sensor origin:
+
+        F - bias_F - m a_S,    M - bias_M - p x (m a_S)
+
+    There is no world frame and no constant of gravity in the node: direction and size of ``a`` are those of
+    ``linear_acceleration`` in the imu topic. Release 1.2 takes the message as it is, so it has to point
+    down; an accelerometer at rest reads upwards, and versions from 2021 on are said to turn the sign
+    over. A node that publishes a constant instead, as is usual without an imu, can carry the calibration's
+    own gravity vector; the file gives it for both signs.
+
+    Parameters
+    ----------
+    model : GravityModel
+    com_frame : str
+        Frame that the centre of mass is given in: the sensor frame S, as in the header of the raw wrench.
+    child_frame : str
+        What the node calls the centre of mass when it publishes it to tf; it does not start without.
+
+    Returns
+    -------
+    str
+        YAML.
+
+    Raises
+    ------
+    InputError
+        A name has characters that tf does not take, or the load has no weight that points down: the node
+        takes no mass of zero.
+    """
+    _check(_FRAME, "ft_calib_yaml", com_frame=com_frame, child_frame=child_frame)
+    if com_frame == child_frame:
+        raise InputError(
+            f"ft_calib_yaml: com_frame and child_frame are both {com_frame!r}: tf needs two names"
+        )
+    if vertical_residual(model).weight == 0:
+        raise InputError(
+            "ft_calib_yaml: the load has no weight that points down, and gravity_compensation takes no mass of"
+            " zero. Subtract the bias alone, or calibrate with the load mounted."
+        )
+    down = STANDARD_GRAVITY * model.gravity_W / np.linalg.norm(model.gravity_W)
+    vertical = residual_of(model, model.mass * STANDARD_GRAVITY)
+    return _document(
+        _head("KTH gravity_compensation (force_torque_tools)", com_frame),
+        "# The node takes gravity from linear_acceleration in its imu topic, m/s^2, turned by tf. To give it",
+        "# the gravity of this calibration, publish in the world frame of the calibration (z up):",
+        f"#   {_list(down)}  release 1.2 and older: taken as it is, pointing down",
+        f"#   {_list(-down)}  versions that negate the reading first",
+        "# The wrong one of the two doubles the weight instead of removing it.",
+        *_warn("WARNING, should the topic carry the vertical of that frame instead: ", vertical),
+        "# SUBTRACTED from the reading: the bias itself. Force, N, then torque, N*m.",
+        *_sigma_comment("", np.concatenate([_sigma(model, FORCE_BIAS), _sigma(model, TORQUE_BIAS)])),
+        f"bias: {_list([*model.force_bias, *model.torque_bias])}",
+        f"# kg: the weight over {STANDARD_GRAVITY} m/s^2.",
+        *_sigma_comment("", np.array([model.mass_sigma])),
+        f"gripper_mass: {yaml_number(model.mass)}",
+        f"gripper_com_frame_id: {_text(com_frame)}",
+        f"gripper_com_child_frame_id: {_text(child_frame)}",
+        "# x y z from the sensor origin, m, then roll pitch yaw, rad: without meaning for a point.",
+        *_sigma_comment("", _sigma(model, CENTRE_OF_MASS)),
+        f"gripper_com_pose: {_list([*model.centre_of_mass_S, 0.0, 0.0, 0.0])}",
+    )
+
+
+# ---- YAML ----------------------------------------------------------------------------------------
+
+
+def yaml_number(value: float) -> str:
+    """Return a YAML 1.1 float that reads back as exactly `value`: always with a point, as ``1.0e-05``.
+
+    Raises
+    ------
+    InputError
+        The value is not finite.
+    """
+    if not np.isfinite(value):
+        raise InputError(f"yaml_number: {value} is not finite; a consumer would act on it")
+    digits = repr(float(value) + 0.0)  # + 0.0: no -0.0
+    mantissa, e, exponent = digits.partition("e")
+    return f"{mantissa if '.' in mantissa else mantissa + '.0'}{e}{exponent}"
+
+
+def _list(values: Iterable[float]) -> str:
+    return f"[{', '.join(yaml_number(value) for value in values)}]"
+
+
+def _axes(name: str, values: Iterable[float], sigmas: Iterable[float] = ()) -> list[str]:
+    lines = [f"        {axis}: {yaml_number(value)}" for axis, value in zip("xyz", values, strict=True)]
+    return [f"      {name}:", *_sigma_comment("        ", sigmas), *lines]
+
+
+def _text(value: str) -> str:
+    return f'"{value}"'  # the characters were checked: none needs an escape
+
+
+def _key(name: str) -> str:
+    return _text(name) if name.lower() in _YAML_WORDS else name
+
+
+def _check(pattern: re.Pattern[str], where: str, **names: str) -> None:
+    for name, value in names.items():
+        if not pattern.fullmatch(value):
+            raise InputError(
+                f"{where}: {name} {value!r} is no name that every consumer takes: letters, digits and _"
+                f"{' . -' if pattern is _FRAME else ''}, in parts with one / between"
+                f"{', and no / in front, which tf2 refuses' if pattern is _FRAME else ', none starting with a digit'}"
+            )
+
+
+# ---- comments ------------------------------------------------------------------------------------
+
+
+def _document(*lines: str) -> str:
+    return "\n".join(lines) + "\n"
+
+
+def _head(consumer: str, frame: str) -> str:
+    return (
+        f"# Gravity calibration for {consumer}, written by contactbench {__version__}.\n"
+        f"# Forces in N, torques in N*m about the origin of {_text(frame)}, lengths in m, all in that frame.\n"
+        "# What remains after compensation is what the tissue does to the probe."
+    )
+
+
+def _warn(before: str, vertical: VerticalResidual) -> list[str]:
+    return [
+        f"# {line}"
+        for warning in vertical.warnings
+        for line in textwrap.wrap(before + warning, 98, break_long_words=False)
+    ]
+
+
+def _sigma(model: GravityModel, part: slice) -> NDArray[np.float64]:
+    """Return 1 sigma of some parameters."""
+    sigmas: NDArray[np.float64] = np.sqrt(np.maximum(np.diag(model.covariance)[part], 0.0))
+    return sigmas
+
+
+def _sigma_comment(indent: str, sigmas: Iterable[float]) -> list[str]:
+    """Return a comment line, or none where nothing is known."""
+    values = list(sigmas)
+    return [f"{indent}# 1 sigma: {', '.join(f'{value:.2g}' for value in values)}"] if any(values) else []

@@ -1,0 +1,20 @@
+"""Filters for streams of wrenches or contact locations, what they cost in lag, and how to choose them.
+
+Every filter gives the same numbers live (`update`, `update_block`) and for a whole recording (`filter`).
+Samples are rows (n, c) with one column per channel; channels are independent and keep their unit. NaN or an
+infinity is a missing sample of its channel: the last answer is held. Before a channel's first sample it is NaN.
+"""
+
+from pipeline.filtering.kalman import KalmanFigures, KalmanFilter
+from pipeline.filtering.lowpass import LowPass
+from pipeline.filtering.spectrum import CutoffSuggestion, Spectrum, spectrum, suggest_cutoff
+
+__all__ = [
+    "CutoffSuggestion",
+    "KalmanFigures",
+    "KalmanFilter",
+    "LowPass",
+    "Spectrum",
+    "spectrum",
+    "suggest_cutoff",
+]

@@ -1,0 +1,75 @@
+"""Samples as rows of numbers: what the filters share."""
+
+from collections.abc import Iterator
+from math import isfinite
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pipeline.errors import InputError
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+Columns = slice | NDArray[np.intp]
+
+
+def positive(name: str, value: float) -> float:
+    """Return `value` as a float, or raise InputError naming it if it is not positive and finite."""
+    if not (isfinite(value) and value > 0):
+        raise InputError(f"{name} must be positive and finite, not {value}")
+    return float(value)
+
+
+def as_row(name: str, sample: ArrayLike) -> Floats:
+    """Return one sample (c,) as float64, c >= 1, or raise InputError."""
+    row = np.asarray(sample, dtype=np.float64)
+    if row.ndim != 1 or row.size == 0:
+        raise InputError(f"{name}: one sample is a row of one number per channel, not of shape {row.shape}")
+    return row
+
+
+def as_rows(name: str, samples: ArrayLike) -> Floats:
+    """Return samples (n, c) as float64, c >= 1, or raise InputError."""
+    rows = np.asarray(samples, dtype=np.float64)
+    if rows.ndim != 2 or rows.shape[1] == 0:
+        raise InputError(
+            f"{name}: samples are rows (n, c) of one number per channel, not of shape {rows.shape};"
+            " give a single channel as samples[:, None]"
+        )
+    return rows
+
+
+def time_steps(times: ArrayLike, count: int, rate: float) -> Floats:
+    """Return the time from each sample to the next (count,), s; the first, unknown, is 1 / rate.
+
+    Raises
+    ------
+    InputError
+        The times (count,) are not finite or do not increase; the message names the first wrong index.
+    """
+    array = np.asarray(times, dtype=np.float64)
+    if array.shape != (count,):
+        raise InputError(f"times: give one per sample, {count}, not shape {array.shape}")
+    finite = np.isfinite(array)
+    rising = np.concatenate([[True], array[1:] > array[:-1]])[:count]
+    if not np.all(finite & rising):
+        at = int(np.argmin(finite & rising))
+        before = f" after {array[at - 1]} s" if at else ""
+        raise InputError(
+            f"times[{at}] is {array[at]} s{before}: times must be finite and increase; sort the samples or drop"
+            " those with a repeated time"
+        )
+    return np.concatenate([[1 / rate], np.diff(array)])[:count]
+
+
+def alike(missing: Bools, history: list[float] | list[bool]) -> Iterator[tuple[Columns, Bools]]:
+    """Group channels that can be filtered together: the same `history` (c,), the same rows missing (n, c).
+
+    Yields the columns, a slice where it is all of them (views are cheaper than copies), and which rows they
+    miss (n,).
+    """
+    groups: dict[tuple[float, bytes], list[int]] = {}
+    for column, past in enumerate(history):
+        groups.setdefault((past, missing[:, column].tobytes()), []).append(column)
+    for columns in groups.values():
+        yield slice(None) if len(groups) == 1 else np.array(columns), missing[:, columns[0]]

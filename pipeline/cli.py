@@ -8,7 +8,6 @@ needs it, so that ``--help`` and ``--version`` answer at once.
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from enum import StrEnum
@@ -19,6 +18,9 @@ import typer
 from typer.core import TyperGroup
 
 from pipeline import __version__
+from pipeline.commands.gravity import gravity_app
+from pipeline.commands.options import numbers
+from pipeline.commands.poses import poses_app
 from pipeline.console import Bar, JsonOption, print_json, report_error, say, wants_json
 from pipeline.errors import InputError
 from pipeline.study.commands import study_app
@@ -249,7 +251,7 @@ def locate(
     """Locate the contact of each wrench in a CSV file."""
     _check_usage(out, method, track, as_json)
     T_SP = None if mount is None else _mount(mount, units)
-    limits = None if saturation is None else tuple(_numbers(saturation, 6, "--saturation"))
+    limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
     from pipeline.contact import Gates, WrenchNoise
     from pipeline.contact.stream import locate_file, refuse_overwriting
 
@@ -292,19 +294,9 @@ def _check_usage(out: Path, method: MethodName, track: bool, as_json: bool) -> N
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
 
 
-def _numbers(text: str, count: int, option: str) -> list[float]:
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        values = []
-    if len(values) != count or not all(math.isfinite(value) for value in values):
-        raise typer.BadParameter(f"{option} needs {count} finite numbers separated by commas, not {text!r}.")
-    return values
-
-
 def _mount(text: str, units: Units) -> npt.NDArray[np.float64]:
     """T_SP (4, 4), metres, from x,y,z in units and rx,ry,rz in degrees: R_SP = Rz Ry Rx."""
-    values = _numbers(text, 6, "--mount")
+    values = numbers(text, 6, "--mount")
     import numpy as np
     from scipy.spatial.transform import Rotation
 
@@ -388,8 +380,10 @@ def demo(
 
 # ---- more commands -----------------------------------------------------------------------------
 
-# Groups that live beside what they run. Their modules take options and output from pipeline.console,
-# never from this one, and import nothing heavy at their top.
+# Their modules take options and output from pipeline.console and pipeline.commands, never from this one, and
+# import nothing heavy at their top.
+app.add_typer(gravity_app)
+app.add_typer(poses_app)
 app.add_typer(study_app, name="study")
 
 

@@ -58,16 +58,19 @@ def report_error(message: str, *, as_json: bool) -> None:
 
 
 class Bar:
-    """A progress bar by bytes, on a terminal only, and only once the work has taken half a second.
+    """A progress bar, on a terminal only, and only once the work has taken half a second.
 
     Parameters
     ----------
     what : str
         The word in front of it.
+    counted : bool
+        Steps are counted, not bytes.
     """
 
-    def __init__(self, what: str) -> None:
+    def __init__(self, what: str, *, counted: bool = False) -> None:
         self._what = what
+        self._counted = counted
         self._begin = time.perf_counter()
         self._progress: Any = None
         self._task: Any = None
@@ -76,7 +79,7 @@ class Bar:
         return self
 
     def __call__(self, done: int, total: int) -> None:
-        """Show that `done` of `total` bytes are through; a total of 0 is unknown."""
+        """Show that `done` of `total` bytes or steps are through; a total of 0 is unknown."""
         late = time.perf_counter() - self._begin > _PATIENCE_S
         if self._progress is None and late and sys.stderr.isatty():
             self._start(total)
@@ -96,7 +99,7 @@ class Bar:
         self._progress = progress.Progress(
             progress.TextColumn("{task.description}"),
             progress.BarColumn(),
-            progress.DownloadColumn(),
+            progress.MofNCompleteColumn() if self._counted else progress.DownloadColumn(),
             progress.TimeRemainingColumn(),
             console=Console(stderr=True),
             transient=True,

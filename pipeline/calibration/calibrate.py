@@ -34,6 +34,7 @@ if TYPE_CHECKING:
 # The weight is felt when it is this many standard deviations from zero; below, the centre of mass is a
 # ratio of two numbers that are both noise.
 _FELT = 5.0
+_TINY = 1e-300  # N²: a variance beside another that is 1e20 times larger may come out as nothing
 # Noise that was given is doubted when chance explains the residuals once in so many clean sets.
 _DOUBT = 1e-3
 
@@ -249,7 +250,8 @@ def _observed(inside: Stack, fit: Fit, noise: PoseNoise) -> tuple[Fit, Observabi
     """Tell what the poses show; where the weight is lost in the noise, hold the centre of mass at zero."""
     g = fit.theta[GRAVITY]
     sight = observe(inside.R_SW, g)
-    felt = g @ np.linalg.solve(fit.covariance[GRAVITY, GRAVITY], g) > _FELT**2
+    variances, axes = np.linalg.eigh(fit.covariance[GRAVITY, GRAVITY])
+    felt = float(((axes.T @ g) ** 2 / np.maximum(variances, _TINY)).sum()) > _FELT**2
     if not felt:
         free = ALL.copy()
         free[CENTRE_OF_MASS] = False

@@ -47,6 +47,7 @@ _RIDGE = 1e-6
 
 _STEPS, _HALVINGS = 25, 12
 _CONVERGED = 1e-3  # of a standard deviation
+_SINGULAR = 1e-12
 _ROUNDING = 1 + 1e-12  # at the maximum a step neither helps nor harms
 
 
@@ -177,8 +178,9 @@ def maximise(
     for _ in range(_STEPS):
         scaled = (free_jacobian(poses.R_SW, theta, sigmas, free) * UNKNOWN).reshape(-1, 12)
         gradient = scaled.T @ residuals.ravel()
-        # The 1 is nothing beside what the readings say, and keeps the step short where they say nothing.
-        step = np.linalg.solve(scaled.T @ scaled + _IDENTITY, gradient)
+        information = scaled.T @ scaled
+        # Nothing beside what the readings say; it keeps the step short where they say nothing.
+        step = np.linalg.solve(information + _least_information(information) * _IDENTITY, gradient)
         theta, residuals, better = _descend(poses, sigmas, theta, residuals, UNKNOWN * step)
         # The step's length in standard deviations; each is many times shorter than the one before.
         if not better or step @ gradient < _CONVERGED**2:
@@ -222,10 +224,17 @@ def parameter_covariance(J: NDArray[np.float64]) -> NDArray[np.float64]:
     of UNKNOWN: the result is always finite, and never claims what was not seen.
     """
     scaled = (J * UNKNOWN).reshape(-1, 12)
-    values, vectors = np.linalg.eigh(scaled.T @ scaled)
-    root = UNKNOWN[:, None] * vectors / np.sqrt(np.maximum(values, 1.0))
+    information = scaled.T @ scaled
+    values, vectors = np.linalg.eigh(information)
+    unseen = values < _least_information(information)
+    root = UNKNOWN[:, None] * vectors / np.sqrt(np.where(unseen, 1.0, values))
     covariance: NDArray[np.float64] = root @ root.T
     return covariance
+
+
+def _least_information(information: NDArray[np.float64]) -> float:
+    """Return what counts as none: 1 / UNKNOWN², or what rounding makes of nothing where the noise is tiny."""
+    return max(1.0, _SINGULAR * float(np.trace(information)))
 
 
 # ---- unknown noise -----------------------------------------------------------------------------

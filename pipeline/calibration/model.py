@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 STANDARD_GRAVITY = 9.80665  # m/s²
+_SURE = 3.0  # a vector this many times longer than its uncertainty has a direction
 
 # The order of the parameters in every vector and covariance of this package.
 GRAVITY, FORCE_BIAS, CENTRE_OF_MASS, TORQUE_BIAS = slice(0, 3), slice(3, 6), slice(6, 9), slice(9, 12)
@@ -77,12 +78,12 @@ class GravityModel:
 
     @property
     def mass_sigma(self) -> float:
-        """Standard deviation of the mass, kg."""
-        g = self.gravity_W
-        size = float(np.linalg.norm(g))
-        C = self.covariance[GRAVITY, GRAVITY]
-        variance = g @ C @ g / size**2 if size else np.linalg.eigvalsh(C)[-1]
-        return float(np.sqrt(max(variance, 0.0))) / STANDARD_GRAVITY
+        """Standard deviation of the mass, kg; in the worst direction, where the weight's own is hardly known."""
+        g, C = self.gravity_W, self.covariance[GRAVITY, GRAVITY]
+        size, worst = float(np.linalg.norm(g)), float(np.sqrt(np.linalg.norm(C, 2)))
+        if size < _SURE * worst:
+            return worst / STANDARD_GRAVITY
+        return float(np.sqrt(g @ C @ g)) / size / STANDARD_GRAVITY
 
     def predict(self, R_WS: ArrayLike) -> NDArray[np.float64]:
         """Return what the untouched sensor reads at orientations R_WS.

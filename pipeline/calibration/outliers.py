@@ -35,6 +35,7 @@ from pipeline.calibration.model import (
     cross_matrix,
 )
 from pipeline.calibration.poses import named
+from pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -50,7 +51,7 @@ FALSE_ALARM = 0.01
 LARGEST_SHARE = 0.4
 
 _START = 4  # poses: three determine the parameters, the fourth tells whether they agree
-_FEWEST = 5  # with fewer, leaving one out leaves nothing to check it with
+FEWEST = 5  # with fewer, leaving one out leaves nothing to check it with
 _MOST_STARTS = 200  # one in eight is clean even when two poses in five are bumped
 _REFINED = 10
 # The variance of a residual, over the noise's, is 1 less the leverage. A pose that alone decides a direction has
@@ -84,7 +85,7 @@ class Rejection:
 
 
 def find_bumped(poses: Stack, noise: PoseNoise, far: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which poses (n,) disagree with the others.
+    """Return which poses (n,) disagree with the others; where most do, no majority agrees.
 
     Parameters
     ----------
@@ -98,17 +99,34 @@ def find_bumped(poses: Stack, noise: PoseNoise, far: NDArray[np.float64]) -> NDA
     agreeing = np.ones(n, dtype=bool)
     # Noise that is estimated with two bumped poses among few is so large that it hides both.
     plausible = not noise.estimated and bool((far < limit(n)).all())
-    if n < _FEWEST or plausible:
+    if n < FEWEST or plausible:
         return ~agreeing
-    agreeing = _best_majority(poses, noise)
+    agreeing = _agreeing(poses, noise, _best_majority(poses, noise))
     while not agreeing.all():
-        inner, inner_noise = refit(poses, agreeing, noise)
-        worst = deviates(poses, agreeing, inner, inner_noise).max(axis=1)
+        worst = _worst(poses, noise, agreeing)
         nearest = np.argmin(np.where(agreeing, np.inf, worst))
         if worst[nearest] >= limit(n):
             break
         agreeing[nearest] = True
     return ~agreeing
+
+
+def _agreeing(poses: Stack, noise: PoseNoise, majority: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Leave out of a majority whoever does not agree: one was asked for, so one was found, but it may not be one."""
+    n, agreeing = len(poses), majority.copy()
+    while agreeing.sum() > _START:
+        worst = np.where(agreeing, _worst(poses, noise, agreeing), 0.0)
+        if worst.max() < limit(n):
+            return agreeing
+        agreeing[np.argmax(worst)] = False
+    return agreeing
+
+
+def _worst(poses: Stack, noise: PoseNoise, agreeing: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Return the larger deviate (n,) of each pose from a fit of the agreeing ones."""
+    fit, noise = refit(poses, agreeing, noise)
+    worst: NDArray[np.float64] = deviates(poses, agreeing, fit, noise).max(axis=1)
+    return worst
 
 
 def limit(n: int) -> float:
@@ -141,7 +159,7 @@ def deviates(poses: Stack, inside: NDArray[np.bool_], fit: Fit, noise: PoseNoise
     halves = J.reshape(-1, 2, 3, 12)
     covariance = _WHOLE + sign[..., None] * (halves @ fit.covariance @ halves.swapaxes(2, 3))
     r = residuals.reshape(-1, 2, 3, 1)
-    squares = (r.swapaxes(2, 3) @ np.linalg.solve(covariance, r))[..., 0, 0]
+    squares = np.maximum((r.swapaxes(2, 3) @ np.linalg.solve(covariance, r))[..., 0, 0], 0.0)
     return _as_deviates(squares, inside, noise)
 
 
@@ -241,12 +259,12 @@ def rejection(
         Read minus predicted, N and N·m.
     """
     force, torque = float(far[0]), float(far[1])
-    size_F, size_M = np.linalg.norm(residual[:3]), np.linalg.norm(residual[3:])
+    size_F, size_M = float(np.linalg.norm(residual[:3])), float(np.linalg.norm(residual[3:]))
     both = []
     if force >= limit(len(poses)):
-        both.append(f"force {force:.1f} sigma ({size_F:.2g} N) off")
+        both.append(f"force {force:.1f} sigma ({plain(size_F)} N) off")
     if torque >= limit(len(poses)):
-        both.append(f"torque {torque:.1f} sigma ({1e3 * size_M:.2g} mN·m) off")
+        both.append(f"torque {torque:.1f} sigma ({plain(1e3 * size_M)} mN·m) off")
     what = " and ".join(both) or "least like the others"
     reason = f"{what} what the other poses predict: bumped, touched, or captured while moving."
     return Rejection(index, named(poses, index), force, torque, reason)

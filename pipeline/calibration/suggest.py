@@ -13,6 +13,7 @@ from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, 
 from pipeline.calibration.fit import UNKNOWN, PoseNoise
 from pipeline.calibration.model import GRAVITY, GravityModel, prediction_jacobian
 from pipeline.calibration.reachable import describe
+from pipeline.calibration.wording import plain
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ USUAL_NOISE = PoseNoise(0.05, 0.002)
 # Of poses that are this nearly as good as the best one, the nearest is taken.
 _NEARLY = 1.05
 _LEAST_WEIGHT = 0.5  # N
+_UNDETERMINED = 0.05  # m
 _PASSES = 8
 _STARTS = 3
 _ALL_ORDERS = 7  # poses whose every order is tried: 5,040
@@ -113,10 +115,7 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
     errors = _errors_with(calibration.covariance, J, A)
     chosen = _nearest_good(errors, reachable)
     before, after = calibration.contact_error, float(errors[chosen])
-    sentence = (
-        f"Next: {_how(reachable, chosen)}. Predicted share of the calibration in the contact error:"
-        f" {1e3 * before:.2g} -> {1e3 * after:.2g} mm (1 sigma, worst case)."
-    )
+    sentence = f"Next: {_how(reachable, chosen)}. {_gain(before, after)}"
     return Suggestion(
         reachable.R_WS[chosen],
         reachable.joint_vector(chosen),
@@ -298,6 +297,14 @@ def _nearest_next(first: NDArray[np.float64], between: NDArray[np.float64]) -> t
         order.append(min(left, key=lambda place: (between[order[-1], place], place)))
         left.remove(order[-1])
     return tuple(order)
+
+
+def _gain(before: float, after: float) -> str:
+    """Say what a pose gains; an error far beyond a probe's size only means that something is still unknown."""
+    if after > _UNDETERMINED:
+        return "It alone does not settle it: the contact stays undetermined until another pose follows."
+    now = f"{plain(1e3 * before)} mm" if before < _UNDETERMINED else "not determined yet"
+    return f"The calibration's share of the contact error: {now} -> {plain(1e3 * after)} mm (1 sigma, worst case)."
 
 
 def _how(reachable: Reachable, index: int) -> str:

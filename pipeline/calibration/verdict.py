@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.calibration.wording import plain
+
 if TYPE_CHECKING:
     from pipeline.calibration.calibrate import Calibration
 
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
+_RESTLESS = 50.0  # drift and hum make a mean several times worse than its samples promise, but not this much
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -69,7 +72,7 @@ def judge(calibration: Calibration, agree: bool, limits: Limits) -> Verdict:
     limits : Limits
     """
     error = (
-        f"The calibration adds up to {1e3 * calibration.contact_error:.2g} mm (1 sigma) to a contact point"
+        f"The calibration adds up to {plain(1e3 * calibration.contact_error)} mm (1 sigma) to a contact point"
     )
     grave = _grave(calibration, agree, limits, error)
     if grave:
@@ -87,6 +90,12 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
             "No majority of the poses agrees with one gravity model. Either the orientations are in another"
             " convention than was said (contactbench diagnose tells), or most captures were disturbed."
         )
+    if _restless(calibration):
+        words.append(
+            "The poses disagree by far more than the readings within each of them scatter. Either the"
+            " orientations are in another convention than was said (contactbench diagnose tells), or captures"
+            " were disturbed."
+        )
     sight = calibration.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
         words.extend(sight.null_directions)
@@ -100,6 +109,14 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
         words.extend(sight.null_directions)
         words.append(f"{error}; more than {1e3 * limits.usable_error:g} mm is refused. {remedy}")
     return words
+
+
+def _restless(calibration: Calibration) -> bool:
+    """Tell whether noise that was estimated between the poses is out of proportion to that within them."""
+    noise = calibration.noise
+    return noise.estimated and bool(
+        (noise.least > 0).all() and (noise.sigmas > _RESTLESS * noise.least).any()
+    )
 
 
 def _points_up(calibration: Calibration) -> bool:

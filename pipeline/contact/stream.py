@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-__all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting"]
+__all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting", "whole_output"]
 
 Progress = Callable[[int, int], None]
 
@@ -127,7 +127,7 @@ def locate_file(
     refuse_overwriting(out, source)
     begin = time.perf_counter()
     tally = _Tally()
-    with open_table(source, WrenchFileError) as (stream, name, size), _sink(out) as write:
+    with open_table(source, WrenchFileError) as (stream, name, size), whole_output(out, "contacts") as write:
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
         write(HEADER)
         text = ContactRows()
@@ -290,13 +290,32 @@ def refuse_overwriting(out: Path | BinaryIO, source: Path | BinaryIO) -> None:
 
 
 @contextmanager
-def _sink(out: Path | BinaryIO) -> Iterator[Callable[[bytes], object]]:
-    """Take bytes that become a file when the block ends well; leave no trace when it does not."""
+def whole_output(out: Path | BinaryIO, what: str) -> Iterator[Callable[[bytes], object]]:
+    """
+    Take bytes that become a file when the block ends well; leave no trace when it does not.
+
+    Parameters
+    ----------
+    out : path or binary file
+        A path keeps what is there until the block has ended; a link stays one.
+    what : str
+        What messages call the content, in the plural.
+
+    Yields
+    ------
+    write : callable
+        Takes bytes, as often as there are some.
+
+    Raises
+    ------
+    WrenchFileError
+        `out` is no place for a file, or cannot be written.
+    """
     if not isinstance(out, Path):
         yield out.write
         out.flush()
         return
-    with _explained(out):
+    with _explained(out, what):
         # A link stays one: what it points at is replaced.
         file = out.resolve()
         if file.exists() and not file.is_file():
@@ -305,16 +324,16 @@ def _sink(out: Path | BinaryIO) -> Iterator[Callable[[bytes], object]]:
         stream = scratch.open("xb")
 
     def write(data: bytes) -> None:
-        with _explained(out):
+        with _explained(out, what):
             stream.write(data)
 
     try:
         with stream:
             yield write
-            with _explained(out):
+            with _explained(out, what):
                 stream.flush()
                 os.fsync(stream.fileno())
-        with _explained(out):
+        with _explained(out, what):
             scratch.replace(file)
     except BaseException:
         scratch.unlink(missing_ok=True)
@@ -323,11 +342,11 @@ def _sink(out: Path | BinaryIO) -> Iterator[Callable[[bytes], object]]:
 
 
 @contextmanager
-def _explained(out: Path) -> Iterator[None]:
+def _explained(out: Path, what: str) -> Iterator[None]:
     try:
         yield
     except OSError as error:
         raise WrenchFileError(
-            f"{out}: the contacts cannot be written ({error.strerror or error}): choose a folder that exists,"
+            f"{out}: the {what} cannot be written ({error.strerror or error}): choose a folder that exists,"
             " is writable and has space."
         ) from error

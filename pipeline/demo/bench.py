@@ -12,12 +12,13 @@ from pipeline.contact import ContactSolver, WrenchNoise
 from pipeline.contact.stream import locate_file
 from pipeline.contact.wrench_csv import WrenchReader
 from pipeline.demo.compare import FACE, HEAD, compare_methods
-from pipeline.demo.files import make_folder, write_bytes, write_csv, write_truth, write_wrenches
+from pipeline.demo.files import make_folder, write_bytes, write_csv, write_truth
+from pipeline.demo.gravity import GravityResult, weigh_and_compensate
 from pipeline.demo.picture import Located, PictureError, draw
 from pipeline.demo.report import DemoReport, ProbeResult
 from pipeline.errors import InputError
 from pipeline.mesh import Probe, load_probe, save_probe
-from pipeline.simulation import Touches, add_noise, draw_touches
+from pipeline.simulation import Touches, draw_touches
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -44,6 +45,8 @@ class _Bench:
     probe: Probe
     truth: Touches
     where: NDArray[np.str_]
+    gravity: GravityResult
+    noise: WrenchNoise
     wrenches: NDArray[np.float64]
     batch: Batch
 
@@ -57,8 +60,9 @@ def run(
 ) -> DemoReport:
     """Do the main job on bundled probes, and check it against the known truth.
 
-    Writes probe.ply, wrenches.csv, truth.csv and contacts.csv in a folder per probe, and errors.csv,
-    errors.md and, if it can be drawn, contacts.png. Files that are there are replaced, each in one step.
+    Writes poses.csv, calibration.json, calibration.html, recording.csv, wrenches.csv, probe.ply, truth.csv
+    and contacts.csv in a folder per probe, and errors.csv, errors.md and, if it can be drawn, contacts.png.
+    Files that are there are replaced, each in one step.
 
     Parameters
     ----------
@@ -88,12 +92,12 @@ def run(
     noise = WrenchNoise()
     results, located, notes = [], [], []
     for name in names:
-        progress(f"{name}: simulating and locating {touches:,} touches")
+        progress(f"{name}: calibrating gravity, simulating and locating {touches:,} touches")
         bench = _simulate(out / name, name, touches, seed, noise)
         progress(f"{name}: comparing the methods")
-        errors, left_out = compare_methods(bench.probe, noise, bench.wrenches, bench.truth, bench.where)
+        errors, left_out = compare_methods(bench.probe, bench.noise, bench.wrenches, bench.truth, bench.where)
         region = int(np.count_nonzero(bench.probe.region))
-        result = ProbeResult(name, len(bench.probe.faces), region, tuple(errors))
+        result = ProbeResult(name, len(bench.probe.faces), region, tuple(errors), bench.gravity)
         results.append(result)
         located.append(Located(name, bench.batch, bench.truth.points, result.ours.mean_mm))
         notes += [sentence for sentence in left_out if sentence not in notes]
@@ -138,14 +142,14 @@ def _simulate(folder: Path, name: str, count: int, seed: int, noise: WrenchNoise
     save_probe(Probe.from_arrays(vertices, faces, region, name=name), folder / "probe.ply")
     rng = np.random.default_rng([seed, assets.PROBE_NAMES.index(name)])
     truth, where = _touches(name, float(vertices[:, 2].max()), count, rng)
-    write_wrenches(folder / "wrenches.csv", add_noise(truth.wrenches, noise, rng))
     write_truth(folder / "truth.csv", truth, where.tolist())
-    # From here on only the files count: what works here works for files from elsewhere.
+    gravity, left = weigh_and_compensate(folder, truth.wrenches, noise, rng)
     probe = load_probe(folder / "probe.ply", units="m", name=name)
-    solver = ContactSolver(probe, noise)
+    whole = WrenchNoise(noise.force, noise.torque, extra=left)
+    solver = ContactSolver(probe, whole)
     locate_file(solver, folder / "wrenches.csv", folder / "contacts.csv")
     wrenches = _read_wrenches(folder / "wrenches.csv")
-    return _Bench(name, probe, truth, where, wrenches, solver.locate_batch(wrenches))
+    return _Bench(name, probe, truth, where, gravity, whole, wrenches, solver.locate_batch(wrenches))
 
 
 def _touches(name: str, tip: float, count: int, rng: np.random.Generator) -> tuple[Touches, NDArray[np.str_]]:

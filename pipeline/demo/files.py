@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pipeline.durable import write_durably
 from pipeline.errors import InputError
@@ -61,10 +62,12 @@ def write_csv(file: Path, columns: Sequence[str], rows: Iterable[Sequence[object
     write_bytes(file, ("\n".join(lines) + "\n").encode())
 
 
-def write_wrenches(file: Path, wrenches: NDArray[np.float64]) -> None:
-    """Write (n, 6) wrenches, S, N and N·m about the sensor origin, as a stream at 200 Hz."""
-    rows = ((t, *row) for t, row in zip(_times(len(wrenches)), wrenches.tolist(), strict=True))
-    write_csv(file, ("t", "fx", "fy", "fz", "mx", "my", "mz"), rows)
+def write_recording(file: Path, readings: NDArray[np.float64], R_WS: NDArray[np.float64]) -> None:
+    """Write raw readings (n, 6), S, N and N·m, and orientations (n, 3, 3) as quaternions, at 200 Hz."""
+    quaternions = Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    values = np.column_stack([readings, quaternions]).tolist()
+    rows = ((t, *row) for t, row in zip(_times(len(readings)), values, strict=True))
+    write_csv(file, ("t", "fx", "fy", "fz", "mx", "my", "mz", "qw", "qx", "qy", "qz"), rows)
 
 
 def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:

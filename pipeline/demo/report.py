@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from pipeline.demo.compare import MethodErrors
+    from pipeline.demo.gravity import GravityResult
 
 # Noise alone gives a mean error of 0.9 times the bound, and the facets add little; a wrong sign, frame or unit
 # gives many times it. The mean, because one rare wrong facet would rule the root mean square of few touches.
@@ -34,12 +35,15 @@ class ProbeResult:
         Of the mesh, and of its contact region.
     errors : tuple of MethodErrors
         Every method on every part.
+    gravity : GravityResult
+        How its gravity calibration did.
     """
 
     probe: str
     facets: int
     region_facets: int
     errors: tuple[MethodErrors, ...]
+    gravity: GravityResult
 
     @property
     def ours(self) -> MethodErrors:
@@ -48,6 +52,11 @@ class ProbeResult:
 
     @property
     def verified(self) -> bool:
+        """Whether gravity is right, and the mean error of contactbench at most 1.3 times the noise bound."""
+        return self.gravity.verified and self.located
+
+    @property
+    def located(self) -> bool:
         """Whether the mean error of contactbench is at most 1.3 times the noise bound."""
         ours = self.ours
         return (
@@ -93,6 +102,7 @@ class DemoReport:
         data = asdict(self)
         for entry, result in zip(data["probes"], self.probes, strict=True):
             entry["verified"] = result.verified
+            entry["gravity"]["verified"] = result.gravity.verified
         return {
             **data,
             "out": str(self.out),
@@ -147,7 +157,8 @@ class DemoReport:
             f"Simulated {self.touches:,} touches of 8 to 10 N on each probe ({names}), with"
             f" {self.force_noise:g} N and {self.torque_noise:g} N·m of sensor noise, and located them."
         )
-        return [done, *map(_verdict, self.probes), *self.notes, f"The files are in {self.out}."]
+        weighed = [result.gravity.sentence(result.probe) for result in self.probes]
+        return [done, *weighed, *map(_verdict, self.probes), *self.notes, f"The files are in {self.out}."]
 
 
 _CAPTION = (
@@ -162,7 +173,7 @@ def _verdict(result: ProbeResult) -> str:
     if ours.mean_mm is None or ours.over_bound is None:
         return f"{result.probe}: FAILED, not one touch was located without doubt."
     found = f"{result.probe}: mean error {ours.mean_mm:.2f} mm, {ours.over_bound:.2f} times the noise bound"
-    if result.verified:
+    if result.located:
         return f"{found}."
     return f"{found}. FAILED: even the mean is more than {LIMIT:g} times the {ours.bound_mm:.2f} mm of noise."
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 import csv
 import json
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,16 +12,17 @@ import pytest
 from typer.testing import CliRunner
 
 from pipeline import cli, demo
+from pipeline.calibration.files import load_calibration
 from pipeline.contact import ContactSolver, WrenchNoise
 from pipeline.contact.methods import METHODS
-from pipeline.demo import bench, body, compare, picture
+from pipeline.demo import bench, body, compare, gravity, picture
 from pipeline.demo.report import LIMIT
 from pipeline.demo.view import View
 from pipeline.errors import InputError
 from pipeline.mesh import load_probe
 
 TOUCHES = 40
-CSV_FILES = ("wrenches.csv", "truth.csv", "contacts.csv")
+CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
 
 
 def no_picture(*_: Any) -> list[Any]:
@@ -31,6 +33,7 @@ def no_picture(*_: Any) -> list[Any]:
 def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Most tests are about numbers: rendering would only take their time."""
     monkeypatch.setattr(picture, "render_bodies", no_picture)
+    monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +62,7 @@ def test_files_of_a_probe_parse(done: demo.DemoReport, name: str) -> None:
     probe = load_probe(folder / "probe.ply", units="m")
     assert 1_900 <= len(probe.faces) <= 2_100
     assert 0 < np.count_nonzero(probe.region) < len(probe.faces)
-    wrenches, truth, contacts = (columns(folder / file) for file in CSV_FILES)
+    wrenches, truth, contacts = (columns(folder / file) for file in CSV_FILES[1:])
     assert list(wrenches) == ["t", "fx", "fy", "fz", "mx", "my", "mz"]
     assert list(truth) == ["t", "x", "y", "z", "nx", "ny", "nz", "k", "where"]
     assert wrenches["t"] == truth["t"] == contacts["t"]
@@ -111,7 +114,7 @@ def test_same_seed_same_bytes(done: demo.DemoReport, tmp_path: Path) -> None:
     (tmp_path / "convex").mkdir()
     (tmp_path / "convex" / "truth.csv").write_text("old")
     demo.run(tmp_path, ["convex"], TOUCHES, 3)
-    for file in ("probe.ply", *CSV_FILES):
+    for file in ("probe.ply", "poses.csv", "calibration.json", *CSV_FILES):
         assert (tmp_path / "convex" / file).read_bytes() == (done.out / "convex" / file).read_bytes()
     again = (tmp_path / "errors.csv").read_text().splitlines()
     assert set(again) < set((done.out / "errors.csv").read_text().splitlines())
@@ -134,9 +137,11 @@ def test_verified_means_within_the_noise(done: demo.DemoReport) -> None:
 
 @pytest.mark.usefixtures("undrawn")
 def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    honest = bench.add_noise
+    honest = bench.weigh_and_compensate
     monkeypatch.setattr(
-        bench, "add_noise", lambda wrenches, _, rng: honest(wrenches, WrenchNoise(0.2, 0.008), rng)
+        bench,
+        "weigh_and_compensate",
+        lambda folder, wrenches, _, rng: honest(folder, wrenches, WrenchNoise(0.2, 0.008), rng),
     )
     result = invoke("--out", tmp_path, "--probe", "convex", "--touches", TOUCHES, "--json")
     assert result.exit_code == 1
@@ -146,6 +151,30 @@ def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_
     assert ours["mean_mm"] > LIMIT * ours["bound_mm"]
     assert "convex: mean error" in result.stderr
     assert "FAILED" in result.stderr
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_a_calibration_that_is_off_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    honest = gravity.calibrate
+
+    def wrong(poses: Any) -> Any:
+        return honest([replace(pose, torque=1.1 * pose.torque) for pose in poses])
+
+    monkeypatch.setattr(gravity, "calibrate", wrong)
+    report = demo.run(tmp_path, ["convex"], TOUCHES, 3)
+    assert not report.verified
+    assert "FAILED: it is not what its uncertainty says" in " ".join(report.sentences())
+
+
+def test_the_bumped_pose_is_named_and_the_mass_is_right(done: demo.DemoReport) -> None:
+    for result in done.probes:
+        weighed = result.gravity
+        assert len(weighed.bumped) == 1
+        assert weighed.named == weighed.bumped
+        assert abs(weighed.mass - weighed.true_mass) < 4 * weighed.mass_sigma < 0.01
+        assert weighed.contact_error_mm < 0.5
+        loaded = load_calibration(done.out / result.probe / "calibration.json")
+        assert loaded.mass == weighed.mass
 
 
 @pytest.mark.usefixtures("undrawn")

@@ -1,0 +1,413 @@
+"""Calibrations as JSON files: everything the report and the next pose need, and nothing that runs.
+
+What is loaded is checked twice: its shape by a strict schema, then its sense. A bit that flipped in a
+parameter, or a number that was edited, no longer fits the poses and residuals beside it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline import __version__
+from pipeline.calibration.calibrate import Calibration
+from pipeline.calibration.contact_error import ContactTask
+from pipeline.calibration.fit import PoseNoise
+from pipeline.calibration.model import STANDARD_GRAVITY, GravityModel
+from pipeline.calibration.observability import Observability
+from pipeline.calibration.outliers import Rejection
+from pipeline.calibration.poses import PoseSample
+from pipeline.calibration.schema import (
+    REMEDY,
+    CalibrationFileError,
+    Document,
+    PosePart,
+    document,
+    or_infinite,
+    parse,
+)
+from pipeline.calibration.verdict import Verdict
+from pipeline.durable import write_durably
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+__all__ = [
+    "CalibrationFileError",
+    "CalibrationRecord",
+    "Mount",
+    "Source",
+    "creation_time",
+    "load_calibration",
+    "load_record",
+    "save_calibration",
+]
+
+SIZE_LIMIT = 32 * 2**20  # bytes; ten thousand poses take half of it
+
+
+@dataclass(frozen=True)
+class Source:
+    """
+    The file that the poses came from.
+
+    Attributes
+    ----------
+    name : str
+        Its name, without folders.
+    sha256 : str
+        Of its content, 64 hexadecimal digits.
+    """
+
+    name: str
+    sha256: str
+
+    @classmethod
+    def of(cls, file: Path) -> Source:
+        """Read a file for its hash; CalibrationFileError if that fails."""
+        try:
+            with file.open("rb") as stream:
+                return cls(file.name, hashlib.file_digest(stream, "sha256").hexdigest())
+        except (OSError, ValueError) as error:
+            raise CalibrationFileError(
+                f"{file}: the file cannot be read ({error}): check the path."
+            ) from error
+
+
+@dataclass(frozen=True, eq=False)
+class Mount:
+    """
+    How the flange E sits on the sensor S.
+
+    Attributes
+    ----------
+    quaternion_SE : (4,)
+        Orientation of E in S, scalar first, of length 1.
+    covariance : (3, 3)
+        Of the rotation vector d in ``R_true = exp([d]x) @ R_SE``, in S, rad².
+    """
+
+    quaternion_SE: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+
+    @property
+    def R_SE(self) -> NDArray[np.float64]:
+        """(3, 3): ``v_S = R_SE @ v_E``."""
+        w, x, y, z = self.quaternion_SE
+        return Rotation.from_quat([x, y, z, w]).as_matrix()
+
+
+@dataclass(frozen=True, eq=False)
+class CalibrationRecord:
+    """
+    All that a calibration file holds.
+
+    Attributes
+    ----------
+    calibration : Calibration
+    created : datetime or None
+        When, UTC; None if nobody said.
+    tool : str
+        What wrote the file.
+    source : Source or None
+        What the poses came from.
+    mount : Mount or None
+    """
+
+    calibration: Calibration
+    created: datetime | None
+    tool: str
+    source: Source | None
+    mount: Mount | None
+
+
+def save_calibration(
+    calibration: Calibration,
+    file: Path,
+    *,
+    source: Path | Source | None = None,
+    created: datetime | None = None,
+    mount: Mount | None = None,
+) -> None:
+    """
+    Write a calibration as JSON; the same arguments give the same bytes.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    file : path
+        Appears as a whole; what was there stays until then.
+    source : path or Source, optional
+        The file of the poses, noted with its hash.
+    created : datetime, optional
+        With a time zone; `creation_time` gives one. Kept to the second.
+    mount : Mount, optional
+
+    Raises
+    ------
+    CalibrationFileError
+        The calibration holds something that no file of this kind can, or the file cannot be written.
+    """
+    if isinstance(source, Path):
+        source = Source.of(source)
+    if created is not None and created.tzinfo is None:
+        raise CalibrationFileError(f"{file}: created: the time has no zone: use datetime.now(UTC).")
+    provenance = {
+        "tool": f"contactbench {__version__}",
+        "created": None if created is None else created.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+        "source": None if source is None else vars(source),
+    }
+    fields = None
+    if mount is not None:
+        fields = {
+            "quaternion_SE": mount.quaternion_SE.tolist(),
+            "covariance_rad2": mount.covariance.tolist(),
+        }
+    content = document(calibration, provenance, fields)
+    try:
+        data = (json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n").encode()
+    except ValueError as error:  # not finite, or text that is no Unicode
+        raise CalibrationFileError(
+            f"{file}: this calibration cannot be written ({error}): {REMEDY}"
+        ) from error
+    _decode(data, str(file))  # what cannot be read is better refused now
+    try:
+        write_durably(file, data)
+    except (OSError, ValueError) as error:
+        raise CalibrationFileError(
+            f"{file}: the calibration cannot be written ({error}): choose a folder that exists, is writable"
+            " and has space."
+        ) from error
+
+
+def load_calibration(file: Path) -> Calibration:
+    """
+    Read a calibration that `save_calibration` wrote.
+
+    Raises
+    ------
+    CalibrationFileError
+        As `load_record`.
+    """
+    return load_record(file).calibration
+
+
+def load_record(file: Path) -> CalibrationRecord:
+    """
+    Read a calibration with where and when it comes from.
+
+    Raises
+    ------
+    CalibrationFileError
+        The file is missing, too large, not JSON, of another kind or a newer version, or a field is missing,
+        of the wrong type, not finite, or contradicts the others; the message names it.
+    """
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(SIZE_LIMIT + 1)
+    except FileNotFoundError:
+        raise CalibrationFileError(f"{file}: there is no such file: check the path.") from None
+    except (OSError, ValueError) as error:
+        raise CalibrationFileError(
+            f"{file}: the file cannot be read ({error}): choose a calibration file."
+        ) from error
+    return _decode(data, str(file))
+
+
+def creation_time() -> datetime:
+    """
+    Return the present time, UTC, or what SOURCE_DATE_EPOCH says, so that a build can be repeated to the bit.
+
+    Raises
+    ------
+    InputError
+        SOURCE_DATE_EPOCH is set, but not to seconds since 1970.
+    """
+    epoch = os.environ.get("SOURCE_DATE_EPOCH")
+    try:
+        return datetime.now(UTC) if epoch is None else datetime.fromtimestamp(int(epoch), UTC)
+    except (ValueError, OverflowError, OSError):
+        raise InputError(
+            f"SOURCE_DATE_EPOCH is {epoch!r}: set it to whole seconds since 1970, or unset it."
+        ) from None
+
+
+# ---- reading -----------------------------------------------------------------------------------
+
+_ROUNDING = 1e-9  # of what is computed anew, on another machine too
+
+
+def _decode(data: bytes, name: str) -> CalibrationRecord:
+    """Return what a file holds, after checking that its parts fit together."""
+    if len(data) > SIZE_LIMIT:
+        raise CalibrationFileError(f"{name}: larger than {SIZE_LIMIT >> 20} MiB: choose a calibration file.")
+    content = parse(data, name)
+    model = _model(content, name)
+    poses = tuple(_sample(pose, f"{name}: poses[{i}]") for i, pose in enumerate(content.poses))
+    residuals = np.array([pose.residual_force_N + pose.residual_torque_Nm for pose in content.poses])
+    _check_residuals(model, poses, residuals, name)
+    calibration = Calibration(
+        model=model,
+        noise=_noise(content, name),
+        poses=poses,
+        residuals=residuals,
+        deviates=np.array([[pose.force_deviate, pose.torque_deviate] for pose in content.poses]),
+        rejected=tuple(Rejection(**vars(part)) for part in content.rejected),
+        observability=_observability(content),
+        scatter=content.scatter,
+        plausible=content.plausible,
+        task=_task(content, name),
+        contact_error=content.contact_error_m,
+        verdict=Verdict(content.verdict.level, tuple(content.verdict.reasons)),
+    )
+    source = None if content.source is None else Source(**vars(content.source))
+    return CalibrationRecord(
+        calibration, _created(content, name), content.tool, source, _mount(content, name)
+    )
+
+
+def _model(content: Document, name: str) -> GravityModel:
+    with _at(f"{name}: covariance"):
+        covariance = _covariance(content.covariance)
+    model = GravityModel(
+        np.array(content.gravity_W_N),
+        np.array(content.force_bias_N),
+        np.array(content.centre_of_mass_S_m),
+        np.array(content.torque_bias_Nm),
+        covariance,
+    )
+    if abs(model.mass - content.mass_kg) > _ROUNDING * model.mass:
+        raise CalibrationFileError(
+            f"{name}: mass_kg is {content.mass_kg:.6g}, but gravity_W_N over {STANDARD_GRAVITY} m/s² is"
+            f" {model.mass:.6g}: {REMEDY}"
+        )
+    return model
+
+
+def _sample(pose: PosePart, where: str) -> PoseSample:
+    with _at(where):
+        sample = PoseSample(
+            np.array(pose.R_WS),
+            np.array(pose.force_N),
+            np.array(pose.torque_Nm),
+            count=pose.count,
+            force_sd=None if pose.force_sd_N is None else np.array(pose.force_sd_N),
+            torque_sd=None if pose.torque_sd_Nm is None else np.array(pose.torque_sd_Nm),
+            temperature=pose.temperature_C,
+            time=pose.time_s,
+            name=pose.name,
+        )
+    _keep_digits(sample, "R_WS", pose.R_WS)
+    return sample
+
+
+def _task(content: Document, name: str) -> ContactTask:
+    part = content.task
+    with _at(f"{name}: task"):
+        task = ContactTask(
+            np.array(part.point_S_m), np.array(part.normal_S), part.force_N, part.tilt_rad, part.friction_rad
+        )
+    _keep_digits(task, "normal", part.normal_S)
+    return task
+
+
+def _keep_digits(value: PoseSample | ContactTask, field: str, written: list[Any]) -> None:
+    """Undo a last digit: constructors make unit vectors and rotations anew, which may round them again."""
+    array = np.array(written)
+    if np.abs(array - getattr(value, field)).max() < 1e-14:
+        array.flags.writeable = False
+        object.__setattr__(value, field, array)
+
+
+def _noise(content: Document, name: str) -> PoseNoise:
+    part = content.noise
+    force, torque = (
+        values[0] if len(values) == 1 else np.array(values) for values in (part.force_N, part.torque_Nm)
+    )
+    least = np.array(part.least_force_N + part.least_torque_Nm)
+    freedom = (or_infinite(part.force_freedom), or_infinite(part.torque_freedom))
+    with _at(f"{name}: noise"):
+        return PoseNoise(force, torque, part.estimated, freedom, least)
+
+
+def _observability(content: Document) -> Observability:
+    part = content.observability
+    return Observability(
+        rank=part.rank,
+        force_rank=part.force_rank,
+        torque_rank=part.torque_rank,
+        force_condition=or_infinite(part.force_condition),
+        torque_condition=or_infinite(part.torque_condition),
+        null_directions=tuple(part.null_directions),
+        weighs=part.weighs,
+        weak=part.weak,
+    )
+
+
+def _mount(content: Document, name: str) -> Mount | None:
+    part = content.mount
+    if part is None:
+        return None
+    if abs(np.linalg.norm(part.quaternion_SE) - 1) > _ROUNDING:
+        raise CalibrationFileError(f"{name}: mount.quaternion_SE is not of length 1: {REMEDY}")
+    with _at(f"{name}: mount.covariance_rad2"):
+        return Mount(np.array(part.quaternion_SE), _covariance(part.covariance_rad2))
+
+
+def _created(content: Document, name: str) -> datetime | None:
+    try:
+        return None if content.created is None else datetime.fromisoformat(content.created)
+    except ValueError as error:  # the 31st of February
+        raise CalibrationFileError(f"{name}: created is no time ({error}): {REMEDY}") from None
+
+
+# ---- sense -------------------------------------------------------------------------------------
+
+
+def _check_residuals(
+    model: GravityModel, poses: tuple[PoseSample, ...], residuals: NDArray[np.float64], name: str
+) -> None:
+    """Refuse parameters, readings and residuals (n, 6) that are not from one calibration."""
+    read = np.array([[*pose.force, *pose.torque] for pose in poses])
+    predicted = model.predict(np.array([pose.R_WS for pose in poses]))
+    size = max(1.0, np.abs(model.vector).max(), np.abs(read).max(), np.abs(predicted).max())
+    off = np.abs(read - predicted - residuals).max(axis=1)
+    if off.max() > _ROUNDING * size:
+        raise CalibrationFileError(
+            f"{name}: poses[{off.argmax()}]: its residual is not its reading minus what the parameters predict:"
+            f" a number was changed. {REMEDY.capitalize()}"
+        )
+
+
+def _covariance(rows: list[list[float]]) -> NDArray[np.float64]:
+    """Return a matrix that can be a covariance; InputError if it cannot."""
+    C = np.array(rows)
+    deviations = np.sqrt(np.maximum(np.diag(C), 0.0))
+    with np.errstate(all="ignore"):  # what overflows is refused
+        scale = np.where(deviations > 0, deviations, 1.0)
+        correlation = C / scale / scale[:, None]
+    if not (np.abs(correlation - correlation.T) < _ROUNDING).all():
+        raise InputError(f"the matrix is not symmetric: {REMEDY}")
+    if (np.diag(C) < 0).any() or np.linalg.eigvalsh(correlation)[0] < -_ROUNDING:
+        raise InputError(f"the matrix is not positive semidefinite, so no covariance: {REMEDY}")
+    return C
+
+
+@contextmanager
+def _at(place: str) -> Iterator[None]:
+    try:
+        yield
+    except InputError as error:
+        raise CalibrationFileError(f"{place}: {error}") from None

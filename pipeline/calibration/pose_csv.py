@@ -1,0 +1,417 @@
+"""Poses from CSV and to CSV; the columns an orientation may come in."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, BinaryIO
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration.orientation import Convention, Kind, RowError, rotations
+from pipeline.calibration.poses import PoseError, PoseSample, named
+from pipeline.durable import write_durably
+from pipeline.errors import InputError
+from pipeline.robot import ROBOTS
+from pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from numpy.typing import ArrayLike, NDArray
+
+FORCES, TORQUES = ("fx", "fy", "fz"), ("mx", "my", "mz")
+CHANNELS = (*FORCES, *TORQUES)
+_FORCE_SD, _TORQUE_SD = ("sfx", "sfy", "sfz"), ("smx", "smy", "smz")
+_OPTIONAL = ("t", "count", *_FORCE_SD, *_TORQUE_SD, "temperature")
+
+# A recording that is taken for a list of poses has more rows than this.
+POSE_LIMIT = 10_000
+
+_LONGEST_NAME = 256  # bytes; what a table takes as text
+
+# What each column may hold, and what to call it. The bounds are those of PoseSample.
+_RANGES: dict[str, tuple[float, float, str]] = {
+    **dict.fromkeys(FORCES, (-1e5, 1e5, "a force in N")),
+    **dict.fromkeys(TORQUES, (-1e5, 1e5, "a torque in N·m")),
+    **dict.fromkeys(_FORCE_SD, (0.0, 1e5, "a standard deviation in N")),
+    **dict.fromkeys(_TORQUE_SD, (0.0, 1e5, "a standard deviation in N·m")),
+    "t": (-1e300, 1e300, "a time in s"),
+    "temperature": (-1e300, 1e300, "a temperature in °C"),
+    "count": (1.0, 2.0**53, "a number of samples"),
+}
+
+
+class PoseFileError(TableError):
+    """A file of poses that cannot be used: names the file, the line, the column, and the remedy."""
+
+
+@dataclass(frozen=True, eq=False)
+class PoseTable:
+    """
+    Poses as a file has them.
+
+    Attributes
+    ----------
+    poses : tuple of PoseSample
+        One a row.
+    raw : (n, k) float64
+        The cells of `convention.columns`, as written.
+    convention : Convention
+        How they were read.
+    joints : (n, 6) float64 or None
+        Joint angles, rad; None for other kinds of orientation.
+    lines : (n,) int64
+        The line of each pose in the file; the header is line 1.
+    warnings : tuple of str
+        What should make one doubt the file: sentences with a remedy.
+    """
+
+    poses: tuple[PoseSample, ...]
+    raw: NDArray[np.float64]
+    convention: Convention
+    joints: NDArray[np.float64] | None
+    lines: NDArray[np.int64]
+    warnings: tuple[str, ...]
+
+
+def read_poses(
+    source: Path | BinaryIO, convention: Convention | None = None, *, R_ES: ArrayLike | None = None
+) -> PoseTable:
+    """
+    Read still, contact-free poses from a CSV file.
+
+    Columns: the orientation (`convention.columns`); fx, fy, fz, mx, my, mz, the mean reading in S, N and N·m,
+    with bias and weight; optional t (s), count, sfx, sfy, sfz, smx, smy, smz (standard deviation of single
+    samples, N and N·m), temperature (°C), name. Cells of optional columns may be empty. Others are ignored.
+
+    Parameters
+    ----------
+    source : path or binary file
+    convention : Convention, optional
+        How orientations are written. Left out: quaternions, if there are no others beside them.
+    R_ES : array_like (3, 3), optional
+        Orientation of the sensor in the flange, where orientations or joints are those of the flange E:
+        R_WS = R_WE @ R_ES. Left out: S = E.
+
+    Raises
+    ------
+    PoseFileError
+        The file cannot be used; the message names line, column and remedy.
+    InputError
+        R_ES is no rotation, or there is no such robot.
+    """
+    selection = _Selection(convention)
+    rows = read_table(source, selection, _wording(convention), row_limit=POSE_LIMIT)
+    reader, chosen = selection.reader, selection.convention
+    _check_ranges(reader, rows)
+    raw = np.column_stack([rows.column(name) for name in chosen.columns])
+    try:
+        R_WS = sensor_orientations(raw, chosen, R_ES)
+    except RowError as error:
+        raise reader.error(error.what, int(rows.lines[error.row])) from None
+    poses = tuple(_poses(reader, rows, R_WS))
+    joints = None
+    if chosen.kind is Kind.JOINTS:
+        joints = np.radians(raw) if chosen.degrees else raw
+    warnings = tuple(_warnings(chosen, raw, R_WS, rows))
+    return PoseTable(poses, raw, chosen, joints, rows.lines, warnings)
+
+
+def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
+    """
+    Write poses, so that `read_poses` gives the same ones back: R_WS to 1e-15, all else exactly.
+
+    Orientations become unit quaternions with qw >= 0. Columns that no pose fills are left out; names lose
+    the spaces around them.
+
+    Parameters
+    ----------
+    file : path
+        Appears as a whole; what was there stays until then.
+    poses : sequence of PoseSample
+
+    Raises
+    ------
+    InputError
+        There are no poses, a name does not fit into a line, or the file cannot be written.
+    """
+    if not poses:
+        raise InputError(f"{file}: there are no poses to write: capture some first.")
+    quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat(canonical=True)
+    rows = [
+        dict(zip(("qx", "qy", "qz", "qw"), quaternion, strict=True)) | _cells(file, poses, index)
+        for index, quaternion in enumerate(quaternions.tolist())
+    ]
+    order = ("t", *Convention().columns, *CHANNELS, *_OPTIONAL[1:], "name")
+    columns = [name for name in order if any(row.get(name) is not None for row in rows)]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([row.get(name) for name in columns] for row in rows)
+    try:
+        write_durably(file, text.getvalue().encode())
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{file}: the poses cannot be written ({error}): choose a folder that exists, is writable and has"
+            " space."
+        ) from error
+
+
+# ---- orientations ------------------------------------------------------------------------------
+
+
+def find_convention(reader: TableReader, convention: Convention | None) -> Convention:
+    """
+    Return how a table's orientations are meant: as said, or quaternions where nothing else is there.
+
+    Raises
+    ------
+    PoseFileError, WrenchFileError
+        As the reader's wording has it: nobody said it, and the columns leave it open.
+    """
+    if convention is not None:
+        return convention
+    there = [
+        kind
+        for kind in (Kind.QUATERNION, Kind.EULER, Kind.JOINTS)
+        if set(Convention(kind).columns) <= set(reader.names)
+    ]
+    if there in ([], [Kind.QUATERNION]):
+        return Convention()  # where its columns are missing, the reader says so
+    remedies = {
+        Kind.EULER: "--euler ORDER for the angles rx, ry, rz (xyz: about the fixed x, y and z axis in turn;"
+        " ZYX: about axes that turn along), --rotation-vector if they are axis times angle",
+        Kind.JOINTS: f"--robot NAME for the joints j1 to j6 (known: {', '.join(sorted(ROBOTS))})",
+    }
+    ways = " or ".join(remedies[kind] for kind in there if kind in remedies)
+    if len(there) == 1:
+        columns = ", ".join(Convention(there[0]).columns)
+        raise reader.error(f"columns {columns} alone do not say which orientation they mean: pass {ways}.", 1)
+    if Kind.QUATERNION in there:
+        ways += ", or rename these columns to use qw, qx, qy, qz"
+    kinds = " and as ".join({Kind.QUATERNION: "quaternions", Kind.EULER: "angles"}.get(k, k) for k in there)
+    raise reader.error(f"orientations are there as {kinds}: say which to use. Pass {ways}.", 1)
+
+
+def sensor_orientations(
+    values: NDArray[np.float64], convention: Convention, R_ES: ArrayLike | None = None
+) -> NDArray[np.float64]:
+    """
+    Return R_WS (n, 3, 3) of orientations as they are written.
+
+    Parameters
+    ----------
+    values : (n, k)
+        Finite; columns as `convention.columns`.
+    convention : Convention
+    R_ES : array_like (3, 3), optional
+        Sensor in flange, where the values are those of the flange.
+
+    Raises
+    ------
+    RowError
+        A row is no orientation.
+    InputError
+        R_ES is no rotation, or the robot is unknown.
+    """
+    R = rotations(values, convention)
+    return R if R_ES is None else R @ mount_rotation(R_ES)
+
+
+def mount_rotation(R_ES: ArrayLike) -> NDArray[np.float64]:
+    """
+    Return R_ES (3, 3), checked.
+
+    Raises
+    ------
+    InputError
+        It is no rotation.
+    """
+    R = np.array(R_ES, dtype=np.float64)
+    if R.shape != (3, 3) or not (np.abs(R.T @ R - np.eye(3)) < 1e-6).all() or np.linalg.det(R) < 0:
+        raise InputError(
+            f"R_ES must be a (3, 3) rotation, the sensor's axes in the flange as columns, not {R.tolist()}"
+        )
+    return R
+
+
+# ---- reading -----------------------------------------------------------------------------------
+
+
+def _wording(convention: Convention | None) -> Wording:
+    return Wording(
+        header=",".join(((convention or Convention()).columns) + CHANNELS),
+        rows="poses",
+        meaning="mean readings with bias and weight, forces in N, torques in N·m, in the sensor frame S",
+        not_finite="complete or remove the pose.",
+        text="a name",
+        error=PoseFileError,
+    )
+
+
+class _Selection:
+    """Chooses the columns, and remembers whose they are."""
+
+    reader: TableReader
+
+    def __init__(self, convention: Convention | None) -> None:
+        self.convention = convention or Convention()
+        self._given = convention
+
+    def __call__(self, reader: TableReader) -> None:
+        self.reader = reader
+        self.convention = find_convention(reader, self._given)
+        for group in (_FORCE_SD, _TORQUE_SD):
+            there = [name in reader.names for name in group]
+            if any(there) and not all(there):
+                missing = ", ".join(name for name, found in zip(group, there, strict=True) if not found)
+                raise reader.error(f"column {missing} missing: give {', '.join(group)}, or none of them.", 1)
+        reader.select(
+            (*self.convention.columns, *CHANNELS),
+            optional=_OPTIONAL,
+            text="name" if "name" in reader.names else None,
+            allow_nan=_OPTIONAL,
+        )
+
+
+def _check_ranges(reader: TableReader, rows: TableRows) -> None:
+    for column in rows.columns:
+        if column not in _RANGES:
+            continue
+        least, most, what = _RANGES[column]
+        values = rows.column(column)
+        wrong = (values < least) | (values > most)  # NaN is an empty cell
+        if column == "count":
+            wrong |= np.isfinite(values) & (values != np.rint(values))
+            what += ", whole"
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            message = f"column {column} holds {values[row]:g}, but {what} lies between {least:g} and {most:g}"
+            raise reader.error(f"{message}: correct or remove the row.", int(rows.lines[row]))
+
+
+def _poses(reader: TableReader, rows: TableRows, R_WS: NDArray[np.float64]) -> Iterator[PoseSample]:
+    def cells(*names: str) -> list[list[float]]:
+        return np.column_stack([rows.column(name) for name in names]).tolist()  # type: ignore[no-any-return]
+
+    forces, torques = cells(*FORCES), cells(*TORQUES)
+    extra = {name: rows.column(name).tolist() for name in _OPTIONAL if name in rows.columns}
+    for index, line in enumerate(rows.lines.tolist()):
+        row = {name: values[index] for name, values in extra.items() if not np.isnan(values[index])}
+        name = "" if rows.text is None else _name(rows.text[index])
+        try:
+            yield PoseSample(
+                R_WS[index],
+                np.array(forces[index]),
+                np.array(torques[index]),
+                count=int(row.get("count", 1)),
+                force_sd=_three(reader, row, _FORCE_SD, line),
+                torque_sd=_three(reader, row, _TORQUE_SD, line),
+                temperature=row.get("temperature"),
+                time=row.get("t"),
+                name=name,
+            )
+        except PoseError as error:
+            raise reader.error(str(error).removeprefix(f"{name or 'pose'}: "), line) from None
+
+
+def _three(
+    reader: TableReader, row: dict[str, float], group: tuple[str, ...], line: int
+) -> NDArray[np.float64] | None:
+    given = [row[name] for name in group if name in row]
+    if len(given) in {0, 3}:
+        return np.array(given) if given else None
+    empty = next(name for name in group if name not in row)
+    raise reader.error(f"column {empty} is empty: give {', '.join(group)}, or none of them.", line)
+
+
+def _name(cell: bytes) -> str:
+    text = cell.decode()
+    return next(csv.reader([text]))[0].strip() if text.startswith('"') else text.strip()
+
+
+# ---- doubts ------------------------------------------------------------------------------------
+
+_LONGEST_ARM = 5.0  # m: no weight hangs this far from its sensor; in N·mm one of 50 mm looks like 50 m
+_FELT_TORQUE = 0.1  # below, it is noise
+_SAME = np.radians(0.5)
+_FULL_TURN = 2 * np.pi
+
+
+def _warnings(
+    convention: Convention, raw: NDArray[np.float64], R_WS: NDArray[np.float64], rows: TableRows
+) -> Iterator[str]:
+    if convention.kind is not Kind.QUATERNION:
+        yield from _angle_warnings(raw, degrees=convention.degrees)
+    wrenches = np.column_stack([rows.column(name) for name in CHANNELS])
+    # The bias is the same in all poses: what changes with them is the weight and its torque.
+    moved = np.abs(wrenches - wrenches.mean(axis=0))
+    force, torque = np.linalg.norm(moved[:, :3], axis=1).max(), np.linalg.norm(moved[:, 3:], axis=1).max()
+    if torque > max(_LONGEST_ARM * force, _FELT_TORQUE):
+        yield (
+            f"From pose to pose torques change by up to {torque:.3g}, forces only by {force:.3g} N: if the"
+            " torques are in N·mm, divide them by 1000."
+        )
+    cosines = (np.einsum("iab,ab->i", R_WS, R_WS[0]) - 1) / 2
+    if len(R_WS) > 1 and (cosines > np.cos(_SAME)).all():
+        yield (
+            "All poses have the same orientation, within half a degree. Turn the wrist between poses, or check"
+            " that the columns of the orientation are those that the robot updates."
+        )
+    yield from _repeats(np.column_stack([raw, wrenches]), rows.lines)
+
+
+def _angle_warnings(raw: NDArray[np.float64], *, degrees: bool) -> Iterator[str]:
+    largest = np.abs(raw).max()
+    if degrees and 0 < largest <= _FULL_TURN:
+        yield f"No angle is larger than {largest:.3g}°: if they are in rad, pass --radians."
+    if not degrees and largest > 2 * _FULL_TURN:
+        yield f"Angles reach {largest:.3g} rad, more than two turns: if they are in degrees, leave out --radians."
+
+
+def _repeats(values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[str]:
+    first: dict[bytes, int] = {}
+    again = []
+    for line, row in zip(lines.tolist(), values, strict=True):
+        earlier = first.setdefault(row.tobytes(), line)
+        if earlier != line:
+            again.append((earlier, line))
+    if again:
+        yield (
+            f"Rows that repeat an earlier one to the last digit: {len(again)}, first line {again[0][1]}, which"
+            f" repeats line {again[0][0]}. They count as poses of their own: remove them."
+        )
+
+
+# ---- writing -----------------------------------------------------------------------------------
+
+
+def _cells(file: Path, poses: Sequence[PoseSample], index: int) -> dict[str, object]:
+    pose = poses[index]
+    cells: dict[str, object] = {"t": pose.time, "count": pose.count, "temperature": pose.temperature}
+    for names, values in (
+        (FORCES, pose.force),
+        (TORQUES, pose.torque),
+        (_FORCE_SD, pose.force_sd),
+        (_TORQUE_SD, pose.torque_sd),
+    ):
+        if values is not None:
+            cells.update(zip(names, values.tolist(), strict=True))
+    cells["name"] = _one_line(file, poses, index) or None
+    return cells
+
+
+def _one_line(file: Path, poses: Sequence[PoseSample], index: int) -> str:
+    name = poses[index].name.strip()
+    try:
+        fits = len(name.encode()) <= _LONGEST_NAME and not any(mark in name for mark in "\0\r\n")
+    except UnicodeEncodeError:  # half a character, which has no bytes
+        fits = False
+    if not fits:
+        what = f"its name must be one line of text of at most {_LONGEST_NAME} bytes: change it."
+        raise InputError(f"{file}: {named(poses, index)[:40]!a}: {what}")
+    return name

@@ -1,0 +1,381 @@
+"""A calibration as one HTML page: what it is worth, what it says, and how that is known.
+
+The page needs nothing beside itself: no script, no font, no other file. The same calibration gives the same
+bytes.
+"""
+
+from __future__ import annotations
+
+import re
+from datetime import UTC
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.special import chdtr, chdtrc
+
+from pipeline import __version__
+from pipeline.calibration.fit import UNKNOWN
+from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
+from pipeline.calibration.observability import WEAK
+from pipeline.calibration.outliers import FEWEST, limit
+from pipeline.calibration.poses import named
+from pipeline.calibration.reachable import describe
+from pipeline.calibration.verdict import Level
+from pipeline.calibration.wording import plain, signed, with_sigma
+from pipeline.durable import write_durably
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from datetime import datetime
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.calibrate import Calibration
+    from pipeline.calibration.files import Source
+
+__all__ = ["report_html", "write_report"]
+
+# A parameter known no better than this is shown as unknown: a tenth of what it could be if no pose said
+# anything of it. 2 N, 2 N, 30 mm, 0.3 N·m.
+_AS_GOOD_AS_UNKNOWN = 0.1 * UNKNOWN
+# As large as a whole probe, m: a contact error that only says that something is undetermined.
+_LOST = 0.05
+# Noise of three axes is one number when they differ by no more than this.
+_ALIKE = 1.1
+# Noise that was given is called too large when so few sets have residuals as small as these.
+_TOO_QUIET = 1e-3
+# A direction of gravity that is less sure than this, rad, is none.
+_ANY_TILT = 0.5
+
+# Control characters, halves of characters, and what turns the direction of writing.
+_UNPRINTABLE = re.compile("[\0-\x1f\x7f-\x9f\ud800-\udfff\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+
+_UNKNOWN = "unknown"
+_WORDS = {
+    Level.GOOD: ("Good", "Use this calibration."),
+    Level.USABLE: ("Usable", "You can work with this calibration; it could be better."),
+    Level.REFUSE: ("Refused", "Do not use this calibration."),
+}
+
+
+def write_report(
+    calibration: Calibration,
+    file: Path,
+    *,
+    title: str = "Gravity calibration",
+    source: Source | None = None,
+    created: datetime | None = None,
+) -> None:
+    """Write a calibration's report as one HTML file that needs nothing beside itself.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    file : path
+        Appears as a whole; what was there stays until then.
+    title : str
+        Heading of the page.
+    source : Source, optional
+        The file of the poses, with its hash.
+    created : datetime, optional
+        When the calibration was made, with a time zone.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written, or `created` has no time zone.
+    """
+    data = report_html(calibration, title=title, source=source, created=created).encode()
+    try:
+        write_durably(file, data)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{file}: the report cannot be written ({error}): choose a folder that exists, is writable and has"
+            " space."
+        ) from error
+
+
+def report_html(
+    calibration: Calibration,
+    *,
+    title: str = "Gravity calibration",
+    source: Source | None = None,
+    created: datetime | None = None,
+) -> str:
+    """Return a calibration's report as an HTML page; parameters and errors as `write_report`."""
+    if created is not None and created.tzinfo is None:
+        raise InputError("created: the time has no zone: use datetime.now(UTC).")
+    # Both take a while to import, and most runs write no report.
+    from pipeline.calibration.figures import CROWDED, EMPTY, STEEPEST, draw
+
+    live, live_words = live_noise(calibration)
+    lost = calibration.contact_error > _LOST
+    figures = draw(calibration, None if lost else live, live_words)
+    level = calibration.verdict.level
+    page: str = _template().render(
+        title=title,
+        created=None if created is None else created.astimezone(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        source=source,
+        tool=f"contactbench {__version__}",
+        level=level.value,
+        word=_WORDS[level][0],
+        meaning=_WORDS[level][1],
+        reasons=calibration.verdict.reasons,
+        shares=_shares(calibration),
+        parameters=_parameters(calibration),
+        some_unknown=bool(_unknown(calibration).any()),
+        poses=_poses(calibration),
+        rejected=calibration.rejected,
+        total=len(calibration.poses),
+        crowded=len(calibration.poses) > CROWDED,
+        used=int(calibration.kept.sum()),
+        beyond=bool(calibration.deviates.max() > 2 * limit(len(calibration.poses))),
+        residual_words=_residual_words(calibration),
+        sight=calibration.observability,
+        condition=plain(calibration.condition) if np.isfinite(calibration.condition) else "",
+        weak_from=f"{WEAK:g}",
+        noise=_noise(calibration),
+        live=live_words,
+        figures=figures,
+        empty=f"{EMPTY:g}",
+        steepest=STEEPEST,
+    )
+    return page
+
+
+def _template() -> Any:
+    from importlib.resources import files
+
+    from jinja2 import Environment, StrictUndefined
+
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, finalize=_printable
+    )
+    return environment.from_string(files(__package__).joinpath("report.html.jinja").read_text("utf-8"))
+
+
+def _printable(value: Any) -> Any:
+    """Replace what no page can hold; markup, a class of its own, stays as it is."""
+    if type(value) is not str:
+        return value
+    return _UNPRINTABLE.sub(lambda match: " " if match[0].isspace() else "\N{REPLACEMENT CHARACTER}", value)
+
+
+# ---- numbers -----------------------------------------------------------------------------------
+
+
+def _length(error: float) -> str:
+    """Return a contact error, given in m, as the page says it."""
+    return _UNKNOWN if error > _LOST else f"{plain(1e3 * error)} mm"
+
+
+def _sizes(sigmas: NDArray[np.float64]) -> str:
+    """Say how large a noise of sigmas (6,) is: one number where the axes are alike."""
+    parts = []
+    for part, unit in ((sigmas[:3], "N"), (1e3 * sigmas[3:], "mN·m")):
+        if part.max() <= _ALIKE * part.min():
+            parts.append(f"{plain(float(part.mean()))} {unit}")
+        else:
+            parts.append(f"{' / '.join(map(plain, part.tolist()))} {unit} (x / y / z)")
+    return " and ".join(parts)
+
+
+# ---- verdict -----------------------------------------------------------------------------------
+
+
+def sample_noise(calibration: Calibration) -> NDArray[np.float64] | None:
+    """Return how much single samples scatter (6,), N and N·m: the median over the poses that tell."""
+    known = [
+        np.concatenate([pose.force_sd, pose.torque_sd])
+        for pose in calibration.poses
+        if pose.force_sd is not None and pose.torque_sd is not None and pose.count > 1
+    ]
+    return np.median(known, axis=0) if known else None
+
+
+def live_noise(calibration: Calibration) -> tuple[NDArray[np.float64], str]:
+    """Return the noise (6,) to expect in a wrench that is to be located, N and N·m, and what it is.
+
+    A pose's mean is averaged over seconds; a contact is mostly located from one sample. Where the poses do
+    not tell how much single samples scatter, there is only the noise of the mean.
+    """
+    single = sample_noise(calibration)
+    if single is None:
+        return calibration.noise.sigmas, "noise of a pose's mean"
+    return single, "noise of a single sample"
+
+
+def _shares(calibration: Calibration) -> dict[str, Any]:
+    """Return the one number, what the sensor's own noise does, and for which touches."""
+    task, mean, single = calibration.task, calibration.noise.sigmas, sample_noise(calibration)
+    mapped = task.calibration_error(calibration.model.vector, calibration.covariance)
+    return {
+        "share": _length(calibration.contact_error),
+        "lost": f"{1e3 * _LOST:g}" if calibration.contact_error > _LOST else "",
+        "mean": _sizes(mean),
+        "mean_error": _length(task.sensor_error(mean)),
+        "single": "" if single is None else _sizes(single),
+        "single_error": "" if single is None else _length(task.sensor_error(single)),
+        "force": f"{task.force:g}",
+        "point": ", ".join(signed(f"{1e3 * value:.0f}") for value in task.point),
+        "friction": round(float(np.degrees(task.friction))),
+        "tilt": round(float(np.degrees(task.tilt))),
+        # Not so where the sensor's mounting was estimated too: then the number holds that as well.
+        "mapped": bool(np.isclose(mapped, calibration.contact_error, rtol=0.01)),
+    }
+
+
+# ---- parameters --------------------------------------------------------------------------------
+
+
+def _unknown(calibration: Calibration) -> NDArray[np.bool_]:
+    """Tell which of the twelve parameters the poses say next to nothing of."""
+    return np.sqrt(np.diag(calibration.covariance)) >= _AS_GOOD_AS_UNKNOWN
+
+
+def _parameters(calibration: Calibration) -> list[dict[str, Any]]:
+    """Return the rows of the table: what, the frame, cells of value and sigma, the unit."""
+    model, blind = calibration.model, _unknown(calibration)
+    weightless = bool(blind[GRAVITY].any())
+    mass = None if weightless else (model.mass, model.mass_sigma)
+    tilt = None if weightless else tilt_of(calibration)
+    if tilt and tilt[1] > _ANY_TILT:
+        tilt = None
+    rows = [
+        _row("Mass of the load", "", [mass], "kg"),
+        _row("", "", [mass], "g", 1e3),
+        _vector(calibration, "Gravity vector (weight)", "W", GRAVITY, "N"),
+        _row("Tilt from the vertical", "W", [tilt], "°", float(np.degrees(1.0))),
+        _vector(calibration, "Force bias", "S", FORCE_BIAS, "N"),
+        _vector(calibration, "Centre of mass", "S", CENTRE_OF_MASS, "mm", 1e3),
+        _vector(calibration, "Torque bias", "S", TORQUE_BIAS, "mN·m", 1e3),
+        _vector(calibration, "", "S", TORQUE_BIAS, "N·m"),
+    ]
+    return [row for row in rows if row["name"] or any(row["cells"])]  # "unknown" is not said twice
+
+
+def _vector(
+    calibration: Calibration, name: str, frame: str, part: slice, unit: str, scale: float = 1.0
+) -> dict[str, Any]:
+    values, sigmas = calibration.model.vector[part], np.sqrt(np.diag(calibration.covariance)[part])
+    pairs = zip(values.tolist(), sigmas.tolist(), _unknown(calibration)[part].tolist(), strict=True)
+    return _row(
+        name, frame, [None if blind else (value, sigma) for value, sigma, blind in pairs], unit, scale
+    )
+
+
+def _row(
+    name: str, frame: str, cells: list[tuple[float, float] | None], unit: str, scale: float = 1.0
+) -> dict[str, Any]:
+    shown = [None if cell is None else with_sigma(scale * cell[0], scale * cell[1]) for cell in cells]
+    return {"name": name, "frame": frame, "cells": shown, "unit": unit}
+
+
+def tilt_of(calibration: Calibration) -> tuple[float, float]:
+    """Return the angle between gravity and the vertical of W, and its standard deviation, rad."""
+    x, y, z = calibration.gravity_W
+    across = float(np.hypot(x, y))
+    square = x * x + y * y + z * z
+    C = calibration.covariance[GRAVITY, GRAVITY]
+    if across * across > 1e-12 * square:
+        gradient = np.array([-z * x / across, -z * y / across, across]) / square
+        sigma = np.sqrt(gradient @ C @ gradient)
+    else:  # upright to a millionth: every direction is the direction of the tilt
+        sigma = np.sqrt(np.linalg.eigvalsh(C[:2, :2])[-1] / square) if square else 0.0
+    return float(np.arctan2(across, -z)), float(sigma)
+
+
+# ---- poses -------------------------------------------------------------------------------------
+
+
+def _poses(calibration: Calibration) -> list[dict[str, Any]]:
+    why = {rejection.index: rejection.reason for rejection in calibration.rejected}
+    allowed = limit(len(calibration.poses))
+    force, torque = (
+        np.linalg.norm(calibration.residuals[:, part], axis=1) for part in (slice(3), slice(3, 6))
+    )
+    noise = calibration.noise.sigmas
+    return [
+        {
+            "number": index + 1,
+            "name": named(calibration.poses, index),
+            "stands": describe(pose.R_WS),
+            "force": with_sigma(force[index], noise[0])[0],
+            "torque": with_sigma(1e3 * torque[index], 1e3 * noise[3])[0],
+            "deviates": [
+                (_deviate(value), value >= allowed and len(force) >= FEWEST)
+                for value in calibration.deviates[index].tolist()
+            ],
+            "why": why.get(index),
+        }
+        for index, pose in enumerate(calibration.poses)
+    ]
+
+
+def _deviate(value: float) -> str:
+    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}"
+
+
+def _residual_words(calibration: Calibration) -> list[str]:
+    n, out = len(calibration.poses), len(calibration.rejected)
+    if n < FEWEST:
+        return [f"With {n} poses none can be checked against the others, and the deviates say little."]
+    far = int((calibration.deviates[calibration.kept].max(axis=1) >= limit(n)).sum())
+    words = [f"{_of(out, n)} left out."] if out else []
+    if far:
+        words.append(
+            f"{_of(far, n)} used although beyond the limit: they contradict one another too much to say"
+            " which are right."
+        )
+    else:
+        words.append(f"{'The others' if out else f'All {n} poses'} agree with one another.")
+    words.append(
+        f"The limit is {limit(n):.1f} sigma: the worst of {n} undisturbed poses passes it once in a hundred sets."
+    )
+    return words
+
+
+def _of(some: int, all_of_them: int) -> str:
+    return f"{some} of {all_of_them} poses {'is' if some == 1 else 'are'}"
+
+
+# ---- noise -------------------------------------------------------------------------------------
+
+
+def _noise(calibration: Calibration) -> dict[str, Any]:
+    """Return where the noise comes from, and whether the residuals fit to it."""
+    noise = calibration.noise
+    return {
+        "estimated": noise.estimated,
+        "freedom": [f"{freedom:.0f}" for freedom in noise.freedom],
+        "percent": [f"{100 / np.sqrt(2 * freedom):.0f}" for freedom in noise.freedom],
+        "least": bool((np.isclose(noise.sigmas, noise.least) & (noise.least > 0)).any()),
+        "chance": "" if noise.estimated else _chance(calibration),
+    }
+
+
+def _chance(calibration: Calibration) -> str:
+    kept = calibration.residuals[calibration.kept] / calibration.noise.sigmas
+    square = float(np.vdot(kept, kept))
+    if not square or not calibration.scatter:
+        return "The residuals are zero."
+    freedom = square / calibration.scatter
+    chance = float(chdtrc(freedom, square))
+    odds = "fewer than 1" if chance < 0.01 else "more than 99" if chance > 0.99 else f"{100 * chance:.0f}"
+    words = (
+        f"The residuals are {plain(float(np.sqrt(calibration.scatter)))} times as large as that explains (chi-square"
+        f" {square:.0f} at {freedom:.0f} degrees of freedom); chance alone gives as much in {odds} of 100"
+        " undisturbed sets."
+    )
+    if not calibration.plausible:
+        return (
+            f"{words} That does not fit: drift, cable pull or a wrong noise figure do this. Every uncertainty on"
+            " this page has been widened by that factor."
+        )
+    if chdtr(freedom, square) < _TOO_QUIET:
+        return (
+            f"{words} That is less than it should be: the noise that was given is too large, and every uncertainty"
+            " on this page with it."
+        )
+    return f"{words} That fits."

@@ -1,0 +1,4 @@
+"""Commands, one module a subject; :mod:`pipeline.cli` puts them together. Nothing here computes.
+
+These modules import nothing heavy at their top, so that ``--help`` answers at once.
+"""

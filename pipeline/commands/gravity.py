@@ -1,0 +1,391 @@
+"""``contactbench calibrate, diagnose, verify-still, compensate``: bias, weight and centre of mass."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import (
+    EulerOption,
+    ForceOption,
+    InverseOption,
+    MountOption,
+    NoiseForceOption,
+    NoiseTorqueOption,
+    RadiansOption,
+    RobotOption,
+    TipOption,
+    VectorOption,
+    contact_task,
+    convention,
+    mount_rotation,
+    numbers,
+    pose_noise,
+    refuse_overwriting,
+)
+from pipeline.console import Bar, JsonOption, print_json, say
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from pipeline.calibration import Calibration
+    from pipeline.calibration.diagnose import Diagnosis
+    from pipeline.calibration.mount import MountCalibration
+
+_NOT_GOOD_ENOUGH = 1
+_UNKNOWN_SHARE = 0.1  # of what a parameter could be if no pose said anything of it; as in the report
+_STYLES = {"good": "green", "usable": "yellow", "refuse": "red"}
+
+gravity_app = typer.Typer(rich_markup_mode=None)
+
+PosesArgument = Annotated[
+    Path, typer.Argument(metavar="POSES", help="CSV file of still, contact-free poses; see calibrate.")
+]
+CalibrationArgument = Annotated[
+    Path, typer.Argument(metavar="CALIBRATION", help="What contactbench calibrate wrote.")
+]
+
+
+@gravity_app.command(
+    help=(
+        "Calibrate bias, weight and centre of mass from still, contact-free poses.\n\n"
+        "POSES has a row for each pose: fx,fy,fz,mx,my,mz, the mean raw reading (N, N·m about the sensor"
+        " origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or"
+        " otherwise as the options say. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard"
+        " deviations of single samples), temperature. Three poses with different tilts are the least; eight"
+        " let bumped ones be named.\n\n"
+        "Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all"
+        " the same, so that next-pose can tell which pose to take."
+    ),
+    epilog="Example: contactbench calibrate poses.csv --euler xyz --out calibration.json --report calibration.html",
+)
+def calibrate(
+    poses: PosesArgument,
+    out: Annotated[Path, typer.Option(help="Calibration file to write, JSON.")],
+    report: Annotated[Path | None, typer.Option(help="Also write a report for people, HTML.")] = None,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    estimate_mount: Annotated[
+        bool,
+        typer.Option(
+            "--estimate-mount",
+            help="Orientations are those of the flange, and how the sensor is turned on it is unknown.",
+        ),
+    ] = False,
+    noise_force: NoiseForceOption = None,
+    noise_torque: NoiseTorqueOption = None,
+    tip: TipOption = None,
+    contact_force: ForceOption = 10.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Calibrate bias, weight and centre of mass from still, contact-free poses."""
+    if mount is not None and estimate_mount:
+        raise typer.BadParameter("--mount and --estimate-mount contradict each other: give one.")
+    for written in (out, report):
+        refuse_overwriting(written, [poses])
+    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    noise, task = pose_noise(noise_force, noise_torque), contact_task(tip, contact_force)
+    from pipeline.calibration import calibrate as fit
+    from pipeline.calibration.files import Source, creation_time, save_calibration
+    from pipeline.calibration.pose_csv import read_poses
+
+    table = read_poses(poses, written_as, R_ES=mount_rotation(mount))
+    for sentence in table.warnings:
+        say(f"warning: {sentence}", "yellow")
+    mounted = None
+    if estimate_mount:
+        from pipeline.calibration.mount import estimate_mount as fit_mount
+
+        mounted = fit_mount(table.poses, noise, task=task)
+        calibration = mounted.calibration
+    else:
+        calibration = fit(table.poses, noise, task=task)
+    created = creation_time()
+    source = Source.of(poses)
+    save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted))
+    if report:
+        from pipeline.calibration.report import write_report
+
+        write_report(calibration, report, source=source, created=created)
+    _show(calibration, mounted)
+    if as_json:
+        print_json(_facts(calibration, mounted, out, report, table.warnings))
+    if calibration.verdict.level == "refuse":
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _mount_record(mounted: MountCalibration | None) -> Any:
+    if mounted is None:
+        return None
+    from scipy.spatial.transform import Rotation
+
+    from pipeline.calibration.files import Mount
+
+    x, y, z, w = Rotation.from_matrix(mounted.R_SE).as_quat(canonical=True)
+    import numpy as np
+
+    return Mount(np.array([w, x, y, z]), mounted.rotation_covariance)
+
+
+def _facts(
+    calibration: Calibration,
+    mounted: MountCalibration | None,
+    out: Path,
+    report: Path | None,
+    warnings: tuple[str, ...],
+) -> dict[str, Any]:
+    import math
+
+    from pipeline.calibration import PARAMETERS
+
+    values = dict(zip(PARAMETERS, calibration.model.vector.tolist(), strict=True))
+    condition = calibration.condition
+    return {
+        "out": str(out),
+        "report": None if report is None else str(report),
+        "verdict": calibration.verdict.level.value,
+        "reasons": list(calibration.verdict.reasons),
+        "contact_error_mm": 1e3 * calibration.contact_error,
+        "mass_kg": calibration.mass,
+        "mass_sigma_kg": calibration.model.mass_sigma,
+        "parameters": values,
+        "sigmas": calibration.sigmas,
+        "poses": len(calibration.poses),
+        "rejected": [vars(rejection) for rejection in calibration.rejected],
+        "rank": calibration.rank,
+        "condition": condition if math.isfinite(condition) else None,
+        "null_directions": list(calibration.null_directions),
+        "noise_force_N": calibration.noise.sigmas[:3].tolist(),
+        "noise_torque_Nm": calibration.noise.sigmas[3:].tolist(),
+        "noise_estimated": calibration.noise.estimated,
+        "R_SE": None if mounted is None else mounted.R_SE.tolist(),
+        "R_SE_sigma_deg": None if mounted is None else mounted.rotation_sigma_deg,
+        "warnings": list(warnings),
+    }
+
+
+def _show(calibration: Calibration, mounted: MountCalibration | None) -> None:
+    from rich.console import Console
+
+    level = calibration.verdict.level.value
+    Console(stderr=True).print(_table(calibration))
+    for rejection in calibration.rejected:
+        say(f"{rejection.name} is left out: {rejection.reason}", "yellow")
+    if mounted is not None and mounted.mounting:
+        say(mounted.mounting)
+    say(f"{level.upper()}: {calibration.verdict.reasons[0]}", _STYLES[level])
+    for reason in calibration.verdict.reasons[1:]:
+        say(reason)
+
+
+def _table(calibration: Calibration) -> Table:
+    from rich.table import Table
+
+    from pipeline.calibration.fit import UNKNOWN
+
+    table = Table(box=None)
+    for heading in ("", "x", "y", "z", "unit"):
+        table.add_column(heading, justify="left" if heading in {"", "unit"} else "right")
+    values, sigmas = calibration.model.vector, list(calibration.sigmas.values())
+    rows = (
+        ("gravity (W)", 0, 1.0, "N"),
+        ("force bias", 3, 1.0, "N"),
+        ("centre of mass (S)", 6, 1e3, "mm"),
+        ("torque bias", 9, 1e3, "mN·m"),
+    )
+    mass = _trusted(calibration.mass, calibration.model.mass_sigma, UNKNOWN[0] / 9.80665)
+    table.add_row("mass", mass, "", "", "kg")
+    for name, first, scale, unit in rows:
+        cells = [
+            _trusted(scale * values[k], scale * sigmas[k], scale * UNKNOWN[k])
+            for k in range(first, first + 3)
+        ]
+        table.add_row(name, *cells, unit)
+    return table
+
+
+def _trusted(value: float, sigma: float, unknown: float) -> str:
+    """Write a value with its uncertainty, or that nobody knows."""
+    from pipeline.calibration.wording import with_sigma
+
+    return "unknown" if sigma > _UNKNOWN_SHARE * unknown else " ± ".join(with_sigma(value, sigma))
+
+
+# ---- diagnose ----------------------------------------------------------------------------------
+
+
+@gravity_app.command(
+    help=(
+        "Tell whether poses are written in the conventions that the options say, or which mistake explains them.\n\n"
+        "Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, reversed signs, a"
+        " turned sensor and a re-zero half way; changes nothing. The noise, if you know it, and the load's"
+        " mass from a balance make it much surer.\n\n"
+        "Exit code 1: something is not as it was said to be."
+    ),
+    epilog="Example: contactbench diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002",
+)
+def diagnose(
+    poses: PosesArgument,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    noise_force: NoiseForceOption = None,
+    noise_torque: NoiseTorqueOption = None,
+    mass: Annotated[float | None, typer.Option(help="Mass of all that hangs on the sensor, kg.")] = None,
+    tool_length: Annotated[
+        float, typer.Option("--tool-length", help="From the sensor to the tip, mm.")
+    ] = 300.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Tell whether poses are in the conventions that were said."""
+    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from pipeline.calibration.diagnose import diagnose as run
+    from pipeline.calibration.hypotheses import RawOrientations
+    from pipeline.calibration.pose_csv import read_poses
+    from pipeline.calibration.prior import Prior
+
+    table = read_poses(poses, written_as, R_ES=mount_rotation(mount))
+    prior = Prior(mass=mass, tool_length=tool_length / 1000)
+    raw = RawOrientations(table.raw, table.convention)
+    with Bar("comparing conventions", counted=True) as bar:
+        found = run(table.poses, pose_noise(noise_force, noise_torque), prior=prior, raw=raw, progress=bar)
+    _show_diagnosis(found)
+    if as_json:
+        print_json({**found.to_json(), "warnings": list(table.warnings)})
+    if not found.consistent:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _show_diagnosis(found: Diagnosis) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None)
+    for heading in ("reading", "residual", "mass", "log odds"):
+        table.add_column(heading, justify="left" if heading == "reading" else "right")
+    for finding in found.ranking[:6]:
+        odds = finding.score - found.best.score
+        table.add_row(finding.title, f"{finding.residual:.2g} sigma", f"{finding.mass:.2f} kg", f"{odds:.1f}")
+    Console(stderr=True).print(table)
+    say(found.sentence, "green" if found.consistent else "yellow")
+    for sentence in found.not_testable:
+        say(sentence)
+
+
+# ---- verify ------------------------------------------------------------------------------------
+
+
+@gravity_app.command(
+    "verify-still",
+    help=(
+        "Check a calibration on still, contact-free poses that it has not seen.\n\n"
+        "POSES is written as for calibrate. Exit code 1: the residuals are too large for contact sensing, or"
+        " larger than the calibration's uncertainty and the noise explain."
+    ),
+    epilog="Example: contactbench verify-still calibration.json held-out.csv --euler xyz",
+)
+def verify_still(
+    calibration: CalibrationArgument,
+    poses: PosesArgument,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Check a calibration on poses that it has not seen."""
+    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from pipeline.calibration.pose_csv import read_poses
+    from pipeline.calibration.verify import verify_still as check
+
+    fitted, R_ES = _calibration(calibration, mount)
+    table = read_poses(poses, written_as, R_ES=R_ES)
+    found = check(fitted, table.poses)
+    for sentence in found.sentences:
+        say(sentence, "" if found.passed else "red")
+    if as_json:
+        print_json(found.to_json())
+    if not found.passed:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+# ---- compensate --------------------------------------------------------------------------------
+
+
+@gravity_app.command(
+    help=(
+        "Take bias and weight off every reading of a recording.\n\n"
+        "RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the"
+        " orientation at the same time, written as for calibrate; - is standard input. The output has"
+        " t,fx,fy,fz,mx,my,mz, what the tissue does to the probe, ready for contactbench locate. It is"
+        " written as a whole or not at all."
+    ),
+    epilog="Example: contactbench compensate calibration.json recording.csv --euler xyz --out wrenches.csv",
+)
+def compensate(
+    calibration: CalibrationArgument,
+    recording: Annotated[
+        Path, typer.Argument(metavar="RECORDING", help="CSV file, or - for standard input.")
+    ],
+    out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    allow_nan: Annotated[
+        bool, typer.Option("--allow-nan", help="Pass on NaN, infinity and empty cells.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Take bias and weight off every reading of a recording."""
+    dash = Path("-")
+    if as_json and out == dash:
+        raise typer.BadParameter("--json and --out - both want standard output: name a file.")
+    refuse_overwriting(out, [calibration])
+    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from pipeline.calibration.compensate_file import compensate_file
+
+    fitted, R_ES = _calibration(calibration, mount)
+    with Bar("compensating") as bar:
+        summary = compensate_file(
+            fitted,
+            sys.stdin.buffer if recording == dash else recording,
+            sys.stdout.buffer if out == dash else out,
+            written_as,
+            allow_nan=allow_nan,
+            R_ES=R_ES,
+            progress=bar,
+        )
+    for sentence in summary.warnings:
+        say(f"warning: {sentence}", "yellow")
+    say(
+        f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} a second. The calibration leaves up"
+        f" to {summary.sigma_force_N:.2g} N and {1e3 * summary.sigma_torque_Nm:.2g} mN·m (1 sigma) in them."
+    )
+    if as_json:
+        print_json({"out": str(out), **summary.facts()})
+
+
+def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
+    """Return a calibration, and R_ES: as the option says, or as it was estimated with the calibration."""
+    from pipeline.calibration.files import load_record
+
+    record = load_record(file)
+    if mount is not None:
+        numbers(mount, 3, "--mount")
+        return record.calibration, mount_rotation(mount)
+    return record.calibration, None if record.mount is None else record.mount.R_SE.T

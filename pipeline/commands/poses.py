@@ -1,0 +1,170 @@
+"""``contactbench next-pose, plan-poses``: where to hold the sensor."""
+
+from __future__ import annotations
+
+import io
+from csv import writer
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.gravity import CalibrationArgument
+from pipeline.commands.options import (
+    AllJointsOption,
+    FloorOption,
+    ForceOption,
+    JointsOption,
+    MountOption,
+    RobotOption,
+    TiltOption,
+    TipOption,
+    ToolOption,
+    contact_task,
+    reachable,
+)
+from pipeline.console import Bar, JsonOption, print_json, say
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.suggest import Plan
+
+poses_app = typer.Typer(rich_markup_mode=None)
+
+
+@poses_app.command(
+    "next-pose",
+    help=(
+        "Say which pose would improve a calibration most, and by how much, before it is taken.\n\n"
+        "Judged by the error at the contact, not by the parameters. With --robot and --joints only poses"
+        " within its joint limits, clear of itself and the floor; nearer ones of those that are nearly as good."
+    ),
+    epilog="Example: contactbench next-pose calibration.json --robot elfin3 --joints 0,-17,69,0,52,0",
+)
+def next_pose(
+    calibration: CalibrationArgument,
+    robot: RobotOption = None,
+    joints: JointsOption = None,
+    mount: MountOption = None,
+    all_joints: AllJointsOption = False,
+    tool_length: ToolOption = 200.0,
+    floor: FloorOption = 0.0,
+    max_tilt: TiltOption = 180.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Say which pose would improve a calibration most."""
+    from pipeline.calibration.files import load_calibration
+    from pipeline.calibration.suggest import suggest_pose
+
+    fitted = load_calibration(calibration)
+    choice = reachable(
+        robot, joints, mount, max_tilt=max_tilt, all_joints=all_joints, tool_length=tool_length, floor=floor
+    )
+    suggestion = suggest_pose(fitted, choice)
+    say(suggestion.sentence)
+    if as_json:
+        print_json(
+            {
+                "sentence": suggestion.sentence,
+                "quaternion_WS": _quaternions(suggestion.R_WS[None])[0].tolist(),
+                "joints_deg": _degrees(suggestion.joints),
+                "contact_error_before_mm": 1e3 * suggestion.error_before,
+                "contact_error_after_mm": 1e3 * suggestion.error_after,
+            }
+        )
+
+
+@poses_app.command(
+    "plan-poses",
+    help=(
+        "Plan COUNT poses that together leave the least error at the contact.\n\n"
+        "Writes a CSV file with the orientation of the sensor, the joints in degrees if there is a robot, and"
+        " the predicted share of the calibration in the contact error after each pose."
+    ),
+    epilog="Example: contactbench plan-poses 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv",
+)
+def plan_poses(
+    count: Annotated[int, typer.Argument(metavar="COUNT", help="How many, at least 3.")],
+    out: Annotated[Path, typer.Option(help="CSV file to write.")],
+    robot: RobotOption = None,
+    joints: JointsOption = None,
+    mount: MountOption = None,
+    all_joints: AllJointsOption = False,
+    tool_length: ToolOption = 200.0,
+    floor: FloorOption = 0.0,
+    max_tilt: TiltOption = 180.0,
+    tip: TipOption = None,
+    contact_force: ForceOption = 10.0,
+    mass: Annotated[float, typer.Option(help="About what hangs on the sensor, kg.")] = 0.5,
+    noise_force: Annotated[float, typer.Option(help="Standard deviation of a pose's mean force, N.")] = 0.05,
+    noise_torque: Annotated[float, typer.Option(help="The same of its torque, N·m.")] = 0.002,
+    as_json: JsonOption = False,
+) -> None:
+    """Plan poses that together leave the least error at the contact."""
+    import numpy as np
+
+    from pipeline.calibration import PoseNoise
+    from pipeline.calibration.model import STANDARD_GRAVITY
+    from pipeline.calibration.suggest import USUAL_LOAD
+    from pipeline.calibration.suggest import plan_poses as plan
+
+    if not 0 < mass < 1000:
+        raise InputError(f"--mass: {mass} kg is no mass of a tool; give what hangs on the sensor, about")
+    choice = reachable(
+        robot, joints, mount, max_tilt=max_tilt, all_joints=all_joints, tool_length=tool_length, floor=floor
+    )
+    load = replace(USUAL_LOAD, gravity_W=np.array([0.0, 0.0, -mass * STANDARD_GRAVITY]))
+    task, noise = contact_task(tip, contact_force), PoseNoise(noise_force, noise_torque)
+    with Bar("planning", counted=True) as bar:
+        planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
+    _write(out, planned)
+    for sentence in planned.warnings:
+        say(f"warning: {sentence}", "yellow")
+    say(
+        f"{count} poses: the calibration will add about {1e3 * planned.error:.2g} mm (1 sigma) to a contact point."
+    )
+    if as_json:
+        print_json(
+            {
+                "out": str(out),
+                "quaternions_WS": _quaternions(planned.R_WS).tolist(),
+                "joints_deg": _degrees(planned.joints),
+                "contact_error_mm": (1e3 * planned.errors).tolist(),
+                "warnings": list(planned.warnings),
+            }
+        )
+
+
+def _write(out: Path, planned: Plan) -> None:
+    from pipeline.durable import write_durably
+
+    text = io.StringIO()
+    rows = writer(text, lineterminator="\n")
+    names = [f"j{number}" for number in range(1, 7)] if planned.joints is not None else []
+    rows.writerow(["name", "qw", "qx", "qy", "qz", *names, "contact_error_mm"])
+    joints: Any = _degrees(planned.joints) or [[]] * len(planned.R_WS)
+    for number, (quaternion, angles, error) in enumerate(
+        zip(_quaternions(planned.R_WS).tolist(), joints, planned.errors.tolist(), strict=True), 1
+    ):
+        rows.writerow([f"pose {number}", *map(repr, quaternion), *map(repr, angles), repr(1e3 * error)])
+    try:
+        write_durably(out, text.getvalue().encode())
+    except (OSError, ValueError) as error:
+        raise InputError(f"{out}: the plan cannot be written ({error}): choose another --out") from error
+
+
+def _quaternions(R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return unit quaternions (n, 4), scalar first and not negative."""
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+
+
+def _degrees(joints: NDArray[np.float64] | None) -> Any:
+    import numpy as np
+
+    return None if joints is None else np.degrees(joints).tolist()

@@ -1,0 +1,246 @@
+"""calibrate, diagnose, verify-still and compensate, as a person at a terminal uses them."""
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from typer.testing import CliRunner
+from weighing_files import NOISE, TRUTH, spun, weighed, write_euler, write_quaternions
+
+from pipeline import cli
+from pipeline.calibration.files import load_calibration, load_record
+from pipeline.simulation.weighing import bump, weigh
+
+EULER = ("--euler", "xyz")
+
+
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(cli.app, list(map(str, arguments)))
+
+
+def said(result: Any) -> str:
+    return " ".join(result.stderr.split())
+
+
+@pytest.fixture(autouse=True)
+def fixed_date(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+
+
+@pytest.fixture
+def poses(tmp_path: Path) -> Path:
+    return write_euler(tmp_path / "poses.csv", weighed())
+
+
+@pytest.fixture
+def calibration(tmp_path: Path, poses: Path) -> Path:
+    assert invoke("calibrate", poses, *EULER, "--out", tmp_path / "c.json").exit_code == 0
+    return tmp_path / "c.json"
+
+
+# ---- calibrate -----------------------------------------------------------------------------------
+
+
+def test_a_good_calibration(tmp_path: Path, poses: Path) -> None:
+    result = invoke("calibrate", poses, *EULER, "--out", tmp_path / "c.json", "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert found["verdict"] == "good"
+    assert abs(found["mass_kg"] - TRUTH.mass) < 4 * found["mass_sigma_kg"] < 0.02
+    assert found["rank"] == 12
+    assert found["rejected"] == []
+    assert found["noise_estimated"] is True
+    assert "GOOD: The calibration adds up to" in said(result)
+    assert load_calibration(tmp_path / "c.json").mass == found["mass_kg"]
+
+
+def test_quaternions_need_no_option(tmp_path: Path, calibration: Path) -> None:
+    file = write_quaternions(tmp_path / "q.csv", weighed())
+    assert invoke("calibrate", file, "--out", tmp_path / "q.json").exit_code == 0
+    assert load_calibration(tmp_path / "q.json").mass == pytest.approx(
+        load_calibration(calibration).mass, rel=1e-9
+    )
+
+
+def test_the_bumped_pose_is_named(tmp_path: Path) -> None:
+    weighing = bump(weighed(), 1 / 9, np.random.default_rng(0))
+    file = write_euler(tmp_path / "b.csv", weighing)
+    noise = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque)
+    result = invoke("calibrate", file, *EULER, "--out", tmp_path / "b.json", *noise, "--json")
+    name = f"pose {1 + int(np.flatnonzero(weighing.bumped)[0])}"
+    assert [rejection["name"] for rejection in json.loads(result.stdout)["rejected"]] == [name]
+    assert f"{name} is left out: " in said(result)
+
+
+def test_blind_poses_are_refused_in_words_and_numbers_withheld(tmp_path: Path) -> None:
+    file = write_euler(tmp_path / "s.csv", spun())
+    result = invoke("calibrate", file, *EULER, "--out", tmp_path / "s.json")
+    assert result.exit_code == 1
+    assert "REFUSE: Every pose has the same tilt" in said(result)
+    assert "mass unknown" in said(result)
+    assert load_calibration(tmp_path / "s.json").verdict.level == "refuse"
+
+
+def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
+    R_ES = Rotation.from_euler("z", 30, degrees=True).as_matrix()
+    weighing = weighed(12)
+    R_WE = np.array([pose.R_WS @ R_ES.T for pose in weighing.poses])
+    file = tmp_path / "flange.csv"
+    with file.open("w", newline="") as stream:
+        rows = csv.writer(stream)
+        rows.writerow(["fx", "fy", "fz", "mx", "my", "mz", "rx", "ry", "rz"])
+        for pose, angles in zip(weighing.poses, Rotation.from_matrix(R_WE).as_rotvec(), strict=True):
+            rows.writerow([*pose.force, *pose.torque, *angles])
+    written = ("--rotation-vector", "--radians")
+    result = invoke("calibrate", file, *written, "--estimate-mount", "--out", tmp_path / "m.json", "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    angle = np.degrees(np.linalg.norm(Rotation.from_matrix(np.array(found["R_SE"]) @ R_ES).as_rotvec()))
+    assert angle < 4 * found["R_SE_sigma_deg"] < 4
+    mount = load_record(tmp_path / "m.json").mount
+    assert mount is not None
+    np.testing.assert_allclose(mount.R_SE, found["R_SE"], atol=1e-12)
+    # The same rotation given by hand leads to the same load, and compensate uses the one that was found.
+    assert (
+        invoke("calibrate", file, *written, "--mount", "0,0,30", "--out", tmp_path / "k.json").exit_code == 0
+    )
+    known = load_calibration(tmp_path / "k.json")
+    assert known.mass == pytest.approx(found["mass_kg"], abs=4 * found["mass_sigma_kg"])
+    with file.open() as stream:
+        text = stream.read().replace("fx,", "t,fx,", 1).splitlines()
+    recording = tmp_path / "recording.csv"
+    recording.write_text("\n".join([text[0], *(f"{i},{row}" for i, row in enumerate(text[1:]))]) + "\n")
+    assert (
+        invoke("compensate", tmp_path / "m.json", recording, *written, "--out", tmp_path / "w.csv").exit_code
+        == 0
+    )
+    rows = np.loadtxt(tmp_path / "w.csv", delimiter=",", skiprows=1)
+    assert np.abs(rows[:, 1:4]).max() < 0.25
+
+
+def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None:
+    for name in ("a", "b"):
+        out, report = tmp_path / f"{name}.json", tmp_path / f"{name}.html"
+        assert invoke("calibrate", poses, *EULER, "--out", out, "--report", report).exit_code == 0
+    assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+    assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
+    assert "Gravity calibration" in (tmp_path / "a.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ((), "pass --euler ORDER"),
+        (("--euler", "xxz"), "give three axes"),
+        (("--euler", "xyz", "--rotation-vector"), "contradict"),
+        (("--radians",), "--radians is about angles"),
+        ((*EULER, "--noise-force", 0.05), "give both or none"),
+        ((*EULER, "--noise-force", -1, "--noise-torque", 1), "finite numbers above 0"),
+        ((*EULER, "--tip", "0,0"), "--tip needs 3 finite numbers"),
+        ((*EULER, "--mount", "0,0,1", "--estimate-mount"), "contradict"),
+        (("--robot", "kuka"), "known: elfin3"),
+    ],
+)
+def test_wrong_options(tmp_path: Path, poses: Path, options: tuple[object, ...], message: str) -> None:
+    result = invoke("calibrate", poses, *options, "--out", tmp_path / "c.json")
+    assert result.exit_code == 2
+    assert message in said(result)
+    assert not (tmp_path / "c.json").exists()
+
+
+def test_the_poses_are_not_overwritten(poses: Path) -> None:
+    before = poses.read_bytes()
+    result = invoke("calibrate", poses, *EULER, "--out", poses)
+    assert result.exit_code == 2
+    assert poses.read_bytes() == before
+
+
+def test_a_wrong_file_leaves_the_earlier_calibration(poses: Path, calibration: Path) -> None:
+    before = calibration.read_bytes()
+    poses.write_text(poses.read_text().replace("\n10.0,", "\nten,").replace("fy", "fyy"))
+    result = invoke("calibrate", poses, *EULER, "--out", calibration, "--json")
+    assert result.exit_code == 2
+    assert "column fy missing" in json.loads(result.stdout)["error"]
+    assert calibration.read_bytes() == before
+
+
+@pytest.mark.parametrize("command", ["calibrate", "diagnose", "verify-still", "compensate"])
+def test_help_has_an_example(command: str) -> None:
+    result = invoke(command, "--help")
+    assert result.exit_code == 0
+    assert f"Example: contactbench {command}" in " ".join(result.stdout.split())
+
+
+# ---- diagnose ------------------------------------------------------------------------------------
+
+
+def test_transposed_orientations_are_recognised_and_the_remedy_works(tmp_path: Path) -> None:
+    file = write_euler(tmp_path / "t.csv", weighed(), transposed=True)
+    noise = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque)
+    result = invoke("diagnose", file, *EULER, *noise, "--json")
+    assert result.exit_code == 1
+    assert json.loads(result.stdout)["consistent"] is False
+    assert "Pass --inverse" in said(result)
+    assert invoke("diagnose", file, *EULER, *noise, "--inverse").exit_code == 0
+    assert invoke("calibrate", file, *EULER, "--inverse", "--out", tmp_path / "t.json").exit_code == 0
+
+
+# ---- verify-still --------------------------------------------------------------------------------
+
+
+def test_held_out_poses_verify(tmp_path: Path, calibration: Path) -> None:
+    rng = np.random.default_rng(7)
+    weighing = weigh(TRUTH, Rotation.random(6, rng).as_matrix(), NOISE, rng)
+    held_out = write_euler(tmp_path / "held.csv", weighing)
+    result = invoke("verify-still", calibration, held_out, *EULER, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["passed"] is True
+
+
+def test_another_tool_does_not_verify(tmp_path: Path, calibration: Path) -> None:
+    rng = np.random.default_rng(7)
+    heavier = type(TRUTH)(1.1 * TRUTH.gravity_W, TRUTH.force_bias, TRUTH.centre_of_mass_S, TRUTH.torque_bias)
+    held_out = write_euler(
+        tmp_path / "held.csv", weigh(heavier, Rotation.random(6, rng).as_matrix(), NOISE, rng)
+    )
+    assert invoke("verify-still", calibration, held_out, *EULER).exit_code == 1
+
+
+# ---- compensate ----------------------------------------------------------------------------------
+
+
+def test_what_is_left_of_an_untouched_recording_is_noise(tmp_path: Path, calibration: Path) -> None:
+    rng = np.random.default_rng(5)
+    recording = write_euler(
+        tmp_path / "r.csv", weigh(TRUTH, Rotation.random(400, rng).as_matrix(), NOISE, rng)
+    )
+    out = tmp_path / "w.csv"
+    result = invoke("compensate", calibration, recording, *EULER, "--out", out, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["rows"] == 400
+    left = np.loadtxt(out, delimiter=",", skiprows=1)[:, 1:]
+    np.testing.assert_allclose(left[:, :3].std(axis=0), NOISE.force, rtol=0.15)
+    np.testing.assert_allclose(left[:, 3:].std(axis=0), NOISE.torque, rtol=0.35)
+
+
+def test_a_refused_calibration_is_used_with_a_warning(tmp_path: Path, poses: Path) -> None:
+    invoke("calibrate", write_euler(tmp_path / "s.csv", spun()), *EULER, "--out", tmp_path / "s.json")
+    result = invoke("compensate", tmp_path / "s.json", poses, *EULER, "--out", tmp_path / "w.csv")
+    assert result.exit_code == 0
+    assert "warning:" in said(result)
+
+
+def test_json_and_dash_contradict(calibration: Path, poses: Path) -> None:
+    result = invoke("compensate", calibration, poses, *EULER, "--out", "-", "--json")
+    assert result.exit_code == 2
+
+
+def test_a_tampered_calibration_is_refused(tmp_path: Path, calibration: Path, poses: Path) -> None:
+    calibration.write_text(calibration.read_text().replace('"mass_kg": 0.6', '"mass_kg": 1.6'))
+    result = invoke("compensate", calibration, poses, *EULER, "--out", tmp_path / "w.csv")
+    assert result.exit_code == 2
+    assert not (tmp_path / "w.csv").exists()

@@ -1,0 +1,95 @@
+"""next-pose and plan-poses."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from typer.testing import CliRunner
+from weighing_files import NOISE, TRUTH, spun, write_euler
+
+from pipeline import cli
+from pipeline.calibration import calibrate
+from pipeline.robot import Robot
+from pipeline.simulation.weighing import weigh
+
+ARM = ("--robot", "elfin3", "--joints", "0,-17,69,0,52,0")
+
+
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(cli.app, list(map(str, arguments)))
+
+
+def said(result: Any) -> str:
+    return " ".join(result.stderr.split())
+
+
+@pytest.fixture
+def blind(tmp_path: Path) -> Path:
+    file = write_euler(tmp_path / "s.csv", spun())
+    assert invoke("calibrate", file, "--euler", "xyz", "--out", tmp_path / "s.json").exit_code == 1
+    return tmp_path / "s.json"
+
+
+def test_the_next_pose_of_a_blind_set_tilts(blind: Path) -> None:
+    result = invoke("next-pose", blind, "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    w, x, y, z = found["quaternion_WS"]
+    down_S = -Rotation.from_quat([x, y, z, w]).as_matrix()[2]
+    before = -spun().poses[0].R_WS[2]
+    assert np.degrees(np.arccos(down_S @ before)) > 30
+    assert found["joints_deg"] is None
+    assert found["contact_error_after_mm"] < found["contact_error_before_mm"]
+    assert said(result).startswith("Next: ")
+
+
+def test_the_next_pose_of_a_robot_is_within_its_limits(blind: Path) -> None:
+    found = json.loads(invoke("next-pose", blind, *ARM, "--json").stdout)
+    joints = np.radians(found["joints_deg"])
+    assert Robot.named("elfin3").within_limits(joints)
+    np.testing.assert_allclose(np.degrees(joints[:3]), [0, -17, 69])  # only the wrist moves
+
+
+def test_a_plan_leads_to_the_error_that_it_predicts(tmp_path: Path) -> None:
+    out = tmp_path / "plan.csv"
+    result = invoke("plan-poses", 6, *ARM, "--out", out, "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    text = out.read_text().splitlines()
+    assert text[0] == "name,qw,qx,qy,qz,j1,j2,j3,j4,j5,j6,contact_error_mm"
+    assert len(text) == 7
+    cells = np.array([[float(cell) for cell in row.split(",")[1:]] for row in text[1:]])
+    R_WS = Rotation.from_quat(np.roll(cells[:, :4], -1, axis=1)).as_matrix()
+    np.testing.assert_allclose(
+        Robot.named("elfin3").flange_rotations(np.radians(cells[:, 4:10])), R_WS, atol=1e-9
+    )
+    weighing = weigh(TRUTH, R_WS, NOISE, np.random.default_rng(0))
+    measured = 1e3 * calibrate(weighing.poses, NOISE).contact_error
+    assert measured == pytest.approx(found["contact_error_mm"][-1], rel=0.15)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((2,), "a plan has 3 to 60 poses"),
+        ((6, "--robot", "elfin3"), "go together"),
+        ((6, "--robot", "kuka", "--joints", "0,0,0,0,0,0"), "known: elfin3"),
+        ((6, "--robot", "elfin3", "--joints", "0,0,0,0,200,0"), "outside its limits"),
+        ((6, "--robot", "elfin3", "--joints", "0,0"), "--joints needs 6"),
+        ((6, "--max-tilt", 0), "largest tilt"),
+        ((6, "--mass", 0), "no mass of a tool"),
+    ],
+)
+def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message: str) -> None:
+    result = invoke("plan-poses", *arguments, "--out", tmp_path / "p.csv")
+    assert result.exit_code == 2
+    assert message in said(result)
+    assert not (tmp_path / "p.csv").exists()
+
+
+@pytest.mark.parametrize("command", ["next-pose", "plan-poses"])
+def test_help_has_an_example(command: str) -> None:
+    assert f"Example: contactbench {command}" in " ".join(invoke(command, "--help").stdout.split())

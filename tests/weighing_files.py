@@ -1,0 +1,57 @@
+"""Files of poses and recordings with a known truth, written as users write them."""
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import GravityModel, PoseNoise
+from pipeline.calibration.reachable import by_hand
+from pipeline.calibration.suggest import plan_poses
+from pipeline.simulation.weighing import Weighing, weigh
+
+TRUTH = GravityModel(
+    np.array([0.0, 0.0, -6.1]),
+    np.array([3.0, -2.0, 8.0]),
+    np.array([0.004, -0.002, 0.062]),
+    np.array([0.2, -0.1, 0.05]),
+)
+NOISE = PoseNoise(0.05, 0.002)
+
+
+def weighed(count: int = 9, seed: int = 4) -> Weighing:
+    """A 0.62 kg tool in well chosen poses."""
+    return weigh(TRUTH, plan_poses(count, by_hand()).R_WS, NOISE, np.random.default_rng(seed))
+
+
+def spun(count: int = 6, seed: int = 4) -> Weighing:
+    """The same, but every pose has the same tilt."""
+    turns = Rotation.from_euler("z", np.arange(count, dtype=float)[:, None])
+    tilted = Rotation.from_euler("x", 0.7)
+    return weigh(TRUTH, (turns * tilted).as_matrix(), NOISE, np.random.default_rng(seed))
+
+
+def write_euler(file: Path, weighing: Weighing, order: str = "xyz", *, transposed: bool = False) -> Path:
+    """Write poses with rx,ry,rz in degrees; `transposed`: of R_SW, as some exporters do."""
+    R = np.array([pose.R_WS for pose in weighing.poses])
+    angles = Rotation.from_matrix(R.transpose(0, 2, 1) if transposed else R).as_euler(order, degrees=True)
+    return _write(file, weighing, ("rx", "ry", "rz"), angles)
+
+
+def write_quaternions(file: Path, weighing: Weighing) -> Path:
+    """Write poses with qw,qx,qy,qz."""
+    R = np.array([pose.R_WS for pose in weighing.poses])
+    return _write(
+        file, weighing, ("qw", "qx", "qy", "qz"), np.roll(Rotation.from_matrix(R).as_quat(), 1, axis=1)
+    )
+
+
+def _write(file: Path, weighing: Weighing, columns: tuple[str, ...], values: Any) -> Path:
+    with file.open("w", newline="") as stream:
+        rows = csv.writer(stream)
+        rows.writerow(["t", "fx", "fy", "fz", "mx", "my", "mz", *columns])
+        for number, (pose, cells) in enumerate(zip(weighing.poses, values, strict=True)):
+            rows.writerow([10.0 * number, *pose.force, *pose.torque, *cells])
+    return file

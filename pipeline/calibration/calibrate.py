@@ -13,13 +13,14 @@ from pipeline.calibration.fit import (
     ALL,
     Fit,
     PoseNoise,
+    felt,
     fit_with_unknown_noise,
     maximise,
     predict,
     two_stage,
 )
 from pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, PARAMETERS, TORQUE_BIAS, GravityModel
-from pipeline.calibration.observability import Observability, observe
+from pipeline.calibration.observability import Observability, observe, observe_weightless
 from pipeline.calibration.outliers import LARGEST_SHARE, Rejection, deviates, find_bumped, refit, rejection
 from pipeline.calibration.poses import PoseError, Stack, stack
 from pipeline.calibration.verdict import Level, Limits, Verdict, judge
@@ -31,10 +32,6 @@ if TYPE_CHECKING:
 
     from pipeline.calibration.poses import PoseSample
 
-# The weight is felt when it is this many standard deviations from zero; below, the centre of mass is a
-# ratio of two numbers that are both noise.
-_FELT = 5.0
-_TINY = 1e-300  # N²: a variance beside another that is 1e20 times larger may come out as nothing
 # Noise that was given is doubted when chance explains the residuals once in so many clean sets.
 _DOUBT = 1e-3
 
@@ -248,16 +245,13 @@ def _within(poses: Sequence[PoseSample]) -> NDArray[np.float64]:
 
 def _observed(inside: Stack, fit: Fit, noise: PoseNoise) -> tuple[Fit, Observability]:
     """Tell what the poses show; where the weight is lost in the noise, hold the centre of mass at zero."""
-    g = fit.theta[GRAVITY]
-    sight = observe(inside.R_SW, g)
-    variances, axes = np.linalg.eigh(fit.covariance[GRAVITY, GRAVITY])
-    felt = float(((axes.T @ g) ** 2 / np.maximum(variances, _TINY)).sum()) > _FELT**2
-    if not felt:
+    if felt(fit.theta, fit.covariance):
+        sight = observe(inside.R_SW, fit.theta[GRAVITY])
+    else:
         free = ALL.copy()
         free[CENTRE_OF_MASS] = False
         fit = maximise(inside, noise.sigmas, np.where(free, fit.theta, 0.0), free)
-        if not (sight.null_directions or sight.weak):  # poses that are too much alike may well hide a weight
-            sight = observe(inside.R_SW, g, weighs=False)
+        sight = observe_weightless(inside.R_SW)
     if sight.null_directions or sight.weak:
         fit = replace(fit, covariance=fit.covariance + _product(fit.covariance, inside.R_SW))
     return fit, sight

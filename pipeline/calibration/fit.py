@@ -48,6 +48,8 @@ _RIDGE = 1e-6
 _STEPS, _HALVINGS = 25, 12
 _CONVERGED = 1e-3  # of a standard deviation
 _SINGULAR = 1e-12
+_FELT = 5.0
+_TINY = 1e-300  # N²: a variance beside another that is 1e20 times larger may come out as nothing
 _ROUNDING = 1 + 1e-12  # at the maximum a step neither helps nor harms
 
 
@@ -235,6 +237,15 @@ def parameter_covariance(J: NDArray[np.float64]) -> NDArray[np.float64]:
 def _least_information(information: NDArray[np.float64]) -> float:
     """Return what counts as none: 1 / UNKNOWN², or what rounding makes of nothing where the noise is tiny."""
     return max(1.0, _SINGULAR * float(np.trace(information)))
+
+
+def felt(theta: NDArray[np.float64], covariance: NDArray[np.float64]) -> bool:
+    """Tell whether the weight is five standard deviations from zero, along any direction that is known.
+
+    Below that, the centre of mass is a ratio of two numbers that are both noise.
+    """
+    variances, axes = np.linalg.eigh(covariance[GRAVITY, GRAVITY])
+    return float(((axes.T @ theta[GRAVITY]) ** 2 / np.maximum(variances, _TINY)).sum()) > _FELT**2
 
 
 # ---- unknown noise -----------------------------------------------------------------------------

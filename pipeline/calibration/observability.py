@@ -19,6 +19,8 @@ _UPRIGHT = 0.985
 WEAK = 10.0
 # Poses that differ by less than this are one pose, and by less than that are too much alike, degrees.
 _SAME, _CLOSE = 0.2, 30.0
+_HARDLY = 0.1  # as a singular value: poses about six degrees from being blind
+_DOWN_W = np.array([0.0, 0.0, -1.0])
 
 
 @dataclass(frozen=True)
@@ -57,8 +59,22 @@ class Observability:
         return max(self.force_condition, self.torque_condition)
 
 
+def observe_weightless(R_SW: NDArray[np.float64]) -> Observability:
+    """Tell what poses at orientations R_SW (n, 3, 3) determine of a load whose weight is lost in the noise.
+
+    Poses that differ a little, as a hand's do, are not exactly blind. If they are hardly better, they hide
+    the weight; if they are good, there is none.
+    """
+    hidden = observe(R_SW, _DOWN_W, blind=_HARDLY)
+    return hidden if hidden.null_directions or hidden.weak else observe(R_SW, _DOWN_W, weighs=False)
+
+
 def observe(
-    R_SW: NDArray[np.float64], gravity_W: NDArray[np.float64], *, weighs: bool = True
+    R_SW: NDArray[np.float64],
+    gravity_W: NDArray[np.float64],
+    *,
+    weighs: bool = True,
+    blind: float = BLIND,
 ) -> Observability:
     """Tell what poses at orientations R_SW (n, 3, 3) determine.
 
@@ -69,12 +85,14 @@ def observe(
         Only its direction counts: the noise of its estimate must not pass for a tilt.
     weighs : bool
         Whether the load's weight is felt at all; without it no pose shows the centre of mass.
+    blind : float
+        Singular values below this, per pose and for a load of 1 N, count as zero.
     """
     size = float(np.linalg.norm(gravity_W))
-    down_W = gravity_W / size if size else np.array([0.0, 0.0, -1.0])
+    down_W = gravity_W / size if size else _DOWN_W
     down_S = R_SW @ down_W
-    force_rank, force_condition, alike_W = _forces(R_SW)
-    torque_rank, torque_condition = _torques(down_S) if weighs else (3, np.inf)
+    force_rank, force_condition, alike_W = _forces(R_SW, blind)
+    torque_rank, torque_condition = _torques(down_S, blind) if weighs else (3, np.inf)
     words, weak = [], ""
     if max(force_condition, torque_condition) > WEAK and weighs:
         weak = _close_words(R_SW)
@@ -101,27 +119,27 @@ def observe(
     )
 
 
-def _forces(R_SW: NDArray[np.float64]) -> tuple[int, float, NDArray[np.float64]]:
+def _forces(R_SW: NDArray[np.float64], blind: float) -> tuple[int, float, NDArray[np.float64]]:
     """Return rank and condition of the equations R_i g + F0, and what they cannot tell from bias (k, 3), W.
 
     Their normal matrix, per pose, is [[1, R'], [R, 1]] with R the mean of the rotations: its eigenvalues are
     1 plus and minus the singular values of R. A direction that every pose turns alike has singular value 1.
     """
     _, values, vectors = np.linalg.svd(R_SW.mean(axis=0))
-    return *_rank(np.concatenate([1 + values, 1 - values])), vectors[1 - values < BLIND**2]
+    return *_rank(np.concatenate([1 + values, 1 - values]), blind), vectors[1 - values < blind**2]
 
 
-def _torques(down_S: NDArray[np.float64]) -> tuple[int, float]:
+def _torques(down_S: NDArray[np.float64], blind: float) -> tuple[int, float]:
     """Return rank and condition of the equations L x down_i + M0, for a load of 1 N."""
     normal, mean = np.eye(6), cross_matrix(down_S.mean(axis=0))
     normal[:3, :3] -= down_S.T @ down_S / len(down_S)
     normal[:3, 3:], normal[3:, :3] = mean, -mean
-    return _rank(np.asarray(np.linalg.eigvalsh(normal), dtype=np.float64))
+    return _rank(np.asarray(np.linalg.eigvalsh(normal), dtype=np.float64), blind)
 
 
-def _rank(squares: NDArray[np.float64]) -> tuple[int, float]:
+def _rank(squares: NDArray[np.float64], blind: float) -> tuple[int, float]:
     """Return rank and condition for squared singular values, per pose."""
-    rank = int((squares >= BLIND**2).sum())
+    rank = int((squares >= blind**2).sum())
     return rank, float(np.sqrt(squares.max() / squares.min())) if rank == len(squares) else np.inf
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, usual_task, worst_sigma
-from pipeline.calibration.fit import UNKNOWN, PoseNoise
+from pipeline.calibration.fit import PoseNoise, felt, parameter_covariance
 from pipeline.calibration.model import GRAVITY, GravityModel, prediction_jacobian
 from pipeline.calibration.reachable import describe
 from pipeline.calibration.wording import plain
@@ -30,7 +30,7 @@ USUAL_NOISE = PoseNoise(0.05, 0.002)
 
 # Of poses that are this nearly as good as the best one, the nearest is taken.
 _NEARLY = 1.05
-_LEAST_WEIGHT = 0.5  # N
+_QUIETEST = np.repeat([1e-5, 1e-7], 3)  # N and N·m: finer than any sensor, coarse enough to invert
 _UNDETERMINED = 0.05  # m
 _PASSES = 8
 _STARTS = 3
@@ -110,7 +110,8 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
         No candidate can be reached by a clear move.
     """
     theta = _plausible(calibration)
-    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / calibration.noise.sigmas[:, None]
+    widened = 1.0 if calibration.plausible else np.sqrt(calibration.scatter)
+    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / _sigmas(calibration.noise, widened)
     A = calibration.task.parameter_sensitivity(theta)
     errors = _errors_with(calibration.covariance, J, A)
     chosen = _nearest_good(errors, reachable)
@@ -165,7 +166,7 @@ def plan_poses(
     if len(reachable) < count:
         raise InputError(f"only {len(reachable)} poses can be reached, fewer than the {count} asked for")
     theta = load.vector
-    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / noise.sigmas[:, None]
+    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / _sigmas(noise)
     A = (task or usual_task()).parameter_sensitivity(theta)
 
     def done(start: int, exchanges: int) -> None:
@@ -175,7 +176,7 @@ def plan_poses(
     designs = [_exchange(count, start, J, A, partial(done, start)) for start in range(_STARTS)]
     _, chosen = min(designs, key=lambda design: design[0])
     order, warnings = _ordered(chosen, reachable)
-    errors = [worst_sigma(A, _covariance(J[order[: k + 1]])) for k in range(count)]
+    errors = [worst_sigma(A, parameter_covariance(J[order[: k + 1]])) for k in range(count)]
     joints = None if reachable.joints is None else reachable.joints[order]
     return Plan(reachable.R_WS[order], joints, np.array(errors), warnings)
 
@@ -188,14 +189,14 @@ def plan_error(
     task: ContactTask | None = None,
 ) -> float:
     """Return the predicted share of the calibration in the contact error after poses R_WS (n, 3, 3), m."""
-    J = prediction_jacobian(R_WS.swapaxes(1, 2), load.vector) / noise.sigmas[:, None]
-    return worst_sigma((task or usual_task()).parameter_sensitivity(load.vector), _covariance(J))
+    J = prediction_jacobian(R_WS.swapaxes(1, 2), load.vector) / _sigmas(noise)
+    return worst_sigma((task or usual_task()).parameter_sensitivity(load.vector), parameter_covariance(J))
 
 
 def _plausible(calibration: Calibration) -> NDArray[np.float64]:
     """Return the parameters (12,), with a usual weight where none was felt yet: poses would show nothing else."""
     theta, usual = calibration.model.vector, USUAL_LOAD.vector
-    if np.linalg.norm(theta[GRAVITY]) < _LEAST_WEIGHT:
+    if not felt(theta, calibration.covariance):
         theta[GRAVITY] = usual[GRAVITY]
     return theta
 
@@ -203,10 +204,10 @@ def _plausible(calibration: Calibration) -> NDArray[np.float64]:
 # ---- information -------------------------------------------------------------------------------
 
 
-def _covariance(J: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the covariance (12, 12) that poses with whitened Jacobians J (n, 6, 12) leave."""
-    rows = J.reshape(-1, 12)
-    return np.asarray(np.linalg.inv(rows.T @ rows + np.diag(UNKNOWN**-2.0)), dtype=np.float64)
+def _sigmas(noise: PoseNoise, widened: float = 1.0) -> NDArray[np.float64]:
+    """Return the noise (6, 1) that poses to come are credited with: never less than any sensor has."""
+    sigmas: NDArray[np.float64] = widened * np.maximum(noise.sigmas, _QUIETEST)[:, None]
+    return sigmas
 
 
 def _errors_with(
@@ -217,10 +218,9 @@ def _errors_with(
     The covariance with one more pose is C less ``C J' inv(1 + J C J') J C``; carried to the contact.
     """
     JC = J @ C
-    gain = np.linalg.cholesky(np.eye(6) + JC @ J.transpose(0, 2, 1))
-    lowered = np.linalg.solve(gain, JC)  # (k, 6, 12): what is taken off is its square
-    off = A @ lowered.transpose(0, 2, 1)[:, None]  # (k, touches, 2, 6)
-    left = A @ C @ A.transpose(0, 2, 1) - off @ off.swapaxes(2, 3)
+    lowered = np.linalg.solve(np.eye(6) + JC @ J.transpose(0, 2, 1), JC)  # (k, 6, 12)
+    reach = A @ JC.transpose(0, 2, 1)[:, None]  # (k, touches, 2, 6)
+    left = A @ C @ A.transpose(0, 2, 1) - reach @ (A @ lowered.transpose(0, 2, 1)[:, None]).swapaxes(2, 3)
     return np.asarray(np.sqrt(largest_eigenvalue(left).max(axis=1)), dtype=np.float64)
 
 
@@ -234,17 +234,17 @@ def _exchange(
     """Return error and poses of a set that no single exchange improves."""
     chosen = [start * (len(J) // _STARTS)]
     while len(chosen) < count:
-        errors = _errors_with(_covariance(J[chosen]), J, A)
+        errors = _errors_with(parameter_covariance(J[chosen]), J, A)
         errors[chosen] = np.inf
         chosen.append(int(np.argmin(errors)))
-    best = worst_sigma(A, _covariance(J[chosen]))
+    best = worst_sigma(A, parameter_covariance(J[chosen]))
     for done in range(_PASSES * count):
         progress(done)
         place = done % count
         if place == 0:
             before = best
         others = chosen[:place] + chosen[place + 1 :]
-        errors = _errors_with(_covariance(J[others]), J, A)
+        errors = _errors_with(parameter_covariance(J[others]), J, A)
         errors[others] = np.inf
         if errors.min() < best * (1 - 1e-6):
             chosen[place], best = int(np.argmin(errors)), float(errors.min())

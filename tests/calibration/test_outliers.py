@@ -1,0 +1,235 @@
+"""Bumped poses are named, in words that are true; the rest is as if they had never been there."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from scipy.special import ndtr
+
+from pipeline.calibration import Calibration, GravityModel, Level, PoseNoise, PoseSample, calibrate
+from pipeline.calibration.fit import maximise, two_stage
+from pipeline.calibration.outliers import LARGEST_SHARE, deviates, limit
+from pipeline.calibration.poses import stack
+from pipeline.simulation.weighing import bump, draw_load, draw_weighing, weigh
+
+NOISE = PoseNoise(0.05, 0.002)
+LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])
+
+
+def held(count: int, seed: int = 0) -> list[PoseSample]:
+    rng = np.random.default_rng([seed, 21])
+    return list(weigh(LOAD, Rotation.random(count, rng).as_matrix(), NOISE, rng).poses)
+
+
+def push(poses: list[PoseSample], which: list[int], force=(0, 0, 0), torque=(0, 0, 0)) -> list[PoseSample]:
+    """Add the same force, N, and torque, N·m, to the readings of some poses."""
+    pushed = list(poses)
+    for index in which:
+        pose = pushed[index]
+        pushed[index] = replace(pose, force=pose.force + force, torque=pose.torque + torque)
+    return pushed
+
+
+def left_out(calibration: Calibration) -> list[int]:
+    return [rejection.index for rejection in calibration.rejected]
+
+
+# ---- how far is far ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("count", [3, 8, 50, 200])
+def test_the_limit_is_passed_in_one_clean_set_of_a_hundred(count):
+    inside = ndtr(limit(count)) - ndtr(-limit(count))
+    assert 1 - inside ** (2 * count) == pytest.approx(0.01, rel=0.01)
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_deviates_of_clean_poses_are_gaussian(known):
+    rng = np.random.default_rng([1, 21])
+    found = []
+    for _ in range(100 if known else 60):
+        weighing = draw_weighing(rng, poses=(8, 12))
+        calibration = calibrate(weighing.poses, weighing.noise if known else None)
+        found.append(calibration.deviates.ravel())
+    sizes = np.concatenate(found)
+    for beyond in (0.5, 1.0, 2.0):
+        share = 2 * ndtr(-beyond)
+        chance = 4 * np.sqrt(share * (1 - share) / len(sizes))
+        assert np.mean(sizes > beyond) == pytest.approx(share, abs=chance)
+
+
+def test_a_pose_outside_the_fit_is_judged_by_what_the_fit_leaves_uncertain():
+    """Predicted from four poses, a clean fifth is off by the noise and by the prediction's own error."""
+    rng = np.random.default_rng([2, 21])
+    inside = np.array([True] * 4 + [False] * 4)
+    sizes = []
+    for _ in range(150):
+        weighing = draw_weighing(rng, poses=(8, 8), mass=(0.5, 2))
+        poses = stack(weighing.poses)
+        sigmas = weighing.noise.sigmas
+        fit = maximise(poses.take(inside), sigmas, two_stage(poses.take(inside)))
+        sizes.append(deviates(poses, inside, fit, weighing.noise)[~inside].ravel())
+    sizes = np.concatenate(sizes)
+    assert np.mean(sizes > 2) == pytest.approx(0.0455, abs=0.03)
+    assert np.mean(sizes > 1) == pytest.approx(0.317, abs=0.06)
+
+
+def test_clean_sets_are_left_whole():
+    rng = np.random.default_rng([3, 21])
+    alarms = {True: 0, False: 0}
+    for known in alarms:
+        for _ in range(150 if known else 50):
+            weighing = draw_weighing(rng)
+            alarms[known] += bool(calibrate(weighing.poses, weighing.noise if known else None).rejected)
+    assert alarms[True] <= 6  # 1.5 are expected; more than 6 happen once in a thousand
+    assert alarms[False] <= 4
+
+
+# ---- names and reasons -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+@pytest.mark.parametrize("count", [6, 9, 12])
+def test_a_bumped_pose_is_named_with_what_was_off(noise, count):
+    poses = [replace(pose, name=f"pose {chr(65 + i)}") for i, pose in enumerate(held(count))]
+    calibration = calibrate(push(poses, [2], force=[4, 0, 3]), noise)
+    [rejection] = calibration.rejected
+    assert (rejection.index, rejection.name) == (2, "pose C")
+    assert rejection.force_sigmas > limit(count) > rejection.torque_sigmas
+    assert "force" in rejection.reason
+    assert "torque" not in rejection.reason
+    assert "(5.0 N)" in rejection.reason or "(5.1 N)" in rejection.reason or "(4.9 N)" in rejection.reason
+    assert "bumped" in rejection.reason
+    assert calibration.kept.tolist() == [i != 2 for i in range(count)]
+    assert np.linalg.norm(calibration.residuals[2, :3]) == pytest.approx(5, abs=0.5)
+    assert calibration.deviates[2].tolist() == [rejection.force_sigmas, rejection.torque_sigmas]
+
+
+def test_a_torque_alone_is_named_as_a_torque():
+    [rejection] = calibrate(push(held(9), [5], torque=[0, 0.3, 0.4]), NOISE).rejected
+    assert rejection.name == "pose 6"
+    assert rejection.torque_sigmas > limit(9) > rejection.force_sigmas
+    assert "torque" in rejection.reason
+    assert "mN·m" in rejection.reason
+    assert "force" not in rejection.reason
+    number = float(rejection.reason.split("(")[1].split(" mN·m")[0])
+    assert number == pytest.approx(500, rel=0.05)
+
+
+def test_both_are_named_when_both_are_off():
+    [rejection] = calibrate(push(held(9), [0], [0, 9, 0], [1, 0, 0]), NOISE).rejected
+    assert "force" in rejection.reason
+    assert "torque" in rejection.reason
+
+
+def test_a_bump_beyond_all_probability_has_a_finite_deviate():
+    [rejection] = calibrate(push(held(9), [4], [1e4, 0, 0]), NOISE).rejected
+    assert 1e3 < rejection.force_sigmas < np.inf
+
+
+# ---- who is right ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+def test_two_bumps_of_eight_that_hide_each_other(noise):
+    """The pose that a fit of all eight likes least is a good one; still the bumped ones are named."""
+    masked = 0
+    for seed in range(12):
+        rng = np.random.default_rng([seed, 22])
+        R_WS = Rotation.random(8, rng).as_matrix()
+        R_WS[1] = R_WS[0] @ Rotation.from_rotvec([0.2, 0.1, 0]).as_matrix()
+        poses = push(list(weigh(LOAD, R_WS, NOISE, rng).poses), [0, 1], [6, -4, 2], [0.2, 0.5, 0])
+        arrays = stack(poses)
+        everybody = maximise(arrays, NOISE.sigmas, two_stage(arrays))
+        masked += int(np.argmax((everybody.residuals**2).sum(axis=1))) > 1
+        assert left_out(calibrate(poses, noise)) == [0, 1]
+    assert masked >= 4
+
+
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+@pytest.mark.parametrize("count", [10, 15])
+def test_a_block_of_poses_on_another_bias(noise, count):
+    """The cable caught for the last two poses in five: they agree with each other, but are fewer."""
+    block = list(range(count - int(LARGEST_SHARE * count), count))
+    calibration = calibrate(push(held(count), block, [1.5, 0, -1], [0, 0.05, 0]), noise)
+    assert left_out(calibration) == block
+    assert calibration.verdict.level in {Level.GOOD, Level.USABLE}
+
+
+def test_the_rest_is_as_if_the_bumped_had_never_been_there():
+    for seed in range(10):
+        rng = np.random.default_rng([seed, 23])
+        weighing = bump(draw_weighing(rng, poses=(9, 12)), 0.2, rng)
+        calibration = calibrate(weighing.poses, weighing.noise)
+        assert not (calibration.kept & weighing.bumped).any()
+        clean = [pose for pose, kept in zip(weighing.poses, calibration.kept, strict=True) if kept]
+        alone = calibrate(clean, weighing.noise)
+        assert np.allclose(calibration.model.vector, alone.model.vector, rtol=1e-9, atol=1e-9)
+        assert np.allclose(calibration.covariance, alone.covariance, rtol=1e-7, atol=0)
+        assert calibration.contact_error == pytest.approx(alone.contact_error, rel=1e-7)
+        assert calibration.scatter == pytest.approx(alone.scatter, rel=1e-7)
+        assert calibration.observability == alone.observability
+        assert np.allclose(calibration.residuals[calibration.kept], alone.residuals, atol=1e-9)
+        assert np.allclose(calibration.deviates[calibration.kept], alone.deviates, atol=1e-6)
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_a_fifth_that_is_bumped_is_always_named(known):
+    rng = np.random.default_rng([4, 21])
+    alarms = 0
+    for _ in range(40):
+        weighing = bump(draw_weighing(rng, poses=(8, 12)), 0.2, rng)
+        kept = calibrate(weighing.poses, weighing.noise if known else None).kept
+        assert not (kept & weighing.bumped).any()
+        alarms += (~kept & ~weighing.bumped).any()
+    assert alarms <= 3
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_too_few_to_tell_who_is_right_are_all_kept(count):
+    calibration = calibrate(push(held(count), [1], [5, 5, 5]), NOISE)
+    assert not calibration.rejected
+    assert not calibration.plausible
+    assert calibration.verdict.level == Level.REFUSE
+
+
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+@pytest.mark.parametrize("count", [6, 8, 12])
+def test_with_half_of_them_bumped_nothing_is_believed(noise, count):
+    for seed in range(5):
+        rng = np.random.default_rng([seed, 24])
+        poses = held(count, seed)
+        for index in range(0, count, 2):
+            poses = push(poses, [index], 8 * rng.standard_normal(3), 0.5 * rng.standard_normal(3))
+        assert calibrate(poses, noise).verdict.level == Level.REFUSE
+
+
+def test_half_of_them_bumped_leaves_no_majority():
+    rng = np.random.default_rng(5)
+    poses = held(12)
+    for index in range(0, 12, 2):
+        poses = push(poses, [index], 8 * rng.standard_normal(3), 0.5 * rng.standard_normal(3))
+    assert (
+        calibrate(poses).verdict.level == Level.REFUSE
+    )  # scatter cannot be told from noise without a figure
+    calibration = calibrate(poses, NOISE)
+    assert not calibration.rejected  # nobody can say who is right: all are shown
+    assert any("No majority" in reason for reason in calibration.verdict.reasons)
+
+
+def test_poses_in_the_wrong_convention_are_no_bumps():
+    transposed = [replace(pose, R_WS=pose.R_WS.T) for pose in held(12)]
+    assert calibrate(transposed, NOISE).verdict.level == Level.REFUSE
+    assert calibrate(transposed).verdict.level == Level.REFUSE
+
+
+def test_noise_stated_too_small_still_covers_the_truth():
+    rng = np.random.default_rng([6, 21])
+    covered = 0
+    for _ in range(60):
+        weighing = weigh(draw_load(rng), Rotation.random(20, rng).as_matrix(), NOISE, rng)
+        calibration = calibrate(weighing.poses, PoseNoise(0.05 / 3, 0.002 / 3))
+        error = calibration.model.vector - weighing.truth.vector
+        covered += error @ np.linalg.solve(calibration.covariance, error) < calibration.ellipsoid(0.95)
+    assert covered / 60 > 0.8

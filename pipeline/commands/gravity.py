@@ -313,7 +313,7 @@ def verify_still(
     fitted, R_ES = _calibration(calibration, mount)
     table = read_poses(poses, written_as, R_ES=R_ES)
     found = check(fitted, table.poses)
-    for sentence in found.sentences:
+    for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")
     if as_json:
         print_json(found.to_json())

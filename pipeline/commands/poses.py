@@ -1,8 +1,9 @@
-"""``contactbench next-pose, plan-poses``: where to hold the sensor."""
+"""``contactbench next-pose, plan-poses, captures``: where to hold the sensor, and where it was held."""
 
 from __future__ import annotations
 
 import io
+import sys
 from csv import writer
 from dataclasses import replace
 from pathlib import Path
@@ -13,16 +14,23 @@ import typer
 from pipeline.commands.gravity import CalibrationArgument
 from pipeline.commands.options import (
     AllJointsOption,
+    EulerOption,
     FloorOption,
     ForceOption,
+    InverseOption,
     JointsOption,
     MountOption,
+    RadiansOption,
     RobotOption,
     TiltOption,
     TipOption,
     ToolOption,
+    VectorOption,
     contact_task,
+    convention,
+    mount_rotation,
     reachable,
+    refuse_overwriting,
 )
 from pipeline.console import Bar, JsonOption, print_json, say
 from pipeline.errors import InputError
@@ -32,6 +40,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pipeline.calibration.suggest import Plan
+
+_FEWEST_POSES = 3
 
 poses_app = typer.Typer(rich_markup_mode=None)
 
@@ -137,6 +147,73 @@ def plan_poses(
                 "warnings": list(planned.warnings),
             }
         )
+
+
+@poses_app.command(
+    help=(
+        "Find in a recording where the sensor stood still, and write the poses for calibrate.\n\n"
+        "RECORDING has the columns t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the"
+        " orientation at the same time, written as for calibrate; - is standard input. Captures that were bumped"
+        " or did not settle are left out, with the reason. A preliminary calibration also shows steady"
+        " touches.\n\n"
+        "Exit code 1: fewer than three poses were found."
+    ),
+    epilog="Example: contactbench captures recording.csv --euler xyz --out poses.csv",
+)
+def captures(
+    recording: Annotated[
+        Path, typer.Argument(metavar="RECORDING", help="CSV file, or - for standard input.")
+    ],
+    out: Annotated[Path, typer.Option(help="CSV file of poses to write.")],
+    calibration: Annotated[
+        Path | None, typer.Option(help="Preliminary calibration, to see steady touches.")
+    ] = None,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Find in a recording where the sensor stood still."""
+    refuse_overwriting(out, [recording] if calibration is None else [recording, calibration])
+    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from pipeline.calibration.capture_file import capture_file
+    from pipeline.calibration.files import load_calibration
+    from pipeline.calibration.pose_csv import write_poses
+
+    model = None if calibration is None else load_calibration(calibration).model
+    with Bar("looking for still poses") as bar:
+        found = capture_file(
+            sys.stdin.buffer if recording == Path("-") else recording,
+            written_as,
+            R_ES=mount_rotation(mount),
+            model=model,
+            progress=bar,
+        )
+    enough = len(found.poses) >= _FEWEST_POSES
+    if enough:
+        write_poses(out, found.poses)
+    for refused in found.report.rejected:
+        say(f"left out, {refused.start:.1f} to {refused.stop:.1f} s: {refused.reason}", "yellow")
+    say(f"{len(found.poses)} still poses in {found.rows:,} readings.", "" if enough else "red")
+    if as_json:
+        print_json(
+            {
+                "out": str(out) if enough else None,
+                "poses": [
+                    {"name": pose.name, "start": capture.start, "stop": capture.stop, "count": capture.count}
+                    for pose, capture in zip(found.poses, found.report.captures, strict=True)
+                ],
+                "rejected": [
+                    {"start": refused.start, "stop": refused.stop, "reason": refused.reason}
+                    for refused in found.report.rejected
+                ],
+            }
+        )
+    if not enough:
+        raise typer.Exit(1)
 
 
 def _write(out: Path, planned: Plan) -> None:

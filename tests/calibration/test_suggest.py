@@ -195,7 +195,7 @@ def test_a_light_load_that_is_known_well_is_believed(hand):
 
 
 def test_poses_to_come_are_as_noisy_as_those_taken(hand):
-    poses = read(some(12), noise=PoseNoise(0.07, 0.0028))
+    poses = read(some(24), noise=PoseNoise(0.08, 0.0032))
     calibration = calibrate(poses, NOISE)
     assert not calibration.plausible
     suggestion = suggest_pose(calibration, hand)

@@ -156,8 +156,10 @@ def solve_with_offset(
 def predict(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the (n, 6) readings of an untouched sensor at orientations R_SW (n, 3, 3)."""
     weight = R_SW @ theta[GRAVITY]
-    torque = weight @ cross_matrix(theta[CENTRE_OF_MASS]).T
-    return np.concatenate([weight + theta[FORCE_BIAS], torque + theta[TORQUE_BIAS]], axis=1)
+    predicted = np.empty((len(R_SW), 6))
+    predicted[:, :3] = weight + theta[FORCE_BIAS]
+    predicted[:, 3:] = weight @ cross_matrix(theta[CENTRE_OF_MASS]).T + theta[TORQUE_BIAS]
+    return predicted
 
 
 def maximise(
@@ -177,10 +179,10 @@ def maximise(
     """
     theta = start
     residuals = (poses.wrenches - predict(poses.R_SW, theta)) / sigmas
+    weights = free * UNKNOWN / sigmas[:, None]
     for _ in range(_STEPS):
-        scaled = (free_jacobian(poses.R_SW, theta, sigmas, free) * UNKNOWN).reshape(-1, 12)
-        gradient = scaled.T @ residuals.ravel()
-        information = scaled.T @ scaled
+        scaled = (prediction_jacobian(poses.R_SW, theta) * weights).reshape(-1, 12)
+        gradient, information = scaled.T @ residuals.ravel(), scaled.T @ scaled
         # Nothing beside what the readings say; it keeps the step short where they say nothing.
         step = np.linalg.solve(information + _least_information(information) * _IDENTITY, gradient)
         theta, residuals, better = _descend(poses, sigmas, theta, residuals, UNKNOWN * step)
@@ -236,7 +238,7 @@ def parameter_covariance(J: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def _least_information(information: NDArray[np.float64]) -> float:
     """Return what counts as none: 1 / UNKNOWN², or what rounding makes of nothing where the noise is tiny."""
-    return max(1.0, _SINGULAR * float(np.trace(information)))
+    return max(1.0, _SINGULAR * float(information.max()))
 
 
 def felt(theta: NDArray[np.float64], covariance: NDArray[np.float64]) -> bool:

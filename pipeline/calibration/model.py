@@ -13,6 +13,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 STANDARD_GRAVITY = 9.80665  # m/s²
+_IDENTITY = np.eye(3)
+# Row k holds, flattened, what component k of v contributes to [v]x: one product makes many matrices.
+_CROSS = np.array(
+    [[0, 0, 0, 0, 0, -1, 0, 1, 0], [0, 0, 1, 0, 0, 0, -1, 0, 0], [0, -1, 0, 1, 0, 0, 0, 0, 0]], float
+)
 _SURE = 3.0  # a vector this many times longer than its uncertainty has a direction
 
 # The order of the parameters in every vector and covariance of this package.
@@ -164,7 +169,7 @@ def prediction_jacobian(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -
     """
     J = np.zeros((len(R_SW), 6, 12))
     J[:, :3, GRAVITY] = R_SW
-    J[:, :3, FORCE_BIAS] = J[:, 3:, TORQUE_BIAS] = np.eye(3)
+    J[:, :3, FORCE_BIAS] = J[:, 3:, TORQUE_BIAS] = _IDENTITY
     J[:, 3:, GRAVITY] = cross_matrix(theta[CENTRE_OF_MASS]) @ R_SW
     J[:, 3:, CENTRE_OF_MASS] = -cross_matrix(R_SW @ theta[GRAVITY])
     return J
@@ -172,11 +177,8 @@ def prediction_jacobian(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -
 
 def cross_matrix(v: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return [v]x with [v]x a = v x a, for (..., 3) vectors."""
-    matrix = np.zeros((*v.shape, 3))
-    x, y, z = v[..., 0], v[..., 1], v[..., 2]
-    matrix[..., 0, 1], matrix[..., 0, 2], matrix[..., 1, 2] = -z, y, -x
-    matrix[..., 1, 0], matrix[..., 2, 0], matrix[..., 2, 1] = z, -y, x
-    return matrix
+    matrices: NDArray[np.float64] = (v @ _CROSS).reshape(*v.shape, 3)
+    return matrices
 
 
 def _finite(name: str, value: ArrayLike, shape: tuple[int, ...]) -> NDArray[np.float64]:

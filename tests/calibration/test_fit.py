@@ -59,7 +59,7 @@ def test_exact_readings_give_the_exact_parameters(seed, count, bias):
     fit = maximise(poses, PoseNoise(1e-6, 1e-8).sigmas, two_stage(poses))
     assert np.abs(fit.theta - truth.vector).max() < 1e-10
     rough = maximise(poses, PoseNoise(0.05, 0.002).sigmas, two_stage(poses))
-    assert np.abs(rough.theta - truth.vector).max() < 1e-7
+    assert (np.abs(rough.theta - truth.vector) / np.sqrt(np.diag(rough.covariance))).max() < 1e-4
 
 
 def test_least_squares_starts_within_a_thousandth():
@@ -209,7 +209,7 @@ def test_data_without_noise_fit_with_noise_unknown(count):
     rng = rng_of(12)
     truth, R_WS = draw_load(rng, (1, 1)), Rotation.random(count, rng).as_matrix()
     fit, noise = fit_with_unknown_noise(exact(truth, R_WS), NOTHING)
-    assert np.abs(fit.theta - truth.vector).max() < 1e-9
+    assert np.abs(fit.theta - truth.vector).max() < 1e-10
     assert 0 < noise.sigmas.max() < 1e-5
 
 

@@ -229,11 +229,11 @@ def calibrate(
 
 def _first_fit(arrays: Stack, noise: PoseNoise | None, poses: Sequence[PoseSample]) -> tuple[Fit, PoseNoise]:
     if noise is None:
-        return fit_with_unknown_noise(arrays, _within(poses))
+        return fit_with_unknown_noise(arrays, within_scatter(poses))
     return maximise(arrays, noise.sigmas, two_stage(arrays)), noise
 
 
-def _within(poses: Sequence[PoseSample]) -> NDArray[np.float64]:
+def within_scatter(poses: Sequence[PoseSample]) -> NDArray[np.float64]:
     """Return the standard error (6,) of the poses' means if their samples were independent, else zeros."""
     known = [
         np.concatenate([pose.force_sd, pose.torque_sd]) / np.sqrt(pose.count)

@@ -280,7 +280,7 @@ def fit_with_unknown_noise(
     theta, freedom = two_stage(poses), np.full(2, max(3.0 * n - 6.0, 1.0))
     for _ in range(_ROUNDS):
         squares = (poses.wrenches - predict(poses.R_SW, theta)) ** 2
-        variances = squares.reshape(n, 2, 3).sum(axis=(0, 2)) / (freedom * _truncation(kept))
+        variances = squares.reshape(n, 2, 3).sum(axis=(0, 2)) / (freedom * truncation(kept))
         sigmas = np.maximum(np.repeat(np.sqrt(variances), 3), np.maximum(least, _LEAST))
         fit = maximise(poses, sigmas, theta)
         theta = fit.theta
@@ -291,7 +291,7 @@ def fit_with_unknown_noise(
     return fit, PoseNoise(sigmas[:3], sigmas[3:], estimated=True, freedom=both, least=least)
 
 
-def _truncation(kept: float) -> float:
+def truncation(kept: float) -> float:
     """Return the variance of the nearest share `kept` of Gaussian six-vectors, over that of all of them."""
     if kept >= 1:
         return 1.0

@@ -160,10 +160,10 @@ def deviates(poses: Stack, inside: NDArray[np.bool_], fit: Fit, noise: PoseNoise
     covariance = _WHOLE + sign[..., None] * (halves @ fit.covariance @ halves.swapaxes(2, 3))
     r = residuals.reshape(-1, 2, 3, 1)
     squares = np.maximum((r.swapaxes(2, 3) @ np.linalg.solve(covariance, r))[..., 0, 0], 0.0)
-    return _as_deviates(squares, inside, noise)
+    return as_deviates(squares, inside, noise)
 
 
-def _as_deviates(
+def as_deviates(
     squares: NDArray[np.float64], inside: NDArray[np.bool_], noise: PoseNoise
 ) -> NDArray[np.float64]:
     """Turn sums of three squares into normal deviates of the same probability."""

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from pipeline.calibration import Calibration
     from pipeline.calibration.diagnose import Diagnosis
-    from pipeline.calibration.mount import MountCalibration
+    from pipeline.calibration.mounting import MountCalibration
 
 _NOT_GOOD_ENOUGH = 1
 _UNKNOWN_SHARE = 0.1  # of what a parameter could be if no pose said anything of it; as in the report
@@ -101,7 +101,7 @@ def calibrate(
         say(f"warning: {sentence}", "yellow")
     mounted = None
     if estimate_mount:
-        from pipeline.calibration.mount import estimate_mount as fit_mount
+        from pipeline.calibration.mounting import estimate_mount as fit_mount
 
         mounted = fit_mount(table.poses, noise, task=task)
         calibration = mounted.calibration

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from pipeline.calibration import Calibration
-    from pipeline.calibration.diagnose import Diagnosis
+    from pipeline.calibration.diagnosis.diagnose import Diagnosis
     from pipeline.calibration.mounting import MountCalibration
 
 _NOT_GOOD_ENOUGH = 1
@@ -93,8 +93,8 @@ def calibrate(
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     noise, task = pose_noise(noise_force, noise_torque), contact_task(tip, contact_force)
     from pipeline.calibration import calibrate as fit
-    from pipeline.calibration.files import Source, creation_time, save_calibration
-    from pipeline.calibration.pose_csv import read_poses
+    from pipeline.calibration.files.calibration_file import Source, creation_time, save_calibration
+    from pipeline.calibration.files.pose_csv import read_poses
 
     table = read_poses(poses, written_as, R_ES=mount_rotation(mount))
     for sentence in table.warnings:
@@ -111,7 +111,7 @@ def calibrate(
     source = Source.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted))
     if report:
-        from pipeline.calibration.report import write_report
+        from pipeline.calibration.report.page import write_report
 
         write_report(calibration, report, source=source, created=created)
     _show(calibration, mounted)
@@ -126,7 +126,7 @@ def _mount_record(mounted: MountCalibration | None) -> Any:
         return None
     from scipy.spatial.transform import Rotation
 
-    from pipeline.calibration.files import Mount
+    from pipeline.calibration.files.calibration_file import Mount
 
     x, y, z, w = Rotation.from_matrix(mounted.R_SE).as_quat(canonical=True)
     import numpy as np
@@ -249,10 +249,10 @@ def diagnose(
 ) -> None:
     """Tell whether poses are in the conventions that were said."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.diagnose import diagnose as run
-    from pipeline.calibration.hypotheses import RawOrientations
-    from pipeline.calibration.pose_csv import read_poses
-    from pipeline.calibration.prior import Prior
+    from pipeline.calibration.diagnosis.diagnose import diagnose as run
+    from pipeline.calibration.diagnosis.hypotheses import RawOrientations
+    from pipeline.calibration.diagnosis.prior import Prior
+    from pipeline.calibration.files.pose_csv import read_poses
 
     table = read_poses(poses, written_as, R_ES=mount_rotation(mount))
     prior = Prior(mass=mass, tool_length=tool_length / 1000)
@@ -307,7 +307,7 @@ def verify_still(
 ) -> None:
     """Check a calibration on poses that it has not seen."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.pose_csv import read_poses
+    from pipeline.calibration.files.pose_csv import read_poses
     from pipeline.calibration.verify import verify_still as check
 
     fitted, R_ES = _calibration(calibration, mount)
@@ -357,7 +357,7 @@ def compensate(
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
     refuse_overwriting(out, [calibration])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.compensate_file import compensate_file
+    from pipeline.calibration.files.compensate_file import compensate_file
 
     fitted, R_ES = _calibration(calibration, mount)
     with Bar("compensating") as bar:
@@ -382,7 +382,7 @@ def compensate(
 
 def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
     """Return a calibration, and R_ES: as the option says, or as it was estimated with the calibration."""
-    from pipeline.calibration.files import load_record
+    from pipeline.calibration.files.calibration_file import load_record
 
     record = load_record(file)
     if mount is not None:

@@ -67,7 +67,7 @@ def next_pose(
     as_json: JsonOption = False,
 ) -> None:
     """Say which pose would improve a calibration most."""
-    from pipeline.calibration.files import load_calibration
+    from pipeline.calibration.files.calibration_file import load_calibration
     from pipeline.calibration.suggest import suggest_pose
 
     fitted = load_calibration(calibration)
@@ -179,9 +179,9 @@ def captures(
     """Find in a recording where the sensor stood still."""
     refuse_overwriting(out, [recording] if calibration is None else [recording, calibration])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.capture_file import capture_file
-    from pipeline.calibration.files import load_calibration
-    from pipeline.calibration.pose_csv import write_poses
+    from pipeline.calibration.files.calibration_file import load_calibration
+    from pipeline.calibration.files.capture_file import capture_file
+    from pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model
     with Bar("looking for still poses") as bar:

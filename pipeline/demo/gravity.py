@@ -9,11 +9,11 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import Calibration, GravityModel, Level, PoseNoise, calibrate
-from pipeline.calibration.compensate_file import compensate_file
-from pipeline.calibration.files import Source, save_calibration
-from pipeline.calibration.pose_csv import read_poses, write_poses
+from pipeline.calibration.files.calibration_file import Source, save_calibration
+from pipeline.calibration.files.compensate_file import compensate_file
+from pipeline.calibration.files.pose_csv import read_poses, write_poses
 from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.report import write_report
+from pipeline.calibration.report.page import write_report
 from pipeline.calibration.suggest import plan_poses
 from pipeline.demo.files import write_recording
 from pipeline.simulation.weighing import bump, draw_load, weigh

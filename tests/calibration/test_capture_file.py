@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from pipeline import cli
 from pipeline.calibration import Level, calibrate
-from pipeline.calibration.capture_file import capture_file
+from pipeline.calibration.files.capture_file import capture_file
 from pipeline.calibration.stillness import find_captures
 from pipeline.contact.wrench_csv import WrenchFileError
 from pipeline.demo.files import write_csv

@@ -15,7 +15,7 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import GravityModel, Level, PoseSample, Verdict, calibrate
-from pipeline.calibration.compensate_file import HEADER, CompensateSummary, compensate_file
+from pipeline.calibration.files.compensate_file import HEADER, CompensateSummary, compensate_file
 from pipeline.calibration.orientation import Convention, Kind
 from pipeline.contact import ContactSolver
 from pipeline.contact.contact_csv import REASONS

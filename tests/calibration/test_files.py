@@ -16,7 +16,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-import pipeline.calibration.files as files_module
 from pipeline import __version__
 from pipeline.calibration import (
     Calibration,
@@ -27,7 +26,8 @@ from pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from pipeline.calibration.files import (
+from pipeline.calibration.files import calibration_file as files_module
+from pipeline.calibration.files.calibration_file import (
     CalibrationFileError,
     Mount,
     Source,

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import GravityModel, PoseSample
+from pipeline.calibration.files.pose_csv import POSE_LIMIT, PoseFileError, PoseTable, read_poses, write_poses
 from pipeline.calibration.orientation import Convention, Kind
-from pipeline.calibration.pose_csv import POSE_LIMIT, PoseFileError, PoseTable, read_poses, write_poses
 from pipeline.errors import InputError
 from pipeline.robot import Robot
 

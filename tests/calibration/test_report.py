@@ -16,9 +16,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import ContactTask, GravityModel, Level, PoseNoise, PoseSample, calibrate
-from pipeline.calibration.figures import error_map, lambert, numbers, steps
-from pipeline.calibration.files import Source
-from pipeline.calibration.report import report_html, tilt_of, write_report
+from pipeline.calibration.files.calibration_file import Source
+from pipeline.calibration.report.figures import error_map, lambert, numbers, steps
+from pipeline.calibration.report.page import report_html, tilt_of, write_report
 from pipeline.calibration.wording import plain, with_sigma
 from pipeline.errors import InputError
 
@@ -309,7 +309,8 @@ def test_same_calibration_gives_the_same_bytes_in_another_process(tmp_path):
 
 
 def test_matplotlib_is_not_imported_before_a_report_is_made():
-    code = "import sys, pipeline.calibration.report; sys.exit('matplotlib' in sys.modules or 'jinja2' in sys.modules)"
+    loaded = "'matplotlib' in sys.modules or 'jinja2' in sys.modules"
+    code = f"import sys, pipeline.calibration.report.page; sys.exit({loaded})"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 

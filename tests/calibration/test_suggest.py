@@ -95,8 +95,8 @@ def test_the_suggested_pose_is_nearly_the_best_of_all(hand, noise, count):
     assert suggestion.error_after <= 1.05 * expected.min()
     assert suggestion.error_before == calibration.contact_error
     assert suggestion.error_after < suggestion.error_before
-    if count < 9:  # else any pose would do
-        assert np.median(expected) > 1.05 * expected.min()
+    if count < 9:
+        assert expected.max() > 1.05 * expected.min()  # or any pose would have done
 
 
 @pytest.mark.parametrize("count", [3, 6])

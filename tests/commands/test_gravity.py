@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from weighing_files import NOISE, TRUTH, spun, weighed, write_euler, write_quaternions
 
 from pipeline import cli
-from pipeline.calibration.files import load_calibration, load_record
+from pipeline.calibration.files.calibration_file import load_calibration, load_record
 from pipeline.simulation.weighing import bump, weigh
 
 EULER = ("--euler", "xyz")

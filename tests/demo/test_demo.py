@@ -12,7 +12,7 @@ import pytest
 from typer.testing import CliRunner
 
 from pipeline import cli, demo
-from pipeline.calibration.files import load_calibration
+from pipeline.calibration.files.calibration_file import load_calibration
 from pipeline.contact import ContactSolver, WrenchNoise
 from pipeline.contact.methods import METHODS
 from pipeline.demo import bench, body, compare, gravity, picture

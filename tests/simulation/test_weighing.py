@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import GravityModel, PoseNoise
-from pipeline.calibration.model import STANDARD_GRAVITY
+from pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix
 from pipeline.calibration.poses import stack
 from pipeline.simulation.weighing import Weighing, bump, draw_load, draw_noise, draw_weighing, weigh
 
@@ -82,9 +82,11 @@ def test_half_of_the_bumps_push_and_half_only_turn(rng):
     assert 2 <= size[pushed].min() < 2.5
     assert 19.5 < size[pushed].max() <= 20
     assert np.abs(F[pushed].mean(axis=0)).max() < 2.5  # from all sides
-    # A push at the tool, 130 to 170 mm along z: its torque is across it, and no larger than that lever allows.
+    # A push at the tool: M = lever x F, the lever 130 to 170 mm along z and 150 mm on average.
     assert np.abs(np.einsum("ij,ij->i", F[pushed], M[pushed])).max() < 1e-5
     assert (np.linalg.norm(M[pushed], axis=1) / size[pushed]).max() < 0.173
+    lever = np.linalg.lstsq(-cross_matrix(F[pushed]).reshape(-1, 3), M[pushed].ravel(), rcond=None)[0]
+    assert np.allclose(lever, [0, 0, 0.15], atol=0.005)
     turned = np.linalg.norm(M[~pushed], axis=1)
     assert turned.min() + 1e-6 >= 0.1
     assert turned.max() <= 1.0 + 1e-6

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
 from pipeline.calibration.orientation import RowError
-from pipeline.calibration.pose_csv import find_convention, sensor_orientations
 from pipeline.calibration.stillness import CaptureReport, StillnessDetector, StillnessSettings
 from pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
 from pipeline.tables import TableReader, Wording, open_table

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.files import Source
+    from pipeline.calibration.files.calibration_file import Source
 
 __all__ = ["report_html", "write_report"]
 
@@ -107,7 +107,7 @@ def report_html(
     if created is not None and created.tzinfo is None:
         raise InputError("created: the time has no zone: use datetime.now(UTC).")
     # Both take a while to import, and most runs write no report.
-    from pipeline.calibration.figures import CROWDED, EMPTY, STEEPEST, draw
+    from pipeline.calibration.report.figures import CROWDED, EMPTY, STEEPEST, draw
 
     live, live_words = live_noise(calibration)
     lost = calibration.contact_error > _LOST
@@ -152,7 +152,7 @@ def _template() -> Any:
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, finalize=_printable
     )
-    return environment.from_string(files(__package__).joinpath("report.html.jinja").read_text("utf-8"))
+    return environment.from_string(files(__package__).joinpath("page.html.jinja").read_text("utf-8"))
 
 
 def _printable(value: Any) -> Any:

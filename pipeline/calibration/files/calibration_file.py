@@ -21,12 +21,7 @@ from scipy.spatial.transform import Rotation
 from pipeline import __version__
 from pipeline.calibration.calibrate import Calibration
 from pipeline.calibration.contact_error import ContactTask
-from pipeline.calibration.fit import PoseNoise
-from pipeline.calibration.model import STANDARD_GRAVITY, GravityModel
-from pipeline.calibration.observability import Observability
-from pipeline.calibration.outliers import Rejection
-from pipeline.calibration.poses import PoseSample
-from pipeline.calibration.schema import (
+from pipeline.calibration.files.schema import (
     REMEDY,
     CalibrationFileError,
     Document,
@@ -35,6 +30,11 @@ from pipeline.calibration.schema import (
     or_infinite,
     parse,
 )
+from pipeline.calibration.fit import PoseNoise
+from pipeline.calibration.model import STANDARD_GRAVITY, GravityModel
+from pipeline.calibration.observability import Observability
+from pipeline.calibration.outliers import Rejection
+from pipeline.calibration.poses import PoseSample
 from pipeline.calibration.verdict import Verdict
 from pipeline.durable import write_durably
 from pipeline.errors import InputError
@@ -384,9 +384,10 @@ def _check_residuals(
     predicted = model.predict(np.array([pose.R_WS for pose in poses]))
     size = max(1.0, np.abs(model.vector).max(), np.abs(read).max(), np.abs(predicted).max())
     off = np.abs(read - predicted - residuals).max(axis=1)
-    if off.max() > _ROUNDING * size:
+    wrong = np.flatnonzero(off > _ROUNDING * size)
+    if len(wrong):
         raise CalibrationFileError(
-            f"{name}: poses[{off.argmax()}]: its residual is not its reading minus what the parameters predict:"
+            f"{name}: poses[{wrong[0]}]: its residual is not its reading minus what the parameters predict:"
             f" a number was changed. {REMEDY.capitalize()}"
         )
 

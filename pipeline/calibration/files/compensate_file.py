@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from pipeline.calibration.calibrate import Calibration
+from pipeline.calibration.files.pose_csv import CHANNELS, find_convention, mount_rotation, sensor_orientations
 from pipeline.calibration.orientation import Convention, Kind, RowError
-from pipeline.calibration.pose_csv import CHANNELS, find_convention, mount_rotation, sensor_orientations
 from pipeline.calibration.verdict import Level
 from pipeline.contact.shortest import WIDTH, shortest
 from pipeline.contact.stream import Progress, WrenchFileError, refuse_overwriting, whole_output

@@ -1,0 +1,230 @@
+"""How well each way to read the poses explains what was recorded.
+
+Each hypothesis gets the likelihood of the *recorded* numbers, so one that divides torques by 1000 must also say
+why the recorded noise was 1000 times larger. Up to a quarter of the poses may be bumped, whatever the hypothesis;
+each that is left out costs as much as a bump of its size is improbable.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.diagnosis.hypotheses import FEWEST_BESIDE
+from pipeline.calibration.diagnosis.side_by_side import Fits, begin, doubts, fit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.diagnosis.hypotheses import Hypothesis
+    from pipeline.calibration.poses import Stack
+
+_BUMPED = np.log(20.0)  # one pose in twenty is bumped
+_STEPS = 40  # poses beyond this number are left out more than one at a time
+_PATIENCE = 3  # steps that help no hypothesis
+_FEWEST_LEFT = 4  # poses: three determine the parameters
+# Minus the logarithm of a density proportional to 1/r³ over a thousandfold range of r, for three numbers.
+_ANY_SIZE = float(np.log(4 * np.pi * np.log(1e3)) - 1.5 * np.log(2 * np.pi))
+_LEAST_JUMP = 5.0  # standard deviations of the jump: smaller ones cost no less
+_EXCHANGES = 2
+_WHOLE = 1.005 * np.eye(6)  # a pose that alone decides something has no residual there: 0 / 0
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What the poses say of one hypothesis.
+
+    Attributes
+    ----------
+    log_likelihood : float
+        Of the recorded numbers, up to a constant that all hypotheses share.
+    gravity_W, centre_of_mass_S : (3,)
+        N and m, so read.
+    covariance : (6, 6)
+        Of both.
+    squares : (2,)
+        Sums of squared residuals of forces and torques over the kept poses, in units of the noise.
+    freedom : (2,)
+        Their degrees of freedom.
+    noise : (2,)
+        Size of the noise, in the same unit, that explains the forces and the torques best.
+    kept : (n,) bool
+        Poses that were not taken for bumped.
+    residuals : (n, 6)
+        Read minus predicted, N and N·m, so read; for a re-zero, with the bias of the first poses.
+    """
+
+    log_likelihood: float
+    gravity_W: NDArray[np.float64]
+    centre_of_mass_S: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    squares: NDArray[np.float64]
+    freedom: NDArray[np.float64]
+    noise: NDArray[np.float64]
+    kept: NDArray[np.bool_]
+    residuals: NDArray[np.float64]
+
+
+def weigh(
+    hypotheses: Sequence[Hypothesis],
+    poses: Stack,
+    sigmas: NDArray[np.float64],
+    doubt: float,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Evidence]:
+    """Fit every hypothesis.
+
+    Parameters
+    ----------
+    hypotheses : sequence of Hypothesis
+    poses : Stack
+        As declared, four or more.
+    sigmas : (6,)
+        Noise of a pose's mean, N and N·m.
+    doubt : float
+        The noise may be larger or smaller than `sigmas` by a factor whose logarithm has this standard
+        deviation; infinite: nothing is known of it.
+    progress : callable, optional
+        Called with steps done and steps in all.
+    """
+    n = len(poses)
+    at_once = -(-n // _STEPS)
+    steps = min(n // 4, n - _FEWEST_LEFT) // at_once
+    best = fits = fit(begin(hypotheses, poses, sigmas, doubt))
+    best_value = _log_likelihood(fits)
+    since = 0
+    for step in range(steps):
+        if progress is not None:
+            progress(step + 1, steps + 1)
+        fits, value = _fewer(fits, at_once)
+        better = value > best_value
+        best, best_value = best.put(better, fits.take(better)), np.maximum(value, best_value)
+        since = 0 if better.any() else since + 1
+        if since == _PATIENCE:
+            break
+    if progress is not None:
+        progress(steps + 1, steps + 1)
+    return _evidence(best, best_value)
+
+
+# ---- bumped poses ------------------------------------------------------------------------------
+
+
+def _fewer(fits: Fits, count: int) -> tuple[Fits, NDArray[np.float64]]:
+    """Leave out `count` more poses of each hypothesis, then exchange poses as long as that helps."""
+    for _ in range(count):
+        fits = replace(fits, kept=_exchange(fits, insert=False)[0])
+    fits = fit(fits)
+    value = _log_likelihood(fits)
+    for _ in range(_EXCHANGES):
+        kept, gain, possible = _exchange(fits, insert=True)
+        tried = possible & (gain > 0)
+        if not tried.any():
+            break
+        before = fits
+        attempt = fit(replace(fits.take(tried), kept=kept[tried]))
+        fits = fits.put(tried, attempt)
+        there = _log_likelihood(fits)
+        worse = there < value
+        fits, value = fits.put(worse, before.take(worse)), np.maximum(there, value)
+    return fits, value
+
+
+def _exchange(
+    fits: Fits, *, insert: bool
+) -> tuple[NDArray[np.bool_], NDArray[np.float64], NDArray[np.bool_]]:
+    """Drop the pose whose absence lowers the squares most; `insert` the dropped one that raises them least.
+
+    Returns
+    -------
+    kept : (h, n) bool
+    gain : (h,)
+        By how much the squares fall, to first order.
+    possible : (h,) bool
+    """
+    J, r = fits.jacobian(), (fits.residuals() * fits.weights())[..., None]
+    inverse = np.linalg.inv(fits.information(J))[:, None]
+    J = fits.centred(J)
+    leverage = J @ inverse @ J.swapaxes(2, 3)
+    leverage += (1 / np.maximum(fits.beside, 1))[..., None, None] * np.eye(6)
+    sign = np.where(fits.kept, -1.0, 1.0)[..., None, None]
+    change = (r.swapaxes(2, 3) @ np.linalg.solve(_WHOLE + sign * leverage, r))[..., 0, 0]
+    rows = np.arange(len(change))
+    spare = np.where(fits.later.any(axis=1), FEWEST_BESIDE, _FEWEST_LEFT)[:, None]
+    droppable = fits.kept & (fits.beside > spare)
+    worst = np.argmax(np.where(droppable, change, -1.0), axis=1)
+    possible: NDArray[np.bool_] = np.asarray(droppable.any(axis=1))
+    gain = np.asarray(change[rows, worst], dtype=np.float64)
+    kept = fits.kept.copy()
+    if insert:
+        nearest = np.argmin(np.where(fits.kept, np.inf, change), axis=1)
+        possible = possible & ~fits.kept[rows, nearest]
+        gain = gain - change[rows, nearest]
+        kept[rows[possible], nearest[possible]] = True
+    kept[rows[possible], worst[possible]] = False
+    return kept, gain, possible
+
+
+# ---- likelihood --------------------------------------------------------------------------------
+
+
+def _log_likelihood(fits: Fits) -> NDArray[np.float64]:
+    """Return the logarithm of the likelihood (h,) of what was recorded.
+
+    Bumps and jumps may have any size, each order of magnitude being as probable as any other: what a pose
+    that is left out costs grows with the logarithm of its residual.
+    """
+    d, u = fits.freedom[:, None], fits.u
+    residuals = fits.residuals()
+    kept = d * (fits.scale - u) - 0.5 * fits.squares(residuals) * np.exp(-2 * u) - doubts(fits, u)
+    size = np.sqrt(np.square(residuals).reshape(*fits.kept.shape, 2, 3).sum(axis=3))
+    bumps = _free_size(size, u[:, None], fits.scale[:, None]).sum(axis=2) + _BUMPED
+    value = kept.sum(axis=1) - (bumps * ~fits.kept).sum(axis=1)
+    changed: NDArray[np.bool_] = np.asarray(fits.later.any(axis=1))
+    if changed.any():
+        value[changed] -= _change_cost(fits.take(changed)) + np.log(changed.sum())
+    return np.asarray(value, dtype=np.float64)
+
+
+def _free_size(
+    size: NDArray[np.float64], u: NDArray[np.float64], scale: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return minus the log density of three numbers of a length that may have any order of magnitude."""
+    return np.asarray(3 * (np.maximum(np.log(np.maximum(size, 1e-300)), u) - scale) + _ANY_SIZE)
+
+
+def _change_cost(fits: Fits) -> NDArray[np.float64]:
+    """Return what the jumps (h,) of re-zeros cost, marginalised: their variance is the noise's over `pull`."""
+    means = fits.means(fits.raw_residuals())
+    jump = np.linalg.norm((means[:, 1] - means[:, 0]).reshape(-1, 2, 3), axis=2)
+    late, all_ = (fits.kept & fits.later).sum(axis=1), fits.kept.sum(axis=1)
+    pull = np.log(late * (all_ - late) / all_)[:, None]
+    cost = _free_size(jump, fits.u + np.log(_LEAST_JUMP) - pull / 2, fits.scale) + 1.5 * pull
+    return np.asarray(cost.sum(axis=1), dtype=np.float64)
+
+
+# ---- what comes out ----------------------------------------------------------------------------
+
+
+def _evidence(fits: Fits, value: NDArray[np.float64]) -> list[Evidence]:
+    squares = fits.squares(fits.residuals())
+    covariance = np.linalg.inv(fits.information(fits.jacobian()))
+    unchanged = replace(fits, later=np.zeros_like(fits.later), kept=fits.kept & ~fits.later).residuals()
+    return [
+        Evidence(
+            log_likelihood=float(value[i]),
+            gravity_W=fits.x[i, :3],
+            centre_of_mass_S=fits.x[i, 3:],
+            covariance=covariance[i],
+            squares=squares[i],
+            freedom=np.full(2, fits.freedom[i]),
+            noise=np.exp(fits.u[i]),
+            kept=fits.kept[i],
+            residuals=unchanged[i] * fits.sigmas,
+        )
+        for i in range(len(value))
+    ]

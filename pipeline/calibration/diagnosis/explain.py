@@ -1,0 +1,379 @@
+"""What the convention check found, in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.diagnosis.prior import DOWN, REACH, SIDE, WEIGHED, Prior, angle_between
+from pipeline.calibration.model import STANDARD_GRAVITY
+from pipeline.calibration.observability import observe
+from pipeline.calibration.poses import named
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.diagnosis.evidence import Evidence
+    from pipeline.calibration.diagnosis.hypotheses import Hypothesis
+    from pipeline.calibration.poses import PoseSample
+
+# Readings whose probabilities differ by less than a factor of exp(2) are called a tie.
+TIE = 2.0
+RESIDUALS, NOTHING = "residuals", "nothing"
+FELT = 5.0  # standard deviations from zero at which a weight is felt
+
+_SAME = 1e-6
+_LEVEL = np.radians(10.0)  # gravity further than this from down is worth a word
+_LISTED = 3
+_BOTH = np.arange(2)
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """One hypothesis and all that speaks for it.
+
+    Attributes
+    ----------
+    hypothesis : Hypothesis
+    evidence : Evidence
+    priors : dict
+        Logarithms of what each piece of knowledge about loads says.
+    preference : float
+        Logarithm of how rarely such a mistake is made; 0 for what was declared.
+    """
+
+    hypothesis: Hypothesis
+    evidence: Evidence
+    priors: dict[str, float]
+    preference: float
+
+    @property
+    def key(self) -> str:
+        """The hypothesis' key."""
+        return self.hypothesis.key
+
+    @cached_property
+    def value(self) -> float:
+        """What data and knowledge say, without the preference."""
+        return self.evidence.log_likelihood + sum(self.priors.values())
+
+    @property
+    def score(self) -> float:
+        """What is ranked by."""
+        return self.value + self.preference
+
+    @property
+    def mass(self) -> float:
+        """Kg."""
+        return float(np.linalg.norm(self.evidence.gravity_W)) / STANDARD_GRAVITY
+
+    @property
+    def scales(self) -> bool:
+        """Whether units are read as others."""
+        return bool((np.abs(self.hypothesis.factor) != 1).any())
+
+    @property
+    def weight_sigma(self) -> float:
+        """Standard deviation of the worst known component of the weight, N."""
+        return float(np.sqrt(np.linalg.eigvalsh(self.evidence.covariance[:3, :3])[-1]))
+
+    @property
+    def weighs(self) -> bool:
+        """Whether the load's weight is felt."""
+        g, C = self.evidence.gravity_W, self.evidence.covariance[:3, :3]
+        return bool(g @ np.linalg.solve(C, g) > FELT**2)
+
+    def same(self, other: Case) -> bool:
+        """Tell whether the data do not differ, read one way or the other."""
+        a, b = self.hypothesis, other.hypothesis
+        return bool(
+            a.change == b.change and (a.factor == b.factor).all() and (np.abs(a.R_WS - b.R_WS) < _SAME).all()
+        )
+
+
+def decisive(best: Case, rival: Case) -> str:
+    """Return what sets `best` apart from `rival`: RESIDUALS, NOTHING, or one of the priors."""
+    if best.value - rival.value < TIE:
+        return NOTHING
+    if best.evidence.log_likelihood - rival.evidence.log_likelihood >= TIE:
+        return RESIDUALS
+    return max(best.priors, key=lambda part: best.priors[part] - rival.priors[part])
+
+
+def decided_by(best: Case, rivals: Sequence[Case]) -> str:
+    """Return what sets `best` apart from all rivals: priors are named where residuals would not do."""
+    reasons = {decisive(best, rival) for rival in rivals}
+    if NOTHING in reasons:
+        return NOTHING
+    priors = [part for part in best.priors if part in reasons]
+    return f"prior: {', '.join(priors)}" if priors else RESIDUALS
+
+
+@dataclass(frozen=True, eq=False)
+class Context:
+    """What all cases share.
+
+    Attributes
+    ----------
+    poses : tuple of PoseSample
+    sigmas : (6,)
+        Noise, N and N·m, or the unit that residuals are counted in when it is not known.
+    known : bool
+    prior : Prior
+    """
+
+    poses: tuple[PoseSample, ...]
+    sigmas: NDArray[np.float64]
+    known: bool
+    prior: Prior
+
+    def residual(self, case: Case, best: Case, halves: NDArray[np.intp] = _BOTH) -> float:
+        """Return the rms residual in standard deviations: of the noise given, or that which `best` leaves.
+
+        Parameters
+        ----------
+        case, best : Case
+        halves : array of int
+            Of forces (0), torques (1) or both.
+        """
+        squares = case.evidence.squares
+        if not self.known:
+            recorded = best.hypothesis.factor[[0, 3]] / case.hypothesis.factor[[0, 3]]
+            squares = squares * (recorded / best.evidence.noise) ** 2
+        return float(np.sqrt(squares[halves].sum() / case.evidence.freedom[halves].sum()))
+
+
+class Words:
+    """Sentences about a set of cases.
+
+    Parameters
+    ----------
+    context : Context
+    best, declared : Case
+    tied : sequence of Case
+        Those that explain the data as well as the best.
+    """
+
+    def __init__(self, context: Context, best: Case, declared: Case, tied: Sequence[Case]) -> None:
+        self._context, self._best, self._declared, self._tied = context, best, declared, tied
+
+    def sentence(self, *, explained: bool) -> str:
+        """Return the whole finding; `explained`: the best reading leaves no more than chance does."""
+        return " ".join([*self._finding(explained), *self._left_out(self._best)])
+
+    def _finding(self, explained: bool) -> Iterator[str]:
+        best = self._best
+        if not explained:
+            yield self._unexplained()
+        elif self._blind():
+            yield "As far as these poses tell, the data are consistent as they are. But they do not tell much:"
+            yield from self._blind()
+        elif not best.weighs:
+            yield (
+                "The sensor feels no weight, so no convention can be tested. Take the poses with the tool"
+                " mounted, check the unit of the forces, and that the sensor does not re-zero itself."
+            )
+        elif best is self._declared:
+            yield self._consistent()
+            yield from self._level()
+            yield from self._also()
+        else:
+            yield f"{best.hypothesis.fact}: {self._because(best)}. {best.hypothesis.remedy}"
+            yield from self._also()
+            yield from self._rests_on_noise()
+
+    def _blind(self) -> tuple[str, ...]:
+        """Return what the poses, as declared, are too much alike to show."""
+        if self._best is not self._declared:
+            return ()
+        R_SW = self._best.hypothesis.R_WS.transpose(0, 2, 1)
+        return observe(R_SW, self._best.evidence.gravity_W, weighs=self._best.weighs).null_directions
+
+    def of(self, case: Case) -> str:
+        """Return a sentence about one case."""
+        residual = self._size(case)
+        if case is self._declared:
+            return f"As declared, the residuals are {residual}."
+        margin = case.score - self._declared.score
+        return f"{_capital(case.hypothesis.title)}: residuals {residual}, log odds {margin:+,.1f} against as declared."
+
+    def not_testable(self, cases: Sequence[Case]) -> tuple[str, ...]:
+        """Return what these data do not tell."""
+        words = []
+        same = [
+            case.hypothesis.title
+            for case in cases
+            if case is not self._declared and case.same(self._declared)
+        ]
+        if same:
+            words.append(
+                f"These poses are the same as declared and as {_list(same)}: they do not tell which. Turn the"
+                " wrist about more than one axis between poses."
+            )
+        if not self._context.known:
+            mass = "" if self._context.prior.mass is not None else ", or the mass of the tool as weighed"
+            words.append(
+                "The noise was not given, so units can only be told by the mass and the centre of mass that they"
+                f" make. Give the noise of the sensor's data sheet{mass}."
+            )
+        return tuple(words)
+
+    def _consistent(self) -> str:
+        case = self._declared
+        angle = _angle(case, self._context.prior)
+        return (
+            f"The data are consistent as they are: residuals {self._size(case)}, gravity {np.degrees(angle):.1f}°"
+            f" from down, mass {case.mass:.3g} kg."
+        )
+
+    def _level(self) -> Iterator[str]:
+        if _angle(self._best, self._context.prior) > _LEVEL:
+            yield (
+                "That is far from down: level the base, or give the world's z axis as it is (a base on a wall"
+                " or a ceiling has another)."
+            )
+
+    def _also(self) -> Iterator[str]:
+        if not self._tied:
+            return
+        changes = [case.hypothesis.change for case in self._tied]
+        if self._best.hypothesis.change and all(changes):
+            yield f"It may as well have been before pose {_list([str(change + 1) for change in changes])}."
+            return
+        units = any(case.scales for case in (self._best, *self._tied))
+        masses = [f" ({case.mass:.2g} kg)" if units else "" for case in self._tied]
+        rivals = [case.hypothesis.title + mass for case, mass in zip(self._tied, masses, strict=True)]
+        yield f"Not told apart from: {'; '.join(rivals[:_LISTED])}. {self._telling(units)}"
+
+    def _telling(self, units: bool) -> str:
+        """Say what would tell the best reading from those that are as good."""
+        if all(case.same(self._best) for case in self._tied):
+            return "With these poses it makes no difference."
+        if units and self._context.prior.mass is None:
+            return "Weigh the tool and give its mass."
+        if units and not self._context.known:
+            return "Give the noise of the sensor's data sheet."
+        return "Take more poses, tilted about two axes by up to 90°."
+
+    def _rests_on_noise(self) -> Iterator[str]:
+        forces = np.abs(self._best.hypothesis.factor[0]) != 1
+        if forces and self._context.known and decisive(self._best, self._declared) == RESIDUALS:
+            times = 1 / self._declared.evidence.noise[0]
+            yield f"Or the noise that was given is {times:.0f} times too large: weigh the tool to be sure."
+
+    def _because(self, case: Case) -> str:
+        if decisive(case, self._declared) in (RESIDUALS, NOTHING):
+            halves = np.flatnonzero(np.abs(case.hypothesis.factor[[0, 3]]) != 1) if case.scales else _BOTH
+            before, after = (self._residual(each, halves) for each in (self._declared, case))
+            change = "rise to the noise's size, from" if after > before else "fall from"
+            sizes = self._size(self._declared, halves), self._size(case, halves)
+            start = sizes[0].removesuffix(" sigma") if self._context.known else sizes[0]
+            return f"with {case.hypothesis.reading} the residuals {change} {start} to {sizes[1]}"
+        part = decisive(case, self._declared)
+        return f"the residuals, {self._size(case)}, do not tell, but as declared {self._strange(part, case)}"
+
+    def _strange(self, part: str, case: Case) -> str:
+        """Say what would be strange about the load as declared."""
+        declared, prior = self._declared, self._context.prior
+        if part == DOWN:
+            angles = [np.degrees(_angle(each, prior)) for each in (declared, case)]
+            return f"gravity would point {angles[0]:.0f}° away from down, so read {angles[1]:.0f}°"
+        if part == SIDE:
+            sides = [_side(_height(each, prior)) for each in (declared, case)]
+            return f"the centre of mass would lie {sides[0]} of the sensor, so read {sides[1]}"
+        if part == REACH:
+            lengths = [
+                _length(float(np.linalg.norm(each.evidence.centre_of_mass_S))) for each in (declared, case)
+            ]
+            return f"the centre of mass would lie {lengths[0]} from the sensor, so read {lengths[1]}"
+        weighed = f"; {prior.mass:.3g} kg was weighed" if part == WEIGHED else ""
+        return f"the mass would be {declared.mass:.2g} kg, so read {case.mass:.2g} kg{weighed}"
+
+    def _unexplained(self) -> str:
+        best = self._best
+        if best is self._declared:
+            said = f"as they are they leave {self._size(best)}, and no other reading is more probable"
+        else:
+            said = (
+                f"the likeliest, {best.hypothesis.title}, leaves {self._size(best)}, and as they are they leave"
+                f" {self._size(self._declared)}"
+            )
+        return (
+            f"No single convention mistake explains the data: {said}. Look for two mistakes at once, a cable that"
+            " pulls, drift, or poses that touched something."
+        )
+
+    def _left_out(self, case: Case) -> Iterator[str]:
+        out = np.flatnonzero(~case.evidence.kept).tolist()
+        if not out:
+            return
+        names = [named(self._context.poses, index) for index in out]
+        if len(out) > 1:
+            yield f"{_capital(_list(names, len(names)))} look bumped and were left out."
+            return
+        ends = {0: " (or the sensor was re-zeroed after it)"}
+        ends[len(self._context.poses) - 1] = " (or the sensor was re-zeroed before it)"
+        yield f"{_capital(names[0])} looks bumped{ends.get(out[0], '')} and was left out."
+
+    def _residual(self, case: Case, halves: NDArray[np.intp]) -> float:
+        return self._context.residual(case, self._best, halves)
+
+    def _size(self, case: Case, halves: NDArray[np.intp] = _BOTH) -> str:
+        """Return how large the residuals of forces (0), torques (1) or both are, with their unit."""
+        if self._context.known:
+            return f"{_short(self._residual(case, halves))} sigma"
+        rms = np.sqrt(case.evidence.squares / case.evidence.freedom) * self._context.sigmas[[0, 3]]
+        return " and ".join([_force(rms[0]), _torque(rms[1])][half] for half in halves)
+
+
+def _angle(case: Case, prior: Prior) -> float:
+    return angle_between(case.evidence.gravity_W, np.array(prior.down_W))
+
+
+def _height(case: Case, prior: Prior) -> float:
+    return float(np.array(prior.tool_axis_S) @ case.evidence.centre_of_mass_S)
+
+
+def _digits(number: float) -> str:
+    return f"{float(f'{number:.2g}'):,g}"
+
+
+def _force(newtons: float) -> str:
+    return f"{_digits(newtons)} N" if newtons >= 0.01 else f"{_digits(1e3 * newtons)} mN"
+
+
+def _torque(newton_metres: float) -> str:
+    return f"{_digits(newton_metres)} N·m" if newton_metres >= 1 else f"{_digits(1e3 * newton_metres)} mN·m"
+
+
+def _short(number: float) -> str:
+    if number >= 10:
+        return f"{number:,.0f}"
+    return f"{number:.1f}" if number >= 0.95 else f"{number:.1g}"
+
+
+def _side(height: float) -> str:
+    side = "the other side" if height < 0 else "the tool's side"
+    return f"{_length(abs(height))} on {side}"
+
+
+def _length(metres: float) -> str:
+    if metres >= 1:
+        return f"{_digits(metres)} m"
+    return f"{1e3 * metres:.0f} mm" if metres >= 0.001 else f"{1e3 * metres:.1g} mm"
+
+
+def _list(words: Sequence[str], most: int = _LISTED) -> str:
+    shown = list(words[:most])
+    if len(words) > most:
+        shown.append(f"{len(words) - most} more")
+    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
+
+
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]

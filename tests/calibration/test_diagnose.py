@@ -1,0 +1,636 @@
+"""The convention check: the right mistake is named, and by what; nothing is changed unasked."""
+
+import json
+from dataclasses import replace
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import GravityModel, PoseError, PoseNoise, PoseSample
+from pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
+from pipeline.calibration.diagnosis.evidence import weigh as weigh_hypotheses
+from pipeline.calibration.diagnosis.hypotheses import RawOrientations, hypotheses
+from pipeline.calibration.diagnosis.prior import Prior
+from pipeline.calibration.fit import maximise, two_stage
+from pipeline.calibration.orientation import Convention, Kind, rotations
+from pipeline.calibration.poses import stack
+from pipeline.errors import InputError
+from pipeline.simulation.weighing import draw_load, draw_noise, weigh
+
+NOISE = PoseNoise(0.05, 0.002)
+LOAD = GravityModel([0.1, -0.1, -7.0], [5.0, -3.0, 2.0], [0.004, -0.003, 0.07], [0.1, 0.2, 0.3])
+FIXED = ["".join(axes) for axes in permutations("xyz")]
+XYZ = Convention(Kind.EULER, "xyz")
+STRAIGHT = np.eye(3)
+KGF = 9.80665
+FACTORS = {
+    "torque_Nmm": (1, 1e-3),
+    "torque_1000_too_small": (1, 1e3),
+    "force_kgf": (KGF, 1),
+    "force_kgf_torque_Nmm": (KGF, 1e-3),
+    "force_kgf_torque_kgfm": (KGF, KGF),
+    "wrench_negated": (-1, -1),
+    "torque_negated": (1, -1),
+    "force_negated": (-1, 1),
+}
+
+
+def turned(count: int = 9, seed: int = 0) -> np.ndarray:
+    return Rotation.random(count, np.random.default_rng([seed, 41])).as_matrix()
+
+
+def held(
+    R_WS: np.ndarray, load: GravityModel = LOAD, noise: PoseNoise = NOISE, seed: int = 0
+) -> list[PoseSample]:
+    return list(weigh(load, R_WS, noise, np.random.default_rng([seed, 42])).poses)
+
+
+def scaled(poses: list[PoseSample], force: Any, torque: Any) -> list[PoseSample]:
+    return [replace(pose, force=pose.force * force, torque=pose.torque * torque) for pose in poses]
+
+
+def oriented(poses: list[PoseSample], R_WS: Any) -> list[PoseSample]:
+    return [replace(pose, R_WS=R) for pose, R in zip(poses, R_WS, strict=True)]
+
+
+def transposed(poses: list[PoseSample]) -> list[PoseSample]:
+    return oriented(poses, [pose.R_WS.T for pose in poses])
+
+
+def pushed(poses: list[PoseSample], *which: int, force: Any = (1, -2, 0.5)) -> list[PoseSample]:
+    torque = np.cross([0, 0, 0.1], force)
+    return [
+        replace(pose, force=pose.force + force, torque=pose.torque + torque) if index in which else pose
+        for index, pose in enumerate(poses)
+    ]
+
+
+def written(R: np.ndarray, convention: Convention) -> np.ndarray:
+    """The numbers that mean R."""
+    turn = Rotation.from_matrix(R.transpose(0, 2, 1) if convention.inverse else R)
+    if convention.kind is Kind.QUATERNION:
+        return turn.as_quat()[:, [3, 0, 1, 2]]
+    numbers = turn.as_euler(convention.order) if convention.kind is Kind.EULER else turn.as_rotvec()
+    return np.degrees(numbers) if convention.degrees else numbers
+
+
+def misread(
+    truth: list[PoseSample], meant: Convention, read: Convention, R_ES: Any = STRAIGHT
+) -> tuple[list[PoseSample], RawOrientations]:
+    """Poses whose numbers are written as `meant`, but were read as `read`."""
+    numbers = written(np.array([pose.R_WS for pose in truth]) @ R_ES.T, meant)
+    return oriented(truth, rotations(numbers, read) @ R_ES), RawOrientations(numbers, read)
+
+
+def assert_same(poses: Any, truth: list[PoseSample], tolerance: float = 1e-9) -> None:
+    for pose, true in zip(poses, truth, strict=True):
+        np.testing.assert_allclose(pose.R_WS, true.R_WS, atol=tolerance)
+        np.testing.assert_allclose(pose.force, true.force, atol=tolerance)
+        np.testing.assert_allclose(pose.torque, true.torque, atol=tolerance)
+
+
+def assert_named(found: Diagnosis, key: str, truth: list[PoseSample], tolerance: float = 1e-9) -> None:
+    """The mistake is found, alone and beyond doubt, and mending it gives the truth back."""
+    assert found.best.hypothesis == key
+    assert not found.tied
+    assert found.explained
+    assert not found.consistent
+    assert found.best.margin > 2
+    assert found.best.left_out == ()
+    mended = found.corrected(key)
+    assert_same(mended, truth, tolerance)
+    assert diagnose(mended, NOISE).consistent
+
+
+# ---- as declared ---------------------------------------------------------------------------------
+
+
+def test_clean_data_are_consistent():
+    poses = held(turned())
+    found = diagnose(poses, NOISE)
+    assert found.consistent
+    assert found.explained
+    assert found.best.hypothesis == "as_declared"
+    assert found.best.margin == 0
+    assert found.sentence.startswith("The data are consistent as they are: residuals ")
+    assert found.best.residual == pytest.approx(1, abs=0.3)
+    assert found.best.mass == pytest.approx(LOAD.mass, rel=0.02)
+    # Signs leave no trace in residuals, so what is known of loads is part of every such verdict.
+    assert found.decided_by == "prior: gravity points down, the centre of mass lies on the tool's side"
+    assert_same(found.corrected("as_declared"), poses, 0)
+
+
+def test_nothing_is_changed_unasked():
+    poses = transposed(held(turned()))
+    before = [np.concatenate([*pose.R_WS, pose.force, pose.torque]) for pose in poses]
+    diagnose(poses, NOISE)
+    for pose, numbers in zip(poses, before, strict=True):
+        assert (np.concatenate([*pose.R_WS, pose.force, pose.torque]) == numbers).all()
+
+
+@pytest.mark.parametrize("given", [None, NOISE])
+def test_perfect_data_are_as_declared(given):
+    found = diagnose(held(turned(), noise=PoseNoise(1e-12, 1e-12)), given, prior=Prior(mass=LOAD.mass))
+    assert found.best.hypothesis == "as_declared"
+    assert found.consistent
+
+
+@pytest.mark.parametrize("times", [0.5, 2.0])
+def test_noise_that_is_wrong_by_a_factor_of_two_does_no_harm(times):
+    assert diagnose(held(turned(12)), PoseNoise(0.05 * times, 0.002 * times)).consistent
+
+
+def test_noise_may_differ_from_axis_to_axis():
+    noise = PoseNoise(np.array([0.02, 0.05, 0.2]), np.array([0.001, 0.004, 0.0005]))
+    assert diagnose(held(turned(), noise=noise), noise).consistent
+
+
+def test_the_fit_is_the_most_likely_one():
+    poses = stack(held(turned()))
+    candidates, _ = hypotheses(poses.R_SW.transpose(0, 2, 1), None)
+    declared = weigh_hypotheses(candidates[:1], poses, NOISE.sigmas, 0.4)[0]
+    best = maximise(poses, NOISE.sigmas, two_stage(poses))
+    assert declared.squares.sum() == pytest.approx(best.cost, rel=1e-3)
+    np.testing.assert_allclose(declared.gravity_W, best.theta[:3], atol=0.002)
+    np.testing.assert_allclose(declared.centre_of_mass_S, best.theta[6:9], atol=1e-4)
+    sigmas = np.sqrt(np.diag(best.covariance))[[0, 1, 2, 6, 7, 8]]
+    noise = np.repeat(declared.noise, 3)
+    np.testing.assert_allclose(np.sqrt(np.diag(declared.covariance)) / noise, sigmas, rtol=0.2)
+
+
+# ---- each mistake by itself ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("key", FACTORS)
+def test_units_and_signs(key):
+    truth = held(turned())
+    force, torque = FACTORS[key]
+    assert_named(diagnose(scaled(truth, 1 / force, 1 / torque), NOISE), key, truth)
+
+
+def test_the_scatter_within_a_pose_is_in_the_same_unit():
+    sd = np.array([1.0, 2.0, 3.0])
+    poses = [replace(pose, force_sd=sd, torque_sd=1000 * sd) for pose in held(turned())]
+    found = diagnose(poses, NOISE)
+    np.testing.assert_allclose(found.corrected("torque_Nmm")[0].torque_sd, sd)
+    np.testing.assert_allclose(found.corrected("wrench_negated")[0].force_sd, sd)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_an_axis_that_is_reversed(axis):
+    truth = held(turned())
+    sign = np.where(np.arange(3) == axis, -1.0, 1.0)
+    assert_named(diagnose(scaled(truth, sign, sign), NOISE), f"axis_{'xyz'[axis]}_reversed", truth)
+
+
+@pytest.mark.parametrize("angle", [90, 180, 270])
+def test_a_sensor_that_is_turned_on_the_flange(angle):
+    truth = held(turned())
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    mount = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])  # v_flange = mount @ v_sensor
+    found = diagnose(oriented(truth, [pose.R_WS @ mount.T for pose in truth]), NOISE)
+    assert_named(found, f"yaw_{angle}", truth)
+    assert f"Rz({angle}°)" in found.sentence
+
+
+def test_transposed_orientations():
+    truth = held(turned())
+    found = diagnose(transposed(truth), NOISE)
+    assert_named(found, "transposed", truth)
+    assert found.decided_by == "residuals"
+    assert found.finding("as_declared").residual > 20
+    assert "the residuals fall from" in found.sentence
+    assert "Pass --inverse" in found.sentence
+
+
+@pytest.mark.parametrize("jump", [(0.5, -0.8, 0.3), (0.0, 0.0, -3.0)])
+@pytest.mark.parametrize("change", range(2, 8))
+def test_a_re_zero_half_way(change, jump):
+    truth = held(turned())
+    found = diagnose(pushed(truth, *range(change, 9), force=jump), NOISE)
+    assert_named(found, f"rezero_before_{change + 1}", truth, 0.1)
+    assert f"re-zeroed between poses {change} and {change + 1}" in found.sentence
+
+
+# ---- orientations, from the numbers as written ---------------------------------------------------
+
+
+@pytest.mark.parametrize("order", [*FIXED[1:], *(order.upper() for order in FIXED)])
+def test_another_euler_order(order):
+    truth = held(turned())
+    poses, raw = misread(truth, replace(XYZ, order=order), XYZ)
+    found = diagnose(poses, NOISE, raw=raw)
+    assert_named(found, f"euler_{order}", truth)
+    assert f"Pass --euler {order}." in found.sentence
+
+
+VECTOR, ZYX = (Convention(kind, "ZYX", degrees=False) for kind in (Kind.ROTATION_VECTOR, Kind.EULER))
+
+
+@pytest.mark.parametrize(
+    ("meant", "read", "key", "remedy"),
+    [
+        (VECTOR, ZYX, "rotation_vector", "Pass --rotation-vector."),
+        (ZYX, VECTOR, "euler_ZYX", "Pass --euler ZYX."),
+        (ZYX, replace(ZYX, degrees=True), "radians", "Pass --radians."),
+        (replace(ZYX, degrees=True), ZYX, "degrees", "Leave out --radians."),
+        (replace(VECTOR, degrees=True), VECTOR, "degrees", "Leave out --radians."),
+        (replace(XYZ, inverse=True), XYZ, "transposed", "Pass --inverse"),
+        (XYZ, replace(XYZ, inverse=True), "transposed", "Leave out --inverse."),
+        (replace(ZYX, inverse=True), replace(ZYX, inverse=True, order="xyz"), "euler_ZYX", "--euler ZYX"),
+        (Convention(inverse=True), Convention(), "transposed", "Pass --inverse"),
+    ],
+)
+@pytest.mark.parametrize("mounted", [False, True])
+def test_numbers_that_mean_something_else(meant, read, key, remedy, mounted):
+    truth = held(turned())
+    R_ES = Rotation.from_rotvec([0.3, -0.2, 0.9]).as_matrix() if mounted else STRAIGHT
+    poses, raw = misread(truth, meant, read, R_ES)
+    found = diagnose(poses, NOISE, raw=raw)
+    assert_named(found, key, truth)
+    assert remedy in found.sentence
+
+
+@pytest.mark.parametrize(
+    ("columns", "key"), [([1, 2, 3, 0], "quaternion_xyzw"), ([3, 0, 1, 2], "quaternion_wxyz")]
+)
+@pytest.mark.parametrize("with_raw", [True, False])
+def test_quaternions_in_another_order(columns, key, with_raw):
+    truth = held(turned())
+    numbers = written(np.array([pose.R_WS for pose in truth]), Convention())[:, columns]
+    raw = RawOrientations(numbers, Convention())
+    poses = oriented(truth, rotations(numbers, Convention()))
+    assert_named(diagnose(poses, NOISE, raw=raw if with_raw else None), key, truth)
+
+
+def test_joints_in_radians():
+    pytest.importorskip("mujoco")
+    rng = np.random.default_rng(3)
+    meant = Convention(Kind.JOINTS, degrees=False, robot="elfin3")
+    numbers = rng.uniform(-2, 2, (9, 6))
+    truth = held(rotations(numbers, meant))
+    read = replace(meant, degrees=True)
+    poses = oriented(truth, rotations(numbers, read))
+    assert_named(diagnose(poses, NOISE, raw=RawOrientations(numbers, read)), "radians", truth)
+    in_degrees = RawOrientations(np.degrees(numbers), read)
+    found = diagnose(truth, NOISE, raw=in_degrees)
+    assert found.consistent
+    assert any("cannot be radians" in sentence for sentence in found.not_testable)
+
+
+# ---- orientations that an earlier program converted ----------------------------------------------
+
+
+def angles(turn: Rotation, way: str) -> np.ndarray:
+    """Angles about x, y and z, in this order of columns, or a rotation vector."""
+    if way == "vector":
+        return turn.as_rotvec()
+    numbers = np.empty((len(turn), 3))
+    numbers[:, ["xyz".index(axis) for axis in way]] = turn.as_euler(way)
+    return numbers
+
+
+def meaning(numbers: np.ndarray, way: str) -> np.ndarray:
+    if way == "vector":
+        return Rotation.from_rotvec(numbers).as_matrix()
+    x, y, z = (Rotation.from_euler(axis, numbers[:, [index]]) for index, axis in enumerate("xyz"))
+    first, second, third = ({"x": x, "y": y, "z": z}[axis] for axis in way)
+    return (third * second * first).as_matrix()
+
+
+@pytest.mark.parametrize(("meant", "read"), list(permutations(FIXED, 2))[::3])
+def test_a_conversion_from_the_wrong_euler_order(meant, read):
+    truth = held(turned())  # angles of any size: which of the two sets was written follows from what it meant
+    R_WS = np.array([pose.R_WS for pose in truth])
+    poses = oriented(truth, meaning(angles(Rotation.from_matrix(R_WS), meant), read))
+    found = diagnose(poses, NOISE)
+    assert_named(found, f"euler_{meant}_read_as_euler_{read}", truth, 1e-6)
+    assert any("can only be tested with the angles" in sentence for sentence in found.not_testable)
+
+
+@pytest.mark.parametrize("order", FIXED)
+@pytest.mark.parametrize("vectors_meant", [True, False])
+def test_a_conversion_that_took_rotation_vectors_for_angles(order, vectors_meant):
+    rng = np.random.default_rng(4)
+    truth = held(Rotation.from_rotvec(rng.uniform(-1.2, 1.2, (9, 3))).as_matrix())
+    R_WS = Rotation.from_matrix(np.array([pose.R_WS for pose in truth]))
+    meant, read = ("vector", order) if vectors_meant else (order, "vector")
+    key = f"rotation_vector_read_as_euler_{order}"
+    if not vectors_meant:
+        key = f"euler_{order}_read_as_rotation_vector"
+    found = diagnose(oriented(truth, meaning(angles(R_WS, meant), read)), NOISE)
+    assert_named(found, key, truth, 1e-6)
+
+
+def test_straight_up_does_not_upset_the_recovered_angles():
+    upright = Rotation.from_euler("y", [[90], [-90], [90], [90]], degrees=True).as_matrix()
+    found = diagnose(held(np.concatenate([upright, turned(6)])), NOISE)
+    assert found.consistent
+
+
+# ---- what residuals do not tell ------------------------------------------------------------------
+
+
+def test_what_is_known_of_loads_decides_on_signs():
+    truth = held(turned())
+    found = diagnose(scaled(truth, -1, -1), NOISE)
+    assert found.decided_by.startswith("prior: gravity points down")
+    assert found.best.log_likelihood == pytest.approx(found.finding("as_declared").log_likelihood, abs=1e-3)
+    assert (
+        "do not tell, but as declared gravity would point 179° away from down, so read 1°" in found.sentence
+    )
+    found = diagnose(scaled(truth, 1, -1), NOISE)
+    assert "the centre of mass lies on the tool's side" in found.decided_by
+    assert (
+        "would lie 70 mm on the other side of the sensor, so read 70 mm on the tool's side" in found.sentence
+    )
+
+
+def test_a_base_on_the_ceiling_is_no_reaction():
+    up = GravityModel(-LOAD.gravity_W, LOAD.force_bias, LOAD.centre_of_mass_S, LOAD.torque_bias)
+    poses = held(turned(), up)
+    assert diagnose(poses, NOISE).best.hypothesis == "wrench_negated"
+    assert diagnose(poses, NOISE, prior=Prior(down_W=(0, 0, 2))).consistent
+
+
+def test_a_sensor_whose_z_axis_points_away_from_the_tool():
+    behind = GravityModel(LOAD.gravity_W, LOAD.force_bias, -LOAD.centre_of_mass_S, LOAD.torque_bias)
+    poses = held(turned(), behind)
+    assert diagnose(poses, NOISE).best.hypothesis == "torque_negated"
+    assert diagnose(poses, NOISE, prior=Prior(tool_axis_S=(0, 0, -1))).consistent
+
+
+def test_a_sign_that_nothing_decides():
+    beside = GravityModel(LOAD.gravity_W, LOAD.force_bias, [0.05, 0.0, 0.0], LOAD.torque_bias)
+    found = diagnose(held(turned(), beside), NOISE)
+    assert found.consistent
+    assert found.decided_by == "nothing"
+    assert found.tied == ("torque_negated",)
+    assert "Not told apart from: torques with the wrong sign." in found.sentence
+
+
+def test_without_noise_units_are_told_by_what_they_make_of_the_load():
+    truth = held(turned())
+    found = diagnose(scaled(truth, 1, 1000))
+    assert found.best.hypothesis == "torque_Nmm"
+    assert found.explained
+    assert "the centre of mass lies within the tool" in found.decided_by
+    assert "would lie 70 m from the sensor, so read 70 mm" in found.sentence
+    likelihoods = [found.finding(key).log_likelihood for key in ("as_declared", *FACTORS)]
+    np.testing.assert_allclose(likelihoods, likelihoods[0], atol=0.01)
+
+
+@pytest.mark.parametrize("factor", [1.0, 1 / KGF])
+def test_without_noise_only_a_balance_tells_newtons_from_kilograms(factor):
+    poses = scaled(held(turned()), factor, factor)
+    found = diagnose(poses)
+    assert found.decided_by == "nothing"
+    assert {"as_declared", "force_kgf_torque_kgfm"} <= {found.best.hypothesis, *found.tied}
+    assert "Weigh the tool" in found.sentence
+    assert any("The noise was not given" in sentence for sentence in found.not_testable)
+    weighed = diagnose(poses, prior=Prior(mass=0.72, mass_sigma=0.02))
+    assert weighed.best.hypothesis == ("as_declared" if factor == 1 else "force_kgf_torque_kgfm")
+    weight = weighed.finding("as_declared").priors["the mass as weighed"]
+    assert weight > -2 if factor == 1 else weight < -50
+
+
+def test_noise_that_was_estimated_from_the_poses_is_not_known():
+    poses = scaled(held(turned()), 1 / KGF, 1 / KGF)
+    guess = PoseNoise(0.05, 0.002, estimated=True)
+    assert diagnose(poses, guess).finding("force_kgf").log_likelihood == pytest.approx(
+        diagnose(poses).finding("force_kgf").log_likelihood
+    )
+    assert diagnose(poses, NOISE).best.hypothesis == "force_kgf_torque_kgfm"
+
+
+def test_a_verdict_that_rests_on_the_noise_says_so():
+    found = diagnose(held(turned()), PoseNoise(0.5, 0.02))
+    assert found.best.hypothesis == "force_kgf_torque_kgfm"
+    assert "Or the noise that was given is" in found.sentence
+    assert diagnose(held(turned()), PoseNoise(0.5, 0.02), prior=Prior(mass=0.71)).best.hypothesis == (
+        "as_declared"
+    )
+
+
+def test_orders_that_make_no_difference_are_tied():
+    rng = np.random.default_rng(5)
+    numbers = np.column_stack([rng.uniform(-80, 80, (10, 2)), np.zeros(10)])  # nothing about z
+    truth = held(meaning(np.radians(numbers), "xyz"))
+    found = diagnose(oriented(truth, meaning(np.radians(numbers), "yxz")), NOISE)
+    same = {f"euler_{order}_read_as_euler_yxz" for order in ("xyz", "xzy", "zxy")}
+    assert {found.best.hypothesis, *found.tied} >= same
+    assert found.decided_by == "nothing"
+    assert found.explained
+    assert "Not told apart from: Euler angles" in found.sentence
+    declared = diagnose(truth, NOISE)
+    assert declared.consistent
+    assert not declared.tied
+    assert any("are the same as declared and as" in sentence for sentence in declared.not_testable)
+
+
+# ---- bumps ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("given", [NOISE, None])
+@pytest.mark.parametrize("which", [(0,), (3,), (8,), (3, 4), (0, 8)])
+def test_bumped_poses_are_no_mistake(given, which):
+    poses = held(turned())
+    for size, index in enumerate(which, 1):
+        poses = pushed(poses, index, force=(size, -2, 0.5 / size))
+    found = diagnose(poses, given, prior=Prior(mass=LOAD.mass))
+    assert found.consistent
+    assert found.best.left_out == which
+    assert "pose 9 look" in found.sentence.lower() if which[-1] == 8 else "bumped" in found.sentence
+    if which == (8,):
+        assert "(or the sensor was re-zeroed before it)" in found.sentence
+
+
+def test_a_mistake_is_found_beneath_bumps():
+    truth = pushed(held(turned()), 2, 6)
+    found = diagnose(transposed(truth), NOISE)
+    assert found.best.hypothesis == "transposed"
+    assert found.best.left_out == (2, 6)
+    assert "Pose 3 and pose 7 look bumped" in found.sentence
+    named = [replace(pose, name=f"shelf {index}") for index, pose in enumerate(truth)]
+    assert "Shelf 2 and shelf 6 look bumped" in diagnose(named, NOISE).sentence
+
+
+def test_a_bump_beside_a_re_zero_leaves_its_moment_open():
+    poses = pushed(pushed(held(turned(12)), *range(6, 12)), 5, force=(-3, 2, 4))
+    found = diagnose(poses, NOISE)
+    assert {found.best.hypothesis, *found.tied} == {"rezero_before_6", "rezero_before_7"}
+    assert "It may as well have been before pose" in found.sentence
+
+
+# ---- what nothing explains -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("given", [NOISE, None])
+def test_two_mistakes_at_once_are_not_explained(given):
+    truth = held(turned(12))
+    turn = Rotation.from_euler("z", 90, degrees=True).as_matrix()
+    poses = oriented(truth, [(pose.R_WS @ turn).T for pose in truth])
+    found = diagnose(poses, given)
+    assert not found.explained
+    assert not found.consistent
+    assert found.sentence.startswith("No single convention mistake explains the data: ")
+
+
+def test_unexplained_data_that_fit_best_as_they_are():
+    found = diagnose(held(turned(12), noise=PoseNoise(0.3, 0.012)), NOISE)
+    assert found.best.hypothesis == "as_declared"
+    assert not found.explained
+    assert "no other reading is more probable" in found.sentence
+
+
+@pytest.mark.parametrize(
+    ("R_WS", "words"),
+    [
+        (np.repeat(turned(1), 6, axis=0), "Every pose has the same orientation"),
+        (Rotation.from_euler("z", np.arange(6)[:, None]).as_matrix(), "Every pose has the same tilt"),
+    ],
+)
+def test_poses_that_tell_nothing(R_WS, words):
+    found = diagnose(held(R_WS), NOISE)
+    assert found.sentence.startswith("As far as these poses tell")
+    assert words in found.sentence
+    assert found.decided_by == "nothing"
+
+
+def test_a_load_that_is_not_felt():
+    nothing = GravityModel(np.zeros(3), LOAD.force_bias, np.zeros(3), LOAD.torque_bias)
+    found = diagnose(held(turned(), nothing), NOISE)
+    assert "feels no weight" in found.sentence
+
+
+def test_a_base_that_is_far_from_level():
+    tilted = GravityModel([3.0, 0.0, -6.0], LOAD.force_bias, LOAD.centre_of_mass_S, LOAD.torque_bias)
+    found = diagnose(held(turned(), tilted), NOISE)
+    assert found.consistent
+    assert "level the base" in found.sentence
+
+
+# ---- the answer as a whole -----------------------------------------------------------------------
+
+
+def test_the_ranking_is_complete_and_plain():
+    found = diagnose(scaled(held(turned()), 1, -1), NOISE)
+    keys = [finding.hypothesis for finding in found.ranking]
+    assert len(set(keys)) == len(keys)
+    assert {"as_declared", "transposed", "quaternion_xyzw", "yaw_180", *FACTORS} <= set(keys)
+    assert len([key for key in keys if key.startswith("rezero")]) >= 1
+    scores = [finding.score for finding in found.ranking]
+    assert scores == sorted(scores, reverse=True)
+    declared = found.finding("as_declared")
+    for finding in found.ranking:
+        assert finding.score == pytest.approx(finding.log_likelihood + finding.log_prior)
+        assert finding.margin == pytest.approx(finding.score - declared.score)
+        assert finding.sentence
+        assert finding.title
+    mistake = found.best.log_prior - sum(found.best.priors.values())
+    assert mistake == pytest.approx(np.log(Prior().mistake))
+    again = json.loads(json.dumps(found.to_json()))
+    assert again["best"] == "torque_negated"
+    assert again["ranking"][0]["mass"] == pytest.approx(LOAD.mass, rel=0.02)
+    assert again["not_testable"] == list(found.not_testable)
+
+
+def test_progress_comes_to_its_end():
+    seen: list[tuple[int, int]] = []
+    diagnose(held(turned()), NOISE, progress=lambda done, total: seen.append((done, total)))
+    assert [done for done, _ in seen] == list(range(1, len(seen) + 1))
+    assert seen[-1] == (len(seen), len(seen))
+
+
+def test_many_poses():
+    found = diagnose(pushed(held(turned(60)), 5, 17, 30, 31), NOISE)
+    assert found.consistent
+    assert found.best.left_out == (5, 17, 30, 31)
+
+
+@pytest.mark.parametrize("count", [3, 201])
+def test_too_few_or_too_many_poses(count):
+    with pytest.raises(PoseError, match=rf"{count} poses: the convention check needs 4 to 200"):
+        diagnose(held(turned(count)), NOISE)
+
+
+def test_raw_numbers_that_belong_to_other_poses():
+    poses, raw = misread(held(turned()), XYZ, XYZ)
+    with pytest.raises(InputError, match="raw has 9 rows for 8 poses"):
+        diagnose(poses[:8], NOISE, raw=raw)
+    with pytest.raises(InputError, match=r"raw row 3 is not the orientation of pose 3"):
+        diagnose(oriented(poses, [turned(1)[0] if i == 2 else p.R_WS for i, p in enumerate(poses)]), raw=raw)
+
+
+@pytest.mark.parametrize("values", [np.zeros((9, 4)), np.zeros(3), np.full((9, 3), np.nan)])
+def test_raw_numbers_of_the_wrong_shape(values):
+    with pytest.raises(InputError, match=r"RawOrientations.values: give finite numbers of shape \(n, 3\)"):
+        RawOrientations(values, XYZ)
+
+
+def test_a_hypothesis_that_does_not_exist():
+    found = diagnose(held(turned()), NOISE)
+    with pytest.raises(InputError, match="no hypothesis 'mirrored'; those that were tested: as_declared, "):
+        found.corrected("mirrored")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "words"),
+    [
+        ({"tilt": 0.0}, "Prior.tilt"),
+        ({"mass": -1.0}, "Prior.mass: -1.0"),
+        ({"mass": float("nan")}, "Prior.mass"),
+        ({"mass_sigma": 0.1}, "Prior.mass_sigma without Prior.mass"),
+        ({"mass_range": (2.0, 1.0)}, "Prior.mass_range"),
+        ({"down_W": (0.0, 0.0, 0.0)}, "Prior.down_W"),
+        ({"tool_axis_S": (0.0, 1.0)}, "Prior.tool_axis_S"),
+        ({"tool_length": 0.0}, "Prior.tool_length"),
+        ({"noise_factor": 0.5}, "Prior.noise_factor"),
+        ({"mistake": 2.0}, "Prior.mistake"),
+    ],
+)
+def test_a_prior_that_makes_no_sense(wrong, words):
+    with pytest.raises(InputError, match=words):
+        Prior(**wrong)
+
+
+# ---- statistics ----------------------------------------------------------------------------------
+
+
+def mistaken(rng: np.random.Generator, poses: list[PoseSample], key: str) -> list[PoseSample]:
+    if key == "as_declared":
+        return poses
+    if key in FACTORS:
+        return scaled(poses, 1 / FACTORS[key][0], 1 / FACTORS[key][1])
+    if key == "transposed":
+        return transposed(poses)
+    if key == "yaw_180":
+        return oriented(poses, [pose.R_WS * [-1, -1, 1] for pose in poses])
+    if key.startswith("euler"):
+        turn = Rotation.from_matrix(np.array([pose.R_WS for pose in poses]))
+        return oriented(poses, meaning(angles(turn, "zyx"), "xyz"))
+    force = rng.uniform(2, 5) * Rotation.random(rng=rng).as_matrix()[0]
+    return pushed(poses, *range(int(key[-1]) - 1, len(poses)), force=force)
+
+
+KEYS = ("as_declared", "transposed", "yaw_180", "euler_zyx_read_as_euler_xyz", "rezero_before_4", *FACTORS)
+
+
+@pytest.mark.parametrize("bumped", [False, True])
+def test_random_sets_are_told_right(bumped):
+    rng = np.random.default_rng([6, bumped])
+    wrong = []
+    for key in KEYS * 3:
+        noise, count = draw_noise(rng), int(rng.integers(8, 13))
+        poses = list(
+            weigh(draw_load(rng, (0.3, 2.0)), turned(count, int(rng.integers(1000))), noise, rng).poses
+        )
+        if bumped:  # not beside the re-zero, whose moment it would blur
+            poses = pushed(poses, int(rng.integers(5, count - 1)), force=rng.uniform(-10, 10, 3))
+        found = diagnose(mistaken(rng, poses, key), noise)
+        if found.best.hypothesis != key or found.consistent != (key == "as_declared") or found.tied:
+            wrong.append((key, found.sentence))
+    assert len(wrong) <= 1, wrong

@@ -158,9 +158,20 @@ def deviates(poses: Stack, inside: NDArray[np.bool_], fit: Fit, noise: PoseNoise
     sign = np.where(inside, -1.0, 1.0)[:, None, None]
     halves = J.reshape(-1, 2, 3, 12)
     covariance = _WHOLE + sign[..., None] * (halves @ fit.covariance @ halves.swapaxes(2, 3))
+    covariance[~inside, 1] += _unpredicted(fit, noise) * np.eye(3)
     r = residuals.reshape(-1, 2, 3, 1)
     squares = np.maximum((r.swapaxes(2, 3) @ np.linalg.solve(covariance, r))[..., 0, 0], 0.0)
     return as_deviates(squares, inside, noise)
+
+
+def _unpredicted(fit: Fit, noise: PoseNoise) -> float:
+    """Return the variance of a new pose's torque, over the noise's, that the product of two errors makes.
+
+    The Jacobian does not know it. Where g and L are both unknown, the first pose that shows them is no bump.
+    """
+    C = fit.covariance
+    product = np.trace(C[GRAVITY, GRAVITY]) * np.trace(C[CENTRE_OF_MASS, CENTRE_OF_MASS])
+    return float(product / np.min(noise.sigmas[3:]) ** 2)
 
 
 def as_deviates(

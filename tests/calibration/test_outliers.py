@@ -218,6 +218,20 @@ def test_half_of_them_bumped_leaves_no_majority():
     assert any("No majority" in reason for reason in calibration.verdict.reasons)
 
 
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+def test_the_first_pose_that_shows_something_new_is_no_bump(noise):
+    """Six poses spun about the vertical cannot say what a tilted one reads; with one of the six bumped neither."""
+    alarms = 0
+    for seed in range(30):
+        rng = np.random.default_rng([seed, 25])
+        spun = Rotation.from_rotvec(np.outer(rng.uniform(0, 6, 6), [0, 0, 1.0])) * Rotation.random(None, rng)
+        R_WS = np.concatenate([spun.as_matrix(), Rotation.random(1, rng).as_matrix()])
+        poses = push(list(weigh(LOAD, R_WS, NOISE, rng).poses), [0], [6, -4, 2], [0.2, 0.5, 0])
+        alarms += not calibrate(poses, noise).kept[-1]
+        alarms += not calibrate(poses[1:], noise).kept[-1]
+    assert alarms == 0
+
+
 def test_poses_in_the_wrong_convention_are_no_bumps():
     transposed = [replace(pose, R_WS=pose.R_WS.T) for pose in held(12)]
     assert calibrate(transposed, NOISE).verdict.level == Level.REFUSE

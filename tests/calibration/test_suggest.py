@@ -160,10 +160,11 @@ def test_what_a_pose_gains_is_not_overstated_while_the_weight_is_unknown(hand, u
 @pytest.mark.parametrize(
     "start", [spun(3), np.tile(np.eye(3), (3, 1, 1)), some(3)], ids=["spun", "same", "any"]
 )
-def test_following_suggestions_leads_to_a_good_calibration(hand, start):
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+def test_following_suggestions_leads_to_a_good_calibration(hand, start, noise):
     poses = read(start)
     steps = 0
-    while (calibration := calibrate(poses, NOISE)).verdict.level != Level.GOOD:
+    while (calibration := calibrate(poses, noise)).verdict.level != Level.GOOD:
         steps += 1
         assert steps <= 8
         poses += read(suggest_pose(calibration, hand).R_WS[None], steps)

@@ -1,0 +1,33 @@
+"""When a reading is settled, how long to average it, and which captures to refuse.
+
+Samples are summarised in blocks of 0.1 s: whole periods of 50 Hz and of 60 Hz, so that mains hum has no mean
+in them, and is fitted and taken out where samples are missing. All else is decided from the blocks: that makes
+a sample cheap, and makes a recording give, bit for bit, the captures of the live stream.
+"""
+
+from pipeline.calibration.stillness.captures import (
+    AveragingAdvice,
+    Capture,
+    CaptureReport,
+    LimitedBy,
+    Rejected,
+    Stillness,
+    StillnessSettings,
+    StillState,
+)
+from pipeline.calibration.stillness.detector import StillnessDetector
+from pipeline.calibration.stillness.recordings import averaging_time, find_captures
+
+__all__ = [
+    "AveragingAdvice",
+    "Capture",
+    "CaptureReport",
+    "LimitedBy",
+    "Rejected",
+    "StillState",
+    "Stillness",
+    "StillnessDetector",
+    "StillnessSettings",
+    "averaging_time",
+    "find_captures",
+]

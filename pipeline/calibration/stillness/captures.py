@@ -1,0 +1,281 @@
+"""What the detector is told, and what it tells: settings, states, captures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from math import isfinite, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.poses import PoseSample
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+
+BLOCK = 0.1  # s: five periods of 50 Hz, six of 60 Hz
+
+
+LEAST = np.repeat([1e-7, 1e-9], 3)  # N, N·m: keeps constant readings from dividing by zero
+
+
+class StillState(StrEnum):
+    """What a reading is doing."""
+
+    MOVING = "moving"
+    SETTLING = "settling"
+    STILL = "still"
+    BUMPED = "bumped"
+    TOUCHED = "touched"
+    STALE = "stale"  # no samples come
+
+
+class LimitedBy(StrEnum):
+    """Why averaging for longer is not advised."""
+
+    TARGET = "target"  # the standard error is as small as was asked for
+    FLICKER = "flicker"  # 1/f noise does not average out
+    DRIFT = "drift"  # it would make the mean worse
+    DURATION = "duration"  # the longest that is allowed
+    MOTION = "motion"  # the robot moved on, or the recording ended
+
+
+@dataclass(frozen=True)
+class StillnessSettings:
+    """What counts as still, and how long to average.
+
+    Parameters
+    ----------
+    window : float
+        s that must be quiet before the reading is called still. Default 1: a vibration of 8 Hz shows eight
+        times, and a creep of the slope allowed stands out of usual noise.
+    scatter_ratio : float
+        Largest scatter of samples and of block means over the noise floor. Default 2: servos that hold a pose
+        add up to that; the tremor of a moving robot is ten times the floor.
+    slope_force, slope_torque : float
+        Largest drift, N/s and N·m/s. Default 0.05 and 0.002: over 2 s of averaging the error stays that of one
+        sample; an arm that creeps by 0.3 degrees a second with 10 N of load does as much.
+    min_duration, max_duration : float
+        s of a capture. Default 1 and 10: shorter ones cannot tell their own error, longer ones only gather
+        drift.
+    floor_force, floor_torque : float, optional
+        Standard deviation of a sample without hum, N and N·m, on every axis. Left out: learnt from the
+        quietest window so far.
+    loudest_force, loudest_torque : float
+        A floor that is learnt is not believed beyond this, N and N·m: before the first quiet window, a steady
+        tremor would pass for noise. Default 0.5 and 0.02, ten times a usual sensor.
+    target_force, target_torque : float, optional
+        Standard error to reach, N and N·m. Left out: a fifth of the floor.
+    longest_gap : float
+        s without a sample that are bridged. Default 0.25: a bump could hide in a longer one.
+    most_spikes : float
+        Largest share of samples that may be excluded as spikes. Default 0.02: a line that is worse has another
+        fault.
+    rotation : float
+        Largest turn of the sensor in a capture, rad, where orientations are given. Default 0.1 degrees: 10 N of
+        load change by 0.02 N.
+    model_force, model_torque : float
+        1 sigma of what a gravity model leaves, beside its covariance, N and N·m: errors of the orientation, and
+        drift. Default 0.05 and 0.002: touches beyond six times that are seen.
+    horizon : float
+        s for which 1/f noise is counted: slower than that it is bias. Default 120, the time that a set of poses
+        takes; ten times longer adds a quarter to a standard error that is all 1/f noise.
+
+    Raises
+    ------
+    InputError
+        A number is not positive and finite, or the durations contradict one another.
+    """
+
+    window: float = 1.0
+    scatter_ratio: float = 2.0
+    slope_force: float = 0.05
+    slope_torque: float = 0.002
+    min_duration: float = 1.0
+    max_duration: float = 10.0
+    floor_force: float | None = None
+    floor_torque: float | None = None
+    loudest_force: float = 0.5
+    loudest_torque: float = 0.02
+    target_force: float | None = None
+    target_torque: float | None = None
+    longest_gap: float = 0.25
+    most_spikes: float = 0.02
+    rotation: float = pi / 1800
+    model_force: float = 0.05
+    model_torque: float = 0.002
+    horizon: float = 120.0
+
+    def __post_init__(self) -> None:
+        for name, value in vars(self).items():
+            if value is not None and not (isfinite(value) and value > 0):
+                raise InputError(f"StillnessSettings.{name} must be positive and finite, not {value}")
+        if self.min_duration > self.max_duration:
+            raise InputError(
+                f"StillnessSettings.min_duration, {self.min_duration} s, is above max_duration,"
+                f" {self.max_duration} s: lower the one or raise the other"
+            )
+        if self.window < 6 * BLOCK:
+            raise InputError(f"StillnessSettings.window: {self.window} s; give {6 * BLOCK:.1f} s or more")
+
+
+@dataclass(frozen=True, eq=False)
+class Capture:
+    """A pose's reading, averaged while it was still.
+
+    Attributes
+    ----------
+    start_index, stop_index : int
+        Of the samples, counted from the first that was given; the last is one beyond.
+    start, stop : float
+        Times of the first and last sample, s.
+    mean : (6,)
+        Robust mean: spikes excluded, mains hum taken out, N and N·m.
+    sd : (6,)
+        Standard deviation of the single samples around it, without spikes and hum.
+    standard_error : (6,)
+        Of the mean: white and 1/f noise, drift in the capture, rounding by the converter.
+    count, spikes : int
+        Samples averaged and excluded.
+    limited_by : LimitedBy
+        Why it was not averaged for longer.
+    R_WS : (3, 3) or None
+        Orientation at the end, where one was given.
+    """
+
+    start_index: int
+    stop_index: int
+    start: float
+    stop: float
+    mean: Floats
+    sd: Floats
+    standard_error: Floats
+    count: int
+    spikes: int
+    limited_by: LimitedBy
+    R_WS: Floats | None = None
+
+    @property
+    def duration(self) -> float:
+        """Seconds averaged."""
+        return self.stop - self.start
+
+    def to_pose(
+        self, R_WS: ArrayLike | None = None, name: str = "", temperature: float | None = None
+    ) -> PoseSample:
+        """Return the pose for `calibrate`.
+
+        Parameters
+        ----------
+        R_WS : array_like (3, 3), optional
+            Orientation of the sensor; left out: the capture's own.
+        name : str
+        temperature : float, optional
+            Of the sensor, degrees Celsius.
+
+        Raises
+        ------
+        InputError
+            There is no orientation, or it is no rotation (PoseError).
+        """
+        R = self.R_WS if R_WS is None else np.asarray(R_WS, dtype=np.float64)
+        if R is None:
+            raise InputError(f"to_pose: the capture at {self.start:.1f} s has no orientation: give R_WS")
+        return PoseSample(
+            R, self.mean[:3], self.mean[3:], self.count, self.sd[:3], self.sd[3:],
+            temperature, 0.5 * (self.start + self.stop), name,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Rejected:
+    """A stretch that was not captured, or whose capture was dropped.
+
+    Attributes
+    ----------
+    start_index, stop_index : int
+        Of the samples, as for `Capture`.
+    start, stop : float
+        s.
+    state : StillState
+        BUMPED, TOUCHED, MOVING (it went on too early, or crept) or STALE.
+    reason : str
+    """
+
+    start_index: int
+    stop_index: int
+    start: float
+    stop: float
+    state: StillState
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class CaptureReport:
+    """All captures of a recording, in order, and what was refused.
+
+    Attributes
+    ----------
+    captures : tuple of Capture
+    rejected : tuple of Rejected
+    """
+
+    captures: tuple[Capture, ...]
+    rejected: tuple[Rejected, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Stillness:
+    """The state of a reading.
+
+    Attributes
+    ----------
+    state : StillState
+    seconds_until_still : float or None
+        None: cannot be told, because it still moves.
+    sd : (6,)
+        Robust standard deviation of the samples in the window, N and N·m; NaN before the first block.
+    slope, slope_sigma : (6,)
+        Drift over the window with 1 sigma, N/s and N·m/s; NaN before the window has three blocks.
+    averaged, recommended : float
+        s averaged so far, and needed.
+    sentence : str
+        For the technician.
+    captured : Capture or None
+        On the one update that completes a capture.
+    rejected : Rejected or None
+        On the one update that drops a capture.
+    """
+
+    state: StillState
+    seconds_until_still: float | None
+    sd: Floats
+    slope: Floats
+    slope_sigma: Floats
+    averaged: float
+    recommended: float
+    sentence: str
+    captured: Capture | None = None
+    rejected: Rejected | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class AveragingAdvice:
+    """How long to average.
+
+    Attributes
+    ----------
+    duration_s : float
+    standard_error : (6,)
+        Of a mean over that time, N and N·m.
+    limited_by : LimitedBy
+    """
+
+    duration_s: float
+    standard_error: Floats
+    limited_by: LimitedBy

@@ -1,0 +1,215 @@
+"""What counts as quiet, drifting, disturbed or touched."""
+
+from __future__ import annotations
+
+from math import ceil, inf, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtri
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.model import GravityModel
+
+    Floats = NDArray[np.float64]
+from pipeline.calibration.stillness.blocks import Block, Intake, Window, by_chance
+from pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, StillnessSettings
+from pipeline.calibration.stillness.checks import both, short, size
+from pipeline.calibration.stillness.noise import Noise, NoiseMemory, rounding_variance
+
+_FILLED = 0.6  # share of a window's samples that must have come
+
+
+_RISK = 1e-6  # that one axis of one clean block looks disturbed: some 200 are tested in a capture
+
+
+_JUMP = 6.0  # standard deviations of a block's mean
+
+
+_TAIL = 0.02  # probability that the first third of a settled capture differs from the rest by chance
+
+
+_TOUCH_RISK = 1e-5  # that an untouched window looks touched
+
+
+_PATIENCE = 5.0  # s after which the quietest window is believed to have been still
+
+
+class Yardstick:
+    """What counts as quiet: the noise floor, given or learnt, and the limits that follow from it.
+
+    Attributes
+    ----------
+    floor : (6,)
+        Standard deviation of a sample when all is quiet, N and N·m.
+    sigma : (6,)
+        The same of a block's mean.
+    memory : NoiseMemory
+        Of the captures.
+    """
+
+    def __init__(self, settings: StillnessSettings, intake: Intake) -> None:
+        self._s, self._intake = settings, intake
+        self._slopes = np.repeat([settings.slope_force, settings.slope_torque], 3)
+        self._loudest = np.repeat([settings.loudest_force, settings.loudest_torque], 3)
+        self._given = both(settings.floor_force, settings.floor_torque)
+        self._scatter, self._quick, self._wander = np.full((3, 6), inf)
+        self._share = 1.0  # of samples that are independent
+        self._sure, self._since = bool((self._given > 0).all()), 0.0
+
+    def begin(self, length: float, since: float) -> int:
+        """Return how many blocks of this length, s, make a window; the first ended at `since`."""
+        self._since = since
+        self.memory = NoiseMemory(length, self._s.horizon)
+        self.measure()
+        return max(ceil(self._s.window / length - 1e-9), 6)
+
+    def learn(self, window: Window, captured: bool) -> bool:
+        """Keep the scatter of the quietest full window; return whether the floor has fallen.
+
+        A recording may begin in motion, and its quietest window may be a tremor. Until a window was no louder
+        than white noise, the quick part of the scatter, to which a tremor adds little, is the floor. A sensor
+        that filters its readings has no quick part: after some seconds its quietest window is believed.
+        """
+        self._quick = np.minimum(self._quick, np.sqrt(window.quick))
+        self._sure |= captured or window.blocks[-1].stop - self._since > _PATIENCE
+        # The smallest of many is too small by chance.
+        scatter = np.sqrt(window.variance) * (1 + 2 / sqrt(2 * self._free(float(window.freedom.sum()))))
+        wander = window.scatter * (1 + 2 / sqrt(2 * len(window.blocks)))
+        self._wander = np.minimum(np.minimum(self._wander, wander), 0.25 * self._loudest)
+        fallen = bool((scatter < 0.9 * self._scatter).any())
+        if fallen:
+            self._scatter = np.minimum(np.minimum(self._scatter, scatter), self._loudest)
+            # Of noise that was filtered down to a band B, second differences keep about B^4, and a block holds
+            # as many independent samples as B allows.
+            kept = np.maximum(self._quick, self._least) / np.maximum(self._scatter, self._least)
+            self._share = float(np.sqrt(np.minimum(kept, 1.0)).min())
+        self.measure()
+        if fallen:
+            self._intake.calm = self.floor
+        return fallen
+
+    @property
+    def _least(self) -> Floats:
+        return np.asarray(np.maximum(0.5 * self._intake.step, LEAST), dtype=np.float64)
+
+    def _free(self, freedom: float) -> float:
+        """Return how many of the degrees of freedom of a variance are independent."""
+        return max(freedom * self._share if self._sure else freedom, 1.0)
+
+    def measure(self) -> None:
+        """Set `floor` and `sigma` by what is known now."""
+        floor = np.minimum(self._scatter, self._loudest)
+        if not self._sure:
+            floor = np.minimum(floor, self._quick)
+        floor = np.where(self._given > 0, self._given, floor)
+        self.floor = np.maximum(floor, self._least)
+        samples = max(self._intake.rate * self._intake.length, 1.0)
+        rounding = rounding_variance(np.minimum(self._scatter, self.floor) ** 2, self._intake.step)
+        white = np.sqrt(self.floor**2 / samples + rounding)
+        wander = np.minimum(self._wander, 0.25 * self._loudest)
+        if self.memory.block_variance is not None:
+            wander = np.sqrt(self.memory.block_variance)
+        elif not self._sure:
+            wander = np.minimum(wander, 1.5 * white)
+        self.sigma: Floats = np.maximum(wander, white)
+
+    def quiet(self, window: Window) -> bool:
+        """Return whether nothing in a full window is more than noise and the slope allowed."""
+        ratio, n = self._s.scatter_ratio, len(window.blocks) - 2
+        if window.blocks[-1].stop - window.blocks[0].start > (n + 2) * self._intake.length / _FILLED:
+            return False
+        loudest = (ratio * self.floor) ** 2
+        chance = np.array([by_chance(self._free(freedom), _RISK) for freedom in window.freedom.tolist()])
+        whole = by_chance(self._free(float(window.freedom.sum())), _RISK)
+        return bool(
+            (window.variances <= loudest * chance[:, None]).all()
+            and (window.variance <= loudest * whole).all()
+            and (window.scatter <= ratio * self.sigma * sqrt(by_chance(n, _RISK))).all()
+            and (np.abs(window.rest) <= ratio * _JUMP * self.sigma).all()
+            and (self.creep(window, self.sigma) <= 1).all()
+        )
+
+    def creep(self, window: Window, sigma: Floats) -> Floats:
+        """Return the drift (6,) over the largest that is allowed and that noise explains."""
+        excess: Floats = np.abs(window.slope) / (self._slopes + 4 * sigma / window.reach)
+        return excess
+
+    def unrest(self, window: Window) -> tuple[float, str]:
+        """Return how unquiet the newest block is, 1 being the limit, and by what."""
+        last = window.blocks[-1]
+        limit = self._s.scatter_ratio * self.floor * sqrt(by_chance(self._free(last.freedom), _RISK))
+        scatter = np.sqrt(last.variance) / limit
+        if len(window.blocks) < 2:
+            return float(scatter.max()), f"{size(np.sqrt(last.variance), scatter)} of scatter"
+        step = last.mean - window.blocks[-2].mean
+        jump = np.abs(step) / (_JUMP * sqrt(2) * self.sigma + self._slopes * self._intake.length)
+        if jump.max() >= scatter.max():
+            return float(jump.max()), f"{size(step / self._intake.length, jump)}/s"
+        return float(scatter.max()), f"{size(np.sqrt(last.variance), scatter)} of scatter"
+
+    def disturbance(self, block: Block, before: Window, window: Window) -> str:
+        """Return how a block departs from the capture `before` it, in words; empty if it does not."""
+        n = len(before.blocks)
+        jitter = np.sqrt(0.5 * (np.diff(before.means, axis=0) ** 2).mean(axis=0))
+        off = block.mean - before.mean
+        late = block.centre - 0.5 * (before.blocks[0].centre + before.blocks[-1].centre)
+        allowed = _JUMP * np.maximum(self.sigma, jitter) * sqrt(1 + 1 / n) + self._slopes * late
+        if (np.abs(off) > allowed).any():
+            return f"the reading jumped by {size(off, np.abs(off) / allowed)}"
+        calm = np.maximum(before.variance, self._least**2)
+        louder = block.variance / (calm * 1.2 * by_chance(self._free(block.freedom), _RISK))
+        if (louder > 1).any():
+            return f"the reading shook by {size(np.sqrt(block.variance), louder)}"
+        excess = self.creep(window, np.maximum(self.sigma, window.scatter))
+        return f"the reading crept by {size(window.slope, excess)}/s" if (excess > 1).any() else ""
+
+    def noise(self, blocks: Sequence[Block]) -> Noise:
+        """Return the noise behind the means of `blocks`."""
+        part = Window(blocks)
+        rounding = rounding_variance(part.variance, self._intake.step)
+        return self.memory.fit(part.means, part.variance / self._intake.rate, rounding)
+
+    def tail(self, blocks: Sequence[Block]) -> int:
+        """Return how many blocks to leave out at the start, because they had not settled yet."""
+        head, length = len(blocks) // 3, self._intake.length
+        means = np.array([block.mean for block in blocks])
+        rest = means[head:]
+        noise = self.noise(blocks[head:])
+        white = noise.white * (1 / head + 1 / len(rest)) / length
+        sigma = np.sqrt(white + 2 * noise.flicker + noise.walk * len(rest) * length)
+        # What settles does so on all axes together.
+        off = (means[:head].mean(axis=0) - rest.mean(axis=0)) / sigma
+        return head if off @ off > chdtri(6, _TAIL) else 0
+
+    def refusal(self, whole: Window) -> str:
+        """Return why the blocks of a capture cannot be used, in words; empty if they can."""
+        count, spikes = whole.counts.sum(), sum(block.spikes for block in whole.blocks)
+        if spikes > self._s.most_spikes * (count + spikes):
+            share = 100 * spikes / (count + spikes)
+            return f"{share:.1f} % of the samples are spikes: check plug and cable"
+        excess = self.creep(whole, self.sigma)
+        return f"the reading crept by {size(whole.slope, excess)}/s" if (excess > 1).any() else ""
+
+    def touch(self, window: Window, model: GravityModel | None) -> str:
+        """Return in words what the load does not explain; empty if nothing, or if it cannot be told."""
+        R = window.blocks[-1].R_WS
+        if model is None or R is None:
+            return ""
+        residual = window.mean - model.predict(R)
+        own = np.repeat([self._s.model_force, self._s.model_torque], 3) ** 2 + self.sigma**2
+        C = model.wrench_covariance(R) + np.diag(own)
+        if residual @ np.linalg.solve(C, residual) <= chdtri(6, _TOUCH_RISK):
+            return ""
+        force, torque = np.linalg.norm(residual[:3]), np.linalg.norm(residual[3:])
+        return f"{short(force)} N and {short(1e3 * torque)} mN·m more than the load explains"
+
+
+def advise(noise: Noise, s: StillnessSettings, floor: Floats) -> AveragingAdvice:
+    """Return how long to average for the settings' target, or a fifth of the floor (6,)."""
+    given = both(s.target_force, s.target_torque)
+    return noise.advise(np.where(given > 0, given, 0.2 * floor), s.min_duration, s.max_duration)

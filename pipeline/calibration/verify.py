@@ -1,0 +1,273 @@
+"""Verification: does a calibration hold in poses that it has not seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.special import chdtrc, fdtrc
+
+from pipeline.calibration.contact_error import contact_sensitivity
+from pipeline.calibration.model import prediction_jacobian
+from pipeline.calibration.poses import named, stack
+from pipeline.calibration.verdict import Level, Limits, Verdict
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.calibrate import Calibration
+    from pipeline.calibration.contact_error import ContactTask
+    from pipeline.calibration.poses import PoseSample
+
+    Floats = NDArray[np.float64]
+
+# Residuals that chance makes once in so many verifications are not what the calibration claims.
+_DOUBT = 1e-3
+# A verification of so few poses says little of other orientations.
+_FEW = 3
+
+
+@dataclass(frozen=True, eq=False)
+class StillVerification:
+    """How a calibration does in still, contact-free poses that it was not made from.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the poses.
+    residuals : (n, 6)
+        Read minus predicted, S, N and N·m: what a compensated reading shows although nothing touches.
+    force_rms, torque_rms : float
+        Of the residuals' lengths, N and N·m.
+    deviates : (n,)
+        Length of each residual in standard deviations of what calibration and noise predict there; on average
+        its square is 6.
+    chi_square : float
+        Of all residuals together; the calibration's error, which they share, is in their covariance.
+    freedom : int
+        Its degrees of freedom, 6 n.
+    p_value : float
+        Probability of residuals as large if the calibration's covariance and the noise are right.
+    contact_errors : (n, m)
+        By how much each residual moves a contact, for each of the task's forces, m.
+    predicted_contact_error : float
+        The rms that calibration and noise predict for the worst of the forces, m.
+    limits : Limits
+    verdict : Verdict
+    """
+
+    names: tuple[str, ...]
+    residuals: Floats
+    force_rms: float
+    torque_rms: float
+    deviates: Floats
+    chi_square: float
+    freedom: int
+    p_value: float
+    contact_errors: Floats
+    predicted_contact_error: float
+    limits: Limits
+    verdict: Verdict
+
+    @property
+    def passed(self) -> bool:
+        """Whether the calibration may be used."""
+        return self.verdict.level is not Level.REFUSE
+
+    @property
+    def contact_rms(self) -> float:
+        """Rms over the poses of the contact's error, for the worst of the task's forces, m."""
+        return float(np.sqrt((self.contact_errors**2).mean(axis=0)).max())
+
+    @property
+    def contact_worst(self) -> float:
+        """Largest error of a contact over poses and forces, m."""
+        return float(self.contact_errors.max())
+
+    @property
+    def worst(self) -> int:
+        """Index of the pose with the largest deviate."""
+        return int(np.argmax(self.deviates))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all figures as plain data for ``--json``; units are in the names."""
+        poses = [
+            {
+                "name": name,
+                "residual_force_N": residual[:3].tolist(),
+                "residual_torque_Nm": residual[3:].tolist(),
+                "sigmas": float(deviate),
+                "contact_error_mm": 1e3 * float(errors.max()),
+            }
+            for name, residual, deviate, errors in zip(
+                self.names, self.residuals, self.deviates, self.contact_errors, strict=True
+            )
+        ]
+        return {
+            "passed": self.passed,
+            "level": str(self.verdict.level),
+            "reasons": list(self.verdict.reasons),
+            "force_rms_N": self.force_rms,
+            "torque_rms_Nm": self.torque_rms,
+            "chi_square": self.chi_square,
+            "freedom": self.freedom,
+            "p_value": self.p_value,
+            "contact_rms_mm": 1e3 * self.contact_rms,
+            "contact_worst_mm": 1e3 * self.contact_worst,
+            "contact_predicted_mm": 1e3 * self.predicted_contact_error,
+            "contact_good_mm": 1e3 * self.limits.good_error,
+            "contact_usable_mm": 1e3 * self.limits.usable_error,
+            "poses": poses,
+        }
+
+
+def verify_still(
+    calibration: Calibration,
+    samples: Sequence[PoseSample],
+    *,
+    task: ContactTask | None = None,
+    limits: Limits | None = None,
+) -> StillVerification:
+    """Compare a calibration with still, contact-free poses that it was not made from.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    samples : sequence of PoseSample
+        Other poses than the calibration's own, which it fits better than it should.
+    task : ContactTask, optional
+        The touches behind the figures in millimetres; left out: the calibration's.
+    limits : Limits, optional
+        The rule: those of the calibration's verdict, applied to the rms over the poses.
+
+    Raises
+    ------
+    InputError
+        There is no pose, or one of them is the calibration's own.
+    """
+    if not samples:
+        raise InputError("verify_still: no poses; take three or more, in other orientations than before")
+    own = {id(pose) for pose in calibration.poses}
+    for index, pose in enumerate(samples):
+        if id(pose) in own:
+            raise InputError(
+                f"verify_still: {named(samples, index)} was used for the calibration; give poses that were not"
+            )
+    task, limits = task or calibration.task, limits or Limits()
+    arrays = stack(samples)
+    residuals = np.concatenate([arrays.F, arrays.M], axis=1) - calibration.model.predict(
+        arrays.R_SW.transpose(0, 2, 1)
+    )
+    covariance = _covariance(calibration, arrays.R_SW, _noise(calibration, samples))
+    square, freedom = _square(residuals.ravel(), covariance), residuals.size
+    each = np.array(
+        [
+            _square(residual, covariance[6 * i : 6 * i + 6, 6 * i : 6 * i + 6])
+            for i, residual in enumerate(residuals)
+        ]
+    )
+    sensitivity = contact_sensitivity(task.point, task.normal, task.forces)
+    errors = np.linalg.norm(np.einsum("mij,nj->nmi", sensitivity, residuals), axis=2)
+    figures = StillVerification(
+        names=tuple(named(samples, index) for index in range(len(samples))),
+        residuals=residuals,
+        force_rms=float(np.sqrt((residuals[:, :3] ** 2).sum(axis=1).mean())),
+        torque_rms=float(np.sqrt((residuals[:, 3:] ** 2).sum(axis=1).mean())),
+        deviates=np.sqrt(each),
+        chi_square=square,
+        freedom=freedom,
+        p_value=_probability(square, freedom, min(calibration.noise.freedom)),
+        contact_errors=errors,
+        predicted_contact_error=_predicted(covariance, sensitivity),
+        limits=limits,
+        verdict=Verdict(Level.REFUSE, ()),
+    )
+    return replace(figures, verdict=_judge(figures))
+
+
+def _noise(calibration: Calibration, samples: Sequence[PoseSample]) -> Floats:
+    """Return the variance (n, 6) of each pose's mean: the calibration's noise, or more if its samples say so."""
+    widened = 1.0 if calibration.plausible else calibration.scatter
+    usual = calibration.noise.sigmas**2 * widened
+    variances = np.tile(usual, (len(samples), 1))
+    for row, pose in zip(variances, samples, strict=True):
+        if pose.force_sd is not None and pose.torque_sd is not None:
+            own = np.concatenate([pose.force_sd, pose.torque_sd]) ** 2 / pose.count
+            np.maximum(row, own, out=row)
+    return variances
+
+
+def _covariance(calibration: Calibration, R_SW: Floats, variances: Floats) -> Floats:
+    """Return the joint covariance (6 n, 6 n) of the residuals: one calibration's error is in all of them."""
+    J = prediction_jacobian(R_SW, calibration.model.vector).reshape(-1, 12)
+    shared: Floats = J @ calibration.covariance @ J.T
+    shared[np.diag_indices_from(shared)] += variances.ravel()
+    return shared
+
+
+def _square(residual: Floats, covariance: Floats) -> float:
+    """Return ``r' inv(C) r``, in units in which newtons and newton metres are alike in size."""
+    scale = np.sqrt(np.diag(covariance))
+    unit = residual / scale
+    return float(unit @ np.linalg.solve(covariance / np.outer(scale, scale), unit))
+
+
+def _probability(square: float, freedom: int, behind: float) -> float:
+    """Return the probability of a larger sum of squares, for noise with so many degrees of freedom `behind` it.
+
+    With noise that was estimated, forces and torques each contribute half the freedom times an F variable; one
+    F variable is matched to their sum in mean and variance.
+    """
+    if not np.isfinite(behind):
+        return float(chdtrc(freedom, square))
+    behind, half = max(behind, 4.5), freedom / 2  # below, the variance to match does not exist
+    mean = freedom * behind / (behind - 2)
+    spread = 2 * half**2 * 2 * behind**2 * (half + behind - 2) / (half * (behind - 2) ** 2 * (behind - 4))
+    # Of a multiple s of F(freedom, m): mean s m / (m - 2); variance over mean² 2 (f + m - 2) / (f (m - 4)).
+    ratio = 0.5 * freedom * spread / mean**2
+    matched = (freedom - 2 + 4 * ratio) / (ratio - 1)
+    scale = mean * (matched - 2) / matched
+    return float(fdtrc(freedom, matched, square / scale))
+
+
+def _predicted(covariance: Floats, sensitivity: Floats) -> float:
+    n = len(covariance) // 6
+    blocks = np.array([covariance[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] for i in range(n)])
+    traces = np.einsum("mij,njk,mik->nm", sensitivity, blocks, sensitivity)
+    return float(np.sqrt(traces.mean(axis=0).max()))
+
+
+def _judge(figures: StillVerification) -> Verdict:
+    """Apply the rule: the same limits as for the calibration, and no residuals that its covariance denies."""
+    limits, n = figures.limits, len(figures.names)
+    worst = figures.names[int(figures.contact_errors.max(axis=1).argmax())]
+    error = (
+        f"In {n} new pose{'s' * (n > 1)} the residuals move a contact by {1e3 * figures.contact_rms:.2g} mm rms, at"
+        f" most {1e3 * figures.contact_worst:.2g} mm ({worst})"
+    )
+    if figures.contact_rms > limits.usable_error:
+        refusal = (
+            f"{error}; more than {1e3 * limits.usable_error:g} mm rms is refused. Look for a touching cable, a changed"
+            " tool or a re-zeroed sensor, and calibrate again."
+        )
+        return Verdict(Level.REFUSE, (refusal,))
+    words = []
+    if figures.contact_rms > limits.good_error:
+        words.append(f"{error}; {1e3 * limits.good_error:g} mm rms would be good.")
+    if figures.p_value < _DOUBT:
+        times = np.sqrt(figures.chi_square / figures.freedom)
+        outlier, sigmas = figures.names[figures.worst], figures.deviates[figures.worst]
+        words.append(
+            f"The residuals are {times:.1f} times what the calibration's uncertainty and noise explain"
+            f" (p = {figures.p_value:.1g}), most in {outlier} ({sigmas:.1f} sigma): drift since the calibration,"
+            " wrong orientations, or a touch."
+        )
+    if n < _FEW:
+        words.append(f"{n} pose{'s' * (n > 1)} say little of other orientations. Take {_FEW} or more.")
+    if words:
+        return Verdict(Level.USABLE, tuple(words))
+    return Verdict(Level.GOOD, (f"{error}; {1e3 * limits.good_error:g} mm rms is the limit for good.",))

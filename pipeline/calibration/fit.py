@@ -46,7 +46,7 @@ _IDENTITY, _THREE = np.eye(12), np.eye(3)
 _RIDGE = 1e-6
 
 _STEPS, _HALVINGS = 25, 12
-_CONVERGED = 1e-3  # of a standard deviation
+_CONVERGED = 1e-2  # of a standard deviation; what is left is a hundred times less
 _SINGULAR = 1e-12
 _FELT = 5.0
 _TINY = 1e-300  # N²: a variance beside another that is 1e20 times larger may come out as nothing

@@ -88,7 +88,7 @@ class GravityModel:
         size, worst = float(np.linalg.norm(g)), float(np.sqrt(np.linalg.norm(C, 2)))
         if size < _SURE * worst:
             return worst / STANDARD_GRAVITY
-        return float(np.sqrt(g @ C @ g)) / size / STANDARD_GRAVITY
+        return float(np.sqrt(max(float(g @ C @ g), 0.0))) / size / STANDARD_GRAVITY
 
     def predict(self, R_WS: ArrayLike) -> NDArray[np.float64]:
         """Return what the untouched sensor reads at orientations R_WS.

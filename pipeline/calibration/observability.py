@@ -126,7 +126,10 @@ def _forces(R_SW: NDArray[np.float64], blind: float) -> tuple[int, float, NDArra
     1 plus and minus the singular values of R. A direction that every pose turns alike has singular value 1.
     """
     _, values, vectors = np.linalg.svd(R_SW.mean(axis=0))
-    return *_rank(np.concatenate([1 + values, 1 - values]), blind), vectors[1 - values < blind**2]
+    alike = 1 - values < blind**2
+    if alike.any():
+        return 6 - int(alike.sum()), np.inf, vectors[alike]
+    return 6, float(np.sqrt((1 + values[0]) / (1 - values[0]))), vectors[:0]
 
 
 def _torques(down_S: NDArray[np.float64], blind: float) -> tuple[int, float]:

@@ -76,8 +76,10 @@ class PoseSample:
                 if (array < 0).any():
                     raise self._error(f"{field} is negative: a standard deviation is at least 0")
                 put(self, field, array)
-        if self.count < 1:
-            raise self._error(f"count is {self.count}: a mean needs at least one sample")
+        if not isinstance(self.count, int | np.integer) or isinstance(self.count, bool) or self.count < 1:
+            raise self._error(
+                f"count is {self.count}: a mean needs at least one sample, and a whole number of them"
+            )
         for field in ("temperature", "time"):
             value = getattr(self, field)
             if value is not None and not np.isfinite(value):

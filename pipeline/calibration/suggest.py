@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, usual_task, worst_sigma
-from pipeline.calibration.fit import PoseNoise, felt, parameter_covariance
+from pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
 from pipeline.calibration.model import GRAVITY, GravityModel, prediction_jacobian
 from pipeline.calibration.reachable import describe
 from pipeline.calibration.wording import plain
@@ -32,6 +32,7 @@ USUAL_NOISE = PoseNoise(0.05, 0.002)
 _NEARLY = 1.05
 _QUIETEST = np.repeat([1e-5, 1e-7], 3)  # N and N·m: finer than any sensor, coarse enough to invert
 _UNDETERMINED = 0.05  # m
+_HARDLY_KNOWN = 0.25  # of what a weight could be, 1 sigma
 _PASSES = 8
 _STARTS = 3
 _ALL_ORDERS = 7  # poses whose every order is tried: 5,040
@@ -114,7 +115,8 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
     J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / _sigmas(calibration.noise, widened)
     A = calibration.task.parameter_sensitivity(theta)
     errors = _errors_with(calibration.covariance, J, A)
-    chosen = _nearest_good(errors, reachable)
+    settled = errors.min() < _UNDETERMINED
+    chosen = _nearest_good(errors if settled else _ignorance(calibration.covariance, J), reachable)
     before, after = calibration.contact_error, float(errors[chosen])
     sentence = f"Next: {_how(reachable, chosen)}. {_gain(before, after)}"
     return Suggestion(
@@ -194,10 +196,17 @@ def plan_error(
 
 
 def _plausible(calibration: Calibration) -> NDArray[np.float64]:
-    """Return the parameters (12,), with a usual weight where none was felt yet: poses would show nothing else."""
-    theta, usual = calibration.model.vector, USUAL_LOAD.vector
-    if not felt(theta, calibration.covariance):
-        theta[GRAVITY] = usual[GRAVITY]
+    """Return the parameters (12,), with the usual weight along directions in which it is not known yet.
+
+    There the estimate is nothing, and a pose would seem to show nothing of the centre of mass.
+    """
+    theta = calibration.model.vector
+    variances, axes = np.linalg.eigh(calibration.covariance[GRAVITY, GRAVITY])
+    missing = USUAL_LOAD.gravity_W - theta[GRAVITY]
+    if felt(theta, calibration.covariance):
+        unknown = axes[:, variances > (_HARDLY_KNOWN * UNKNOWN[GRAVITY][0]) ** 2]
+        missing = unknown @ (unknown.T @ missing)
+    theta[GRAVITY] += missing
     return theta
 
 
@@ -222,6 +231,16 @@ def _errors_with(
     reach = A @ JC.transpose(0, 2, 1)[:, None]  # (k, touches, 2, 6)
     left = A @ C @ A.transpose(0, 2, 1) - reach @ (A @ lowered.transpose(0, 2, 1)[:, None]).swapaxes(2, 3)
     return np.asarray(np.sqrt(largest_eigenvalue(left).max(axis=1)), dtype=np.float64)
+
+
+def _ignorance(C: NDArray[np.float64], J: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how much less of the unknown (k,) one more pose takes away than the best one; at least 1.
+
+    For when no single pose settles the contact: then its error is that of what stays unknown, whichever pose
+    is taken. The determinant of the covariance still tells which pose narrows down the rest.
+    """
+    gain = np.linalg.slogdet(np.eye(6) + J @ C @ J.transpose(0, 2, 1))[1]
+    return np.asarray(np.exp(gain.max() - gain), dtype=np.float64)
 
 
 def _exchange(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.calibration.wording import plain
+from pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pipeline.calibration.calibrate import Calibration
@@ -39,6 +40,12 @@ class Limits:
 
     good_error: float = 0.0005
     usable_error: float = 0.0015
+
+    def __post_init__(self) -> None:
+        if not 0 < self.good_error <= self.usable_error < np.inf:
+            raise InputError(
+                f"Limits: give 0 < good_error <= usable_error, m, not {self.good_error} and {self.usable_error}"
+            )
 
 
 @dataclass(frozen=True)

@@ -267,7 +267,9 @@ def _judge(figures: StillVerification) -> Verdict:
             " wrong orientations, or a touch."
         )
     if n < _FEW:
-        words.append(f"{n} pose{'s' * (n > 1)} say little of other orientations. Take {_FEW} or more.")
+        words.append(
+            f"{n} {'poses say' if n > 1 else 'pose says'} little of other orientations. Take {_FEW} or more."
+        )
     if words:
         return Verdict(Level.USABLE, tuple(words))
     return Verdict(Level.GOOD, (f"{error}; {1e3 * limits.good_error:g} mm rms is the limit for good.",))

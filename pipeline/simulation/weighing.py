@@ -117,7 +117,7 @@ def bump(weighing: Weighing, share: float, rng: np.random.Generator, force: Rang
     poses = list(weighing.poses)
     chosen = rng.choice(len(poses), round(share * len(poses)), replace=False)
     for index in chosen:
-        direction = Rotation.random(rng=rng).as_matrix()[0]
+        direction = Rotation.random(None, rng).as_matrix()[0]
         push = rng.uniform(*force) * direction
         pose = poses[index]
         if rng.random() < 0.5:

@@ -45,21 +45,21 @@ class BlindSet:
 
 def _spun(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
     spins = Rotation.from_rotvec(np.outer(rng.uniform(0, 2 * np.pi, n), [0.0, 0.0, 1.0]))
-    return (spins * Rotation.random(rng=rng)).as_matrix()
+    return (spins * Rotation.random(None, rng)).as_matrix()
 
 
 def _one_axis(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
     bearing = rng.uniform(0, 2 * np.pi)
     axis = np.array([np.cos(bearing), np.sin(bearing), 0.0])
     return (
-        Rotation.from_rotvec(np.outer(np.linspace(0, 2.5, n), axis)) * Rotation.random(rng=rng)
+        Rotation.from_rotvec(np.outer(np.linspace(0, 2.5, n), axis)) * Rotation.random(None, rng)
     ).as_matrix()
 
 
 def _close(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
     axes = rng.standard_normal((n, 3))
     axes *= np.radians(rng.uniform(0, 2.5, n) / np.linalg.norm(axes, axis=1))[:, None]
-    return (Rotation.from_rotvec(axes) * Rotation.random(rng=rng)).as_matrix()
+    return (Rotation.from_rotvec(axes) * Rotation.random(None, rng)).as_matrix()
 
 
 def _two_repeated(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
@@ -68,7 +68,7 @@ def _two_repeated(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
 
 
 def _same(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
-    return np.tile(Rotation.random(rng=rng).as_matrix(), (n, 1, 1))
+    return np.tile(Rotation.random(None, rng).as_matrix(), (n, 1, 1))
 
 
 def _anywhere(rng: np.random.Generator, n: int) -> NDArray[np.float64]:

@@ -156,7 +156,7 @@ def coloured(rng: np.random.Generator, n: int, rate: float, white: np.ndarray, c
 
 
 def _orientations(rng: np.random.Generator, poses: int, vertical: float) -> list[Rotation]:
-    found = [Rotation.random(rng=rng)]
+    found = [Rotation.random(None, rng)]
     for _ in range(poses):
         if rng.random() < vertical:
             found.append(Rotation.from_rotvec([0, 0, rng.uniform(0.5, 2.0)]) * found[-1])

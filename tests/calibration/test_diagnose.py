@@ -10,6 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import GravityModel, PoseError, PoseNoise, PoseSample
+from pipeline.calibration.diagnosis.conversions import angles_of, from_angles
 from pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
 from pipeline.calibration.diagnosis.evidence import weigh as weigh_hypotheses
 from pipeline.calibration.diagnosis.hypotheses import RawOrientations, hypotheses
@@ -325,6 +326,17 @@ def test_a_conversion_that_took_rotation_vectors_for_angles(order, vectors_meant
     assert_named(found, key, truth, 1e-6)
 
 
+@pytest.mark.parametrize("way", FIXED)
+def test_angles_that_are_not_unique_still_mean_the_same_rotation(way):
+    locked = np.zeros((8, 3))
+    locked[:, ["xyz".index(axis) for axis in way]] = [
+        [first, middle, last] for first in (10, -100) for middle in (90, -90) for last in (0, 60)
+    ]
+    R = from_angles(np.radians(locked), way)
+    np.testing.assert_allclose(R, meaning(np.radians(locked), way), atol=1e-12)
+    np.testing.assert_allclose(from_angles(angles_of(R, way), way), R, atol=1e-9)
+
+
 def test_straight_up_does_not_upset_the_recovered_angles():
     upright = Rotation.from_euler("y", [[90], [-90], [90], [90]], degrees=True).as_matrix()
     found = diagnose(held(np.concatenate([upright, turned(6)])), NOISE)
@@ -383,6 +395,15 @@ def test_without_noise_units_are_told_by_what_they_make_of_the_load():
     np.testing.assert_allclose(likelihoods, likelihoods[0], atol=0.01)
 
 
+def test_the_length_of_the_tool_tells_kilograms_from_newtons():
+    poses = scaled(held(turned()), 1 / KGF, 1)
+    found = diagnose(poses)
+    assert found.best.hypothesis == "force_kgf"
+    assert "the centre of mass lies within the tool" in found.decided_by
+    assert "would lie 684 mm from the sensor, so read 70 mm" in found.sentence
+    assert diagnose(poses, prior=Prior(tool_length=1.0)).decided_by == "nothing"
+
+
 @pytest.mark.parametrize("factor", [1.0, 1 / KGF])
 def test_without_noise_only_a_balance_tells_newtons_from_kilograms(factor):
     poses = scaled(held(turned()), factor, factor)
@@ -435,7 +456,7 @@ def test_orders_that_make_no_difference_are_tied():
 
 
 @pytest.mark.parametrize("given", [NOISE, None])
-@pytest.mark.parametrize("which", [(0,), (3,), (8,), (3, 4), (0, 8)])
+@pytest.mark.parametrize("which", [(0,), (3,), (8,), (3, 4), (0, 8), (7, 8)])
 def test_bumped_poses_are_no_mistake(given, which):
     poses = held(turned())
     for size, index in enumerate(which, 1):
@@ -446,6 +467,18 @@ def test_bumped_poses_are_no_mistake(given, which):
     assert "pose 9 look" in found.sentence.lower() if which[-1] == 8 else "bumped" in found.sentence
     if which == (8,):
         assert "(or the sensor was re-zeroed before it)" in found.sentence
+
+
+def test_two_bumps_do_not_hide_one_another():
+    rng = np.random.default_rng(7)
+    for seed in range(12):
+        which = np.sort(rng.choice(8, 2, replace=False)).tolist()
+        poses = held(turned(8, seed), seed=seed)
+        for index in which:
+            poses = pushed(poses, index, force=rng.uniform(1, 5) * turned(1, int(rng.integers(99)))[0][0])
+        found = diagnose(poses, NOISE)
+        assert found.consistent, seed
+        assert list(found.best.left_out) == which, seed
 
 
 def test_a_mistake_is_found_beneath_bumps():

@@ -120,7 +120,7 @@ def test_few_poses_say_so():
     rng = np.random.default_rng(5)
     verification = verify_still(calibrated(rng), poses(rng, 1))
     assert verification.passed
-    assert "1 pose say" in " ".join(verification.verdict.reasons)
+    assert "1 pose says" in " ".join(verification.verdict.reasons)
 
 
 def test_poses_that_were_averaged_for_less_have_more_noise():

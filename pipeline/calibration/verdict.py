@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.calibration.outliers import limit
 from pipeline.calibration.wording import plain
 from pipeline.errors import InputError
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
 _RESTLESS = 50.0  # drift and hum make a mean several times worse than its samples promise, but not this much
+_NEARLY, _DOUBTFUL = 2.0, 2  # limits, and poses: touches are rarely that gentle twice
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -118,6 +120,12 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
     return words
 
 
+def _marginal(calibration: Calibration) -> int:
+    """Count poses left out that a touch would have to be just strong enough for."""
+    far = [max(rejection.force_sigmas, rejection.torque_sigmas) for rejection in calibration.rejected]
+    return sum(deviate < _NEARLY * limit(len(calibration.poses)) for deviate in far)
+
+
 def _restless(calibration: Calibration) -> bool:
     """Tell whether noise that was estimated between the poses is out of proportion to that within them."""
     noise = calibration.noise
@@ -145,6 +153,12 @@ def _slight(calibration: Calibration, limits: Limits, error: str) -> list[str]:
         words.append(
             f"The residuals are {np.sqrt(calibration.scatter):.1f} times what the noise given explains; every"
             " uncertainty has been widened by that. Drift, cable pull or a wrong noise figure do this."
+        )
+    if not calibration.noise.estimated and _marginal(calibration) >= _DOUBTFUL:
+        words.append(
+            f"{_marginal(calibration)} of the poses that were left out are only a little beyond the limit. If nothing"
+            " touched them, the noise given is too small, and so is every uncertainty: leave it out, to have it"
+            " estimated from the poses."
         )
     if kept < _CHECKED_FROM:
         words.append(

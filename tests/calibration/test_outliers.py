@@ -247,3 +247,15 @@ def test_noise_stated_too_small_still_covers_the_truth():
         error = calibration.model.vector - weighing.truth.vector
         covered += error @ np.linalg.solve(calibration.covariance, error) < calibration.ellipsoid(0.95)
     assert covered / 60 > 0.8
+
+
+def test_noise_stated_too_small_is_doubted_when_many_are_a_little_off():
+    doubted = 0
+    for seed in range(20):
+        rng = np.random.default_rng([seed, 31])
+        poses = weigh(LOAD, Rotation.random(30, rng).as_matrix(), NOISE, rng).poses
+        calibration = calibrate(poses, PoseNoise(0.025, 0.001))
+        doubted += any("the noise given is too small" in reason for reason in calibration.verdict.reasons)
+        right = calibrate(poses, NOISE)
+        assert not any("the noise given is too small" in reason for reason in right.verdict.reasons)
+    assert doubted >= 18

@@ -106,10 +106,8 @@ def decisive(best: Case, rival: Case) -> str:
 
 
 def decided_by(best: Case, rivals: Sequence[Case]) -> str:
-    """Return what sets `best` apart from all rivals: priors are named where residuals would not do."""
+    """Return what sets `best` apart from rivals that are not as good: priors where residuals would not do."""
     reasons = {decisive(best, rival) for rival in rivals}
-    if NOTHING in reasons:
-        return NOTHING
     priors = [part for part in best.priors if part in reasons]
     return f"prior: {', '.join(priors)}" if priors else RESIDUALS
 

@@ -63,7 +63,7 @@ def see(inside: Stack, fit: Fit, noise: PoseNoise, level: float) -> Sight:
     R_SW = fit.R_SE @ inside.R_SW
     # A fit of poses that show nothing may put gravity anywhere, and then see all from there: ask level, too.
     found = [_sines(R_SW, down, level) for down in (unit(fit.theta[GRAVITY]), DOWNS[0])]
-    sines, axes_S = min(found, key=lambda pair: float(pair[0][0]))
+    sines, axes_S = min(found, key=lambda pair: float(pair[0].sum()))
     blind = axes_S[:, sines < _BLIND]
     felt = _felt(inside, fit, noise)
     weighs = felt or blind.shape[1] == 3  # what looks alike in every pose may well be weight

@@ -34,8 +34,7 @@ _ROTATION_TOLERANCE = 1e-3  # as for PoseSample
 
 
 def turn(d: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the rotation by a vector d, rad."""
-    """Return exp([d]x) (..., 3, 3)."""
+    """Return exp([d]x) (..., 3, 3) for rotation vectors d (..., 3), rad."""
     return Rotation.from_rotvec(d).as_matrix()
 
 

@@ -139,4 +139,4 @@ def fit_all(
 
 def to_estimate(least: NDArray[np.float64]) -> PoseNoise:
     """Return noise whose size is to be estimated, and is at least so much (6,)."""
-    return PoseNoise(1.0, 1.0, estimated=True, least=least)
+    return PoseNoise(1.0, 1.0, estimated=True, freedom=(1.0, 1.0), least=least)

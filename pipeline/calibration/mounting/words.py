@@ -56,7 +56,7 @@ def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64], level: f
 def named_axes(axes_E: NDArray[np.float64]) -> str:
     """Return words for axes (3, k) of the flange."""
     vectors = [axis if axis[np.argmax(np.abs(axis))] > 0 else -axis for axis in axes_E.T]
-    return "the flange's axis " + " and ".join(
+    return f"the flange's ax{'is' if len(vectors) == 1 else 'es'} " + " and ".join(
         "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(axis, 2))) for axis in vectors
     )
 

@@ -42,7 +42,7 @@ class MethodErrors:
         Distance from the true point, mm, over the settled touches: answered, and not ambiguous. This and
         the next two are None where no touch is settled.
     bound_mm : float or None
-        The noise bound: the root mean square error that the sensor's noise alone gives, mm; the root of the
+        The noise bound: the root mean square error that noise and calibration alone give, mm; the root of the
         mean trace of the covariance of the settled touches.
     over_bound : float or None
         Their root mean square error over the bound: 1 is as good as the noise allows.

@@ -163,7 +163,7 @@ class DemoReport:
 
 _CAPTION = (
     "mean, p95 and max are errors in mm, of touches answered without doubt. × bound is their root mean square"
-    " over what the sensor's noise alone would give. Only contactbench and scan ever say ambiguous; iterative"
+    " over what noise and calibration would give. Only contactbench and scan ever say ambiguous; iterative"
     " knows the contact face only. µs is the median time of one compiled solve."
 )
 

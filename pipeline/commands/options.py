@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pipeline.console import say
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -23,7 +25,8 @@ EulerOption = Annotated[
     typer.Option(
         "--euler",
         metavar="ORDER",
-        help="Orientation is rx,ry,rz, angles about these axes: xyz (fixed axes), ZYX (turning along), ...",
+        help="Orientation is rx,ry,rz: angles about these axes, in the order of the columns; xyz: fixed axes,"
+        " ZYX: axes that turn along.",
     ),
 ]
 VectorOption = Annotated[
@@ -123,6 +126,14 @@ def convention(
             "--radians is about angles: it goes with --euler, --rotation-vector or --robot."
         )
     if euler:
+        axes = euler.lower()
+        if axes != "xyz" and set(axes) == set("xyz") and len(axes) == 3:
+            first, second, third = tuple(axes)
+            say(
+                f"warning: --euler {euler}: column rx is read as the angle about {first}, ry about {second}, rz"
+                f" about {third}. If the columns are named after the axes, rename them: rx is the first angle.",
+                "yellow",
+            )
         return Convention(Kind.EULER, order=euler, degrees=not radians, inverse=inverse)
     if vector:
         return Convention(Kind.ROTATION_VECTOR, degrees=not radians, inverse=inverse)

@@ -168,6 +168,15 @@ def test_a_wrong_file_leaves_the_earlier_calibration(poses: Path, calibration: P
     assert calibration.read_bytes() == before
 
 
+def test_columns_that_are_not_named_after_their_axes_are_pointed_out(tmp_path: Path) -> None:
+    file = write_euler(tmp_path / "zyx.csv", weighed(), "ZYX")
+    result = invoke("calibrate", file, "--euler", "ZYX", "--out", tmp_path / "z.json")
+    assert result.exit_code == 0
+    assert "column rx is read as the angle about z" in said(result)
+    plain = write_euler(tmp_path / "xyz.csv", weighed())
+    assert "column rx" not in said(invoke("calibrate", plain, *EULER, "--out", tmp_path / "x.json"))
+
+
 @pytest.mark.parametrize("command", ["calibrate", "diagnose", "verify-still", "compensate"])
 def test_help_has_an_example(command: str) -> None:
     result = invoke(command, "--help")

@@ -201,6 +201,19 @@ def test_two_mistakes_at_once_are_not_explained(given):
     assert found.sentence.startswith("No single convention mistake explains the data: ")
 
 
+def test_the_first_of_two_mistakes_says_that_there_is_a_second():
+    truth = held(turned())
+    found = diagnose(transposed(scaled(truth, -1, -1)), NOISE)
+    assert found.best.hypothesis == "transposed"
+    assert "But then gravity points 179° away from down: mend this, then check again" in found.sentence
+    assert diagnose(found.corrected("transposed"), NOISE).best.hypothesis == "wrench_negated"
+    found = diagnose(transposed(scaled(truth, 1, -1)), NOISE)
+    assert "the centre of mass lies 70 mm on the other side of the sensor: mend" in found.sentence
+    found = diagnose(transposed(truth), NOISE, prior=Prior(mass=2.0))
+    assert "But then the mass comes out as 0.72 kg where 2 kg was weighed: mend" in found.sentence
+    assert "But then" not in diagnose(transposed(truth), NOISE).sentence
+
+
 def test_unexplained_data_that_fit_best_as_they_are():
     found = diagnose(held(turned(12), noise=PoseNoise(0.3, 0.012)), NOISE)
     assert found.best.hypothesis == "as_declared"
@@ -228,11 +241,15 @@ def test_a_load_that_is_not_felt():
     assert "feels no weight" in found.sentence
 
 
-def test_a_base_that_is_far_from_level():
+def test_a_load_that_is_not_what_was_said():
     tilted = GravityModel([3.0, 0.0, -6.0], LOAD.force_bias, LOAD.centre_of_mass_S, LOAD.torque_bias)
     found = diagnose(held(turned(), tilted), NOISE)
     assert found.consistent
-    assert "level the base" in found.sentence
+    assert "But gravity points 26° away from down: check what was said of the tool" in found.sentence
+    found = diagnose(held(turned()), NOISE, prior=Prior(mass=1.0))
+    assert found.consistent
+    assert "But the mass comes out as 0.72 kg where 1 kg was weighed: check" in found.sentence
+    assert "But" not in diagnose(held(turned()), NOISE).sentence
 
 
 # ---- the answer as a whole -----------------------------------------------------------------------

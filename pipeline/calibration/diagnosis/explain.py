@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.prior import DOWN, REACH, SIDE, WEIGHED, Prior, angle_between
+from pipeline.calibration.diagnosis.prior import DOWN, MASS, REACH, SIDE, WEIGHED, Prior, angle_between
 from pipeline.calibration.model import STANDARD_GRAVITY
 from pipeline.calibration.observability import observe
 from pipeline.calibration.poses import named
@@ -28,7 +28,7 @@ RESIDUALS, NOTHING = "residuals", "nothing"
 FELT = 5.0  # standard deviations from zero at which a weight is felt
 
 _SAME = 1e-6
-_LEVEL = np.radians(10.0)  # gravity further than this from down is worth a word
+_STRANGE = -5.0  # logarithm: a load like this, or a base 13 degrees off level, is worth a word
 _LISTED = 3
 _BOTH = np.arange(2)
 
@@ -178,10 +178,11 @@ class Words:
             )
         elif best is self._declared:
             yield self._consistent()
-            yield from self._level()
+            yield from self._second()
             yield from self._also()
         else:
             yield f"{best.hypothesis.fact}: {self._because(best)}. {best.hypothesis.remedy}"
+            yield from self._second()
             yield from self._also()
             yield from self._rests_on_noise()
 
@@ -229,12 +230,21 @@ class Words:
             f" from down, mass {case.mass:.3g} kg."
         )
 
-    def _level(self) -> Iterator[str]:
-        if _angle(self._best, self._context.prior) > _LEVEL:
-            yield (
-                "That is far from down: level the base, or give the world's z axis as it is (a base on a wall"
-                " or a ceiling has another)."
-            )
+    def _second(self) -> Iterator[str]:
+        """Say what is strange about the load even if the best reading is right."""
+        best, prior = self._best, self._context.prior
+        said = {
+            DOWN: f"gravity points {np.degrees(_angle(best, prior)):.0f}° away from down",
+            SIDE: f"the centre of mass lies {_side(_height(best, prior))} of the sensor",
+            REACH: f"the centre of mass lies {_distance(best)} from the sensor",
+            WEIGHED: f"the mass comes out as {best.mass:.2g} kg where {prior.mass or 0:.2g} kg was weighed",
+            MASS: f"the mass comes out as {best.mass:.2g} kg",
+        }
+        strange = [said[part] for part, weight in best.priors.items() if weight < _STRANGE]
+        if strange and best is not self._declared:
+            yield f"But then {_list(strange)}: mend this, then check again for a second mistake."
+        elif strange:
+            yield f"But {_list(strange)}: check what was said of the tool and of the world's z axis."
 
     def _also(self) -> Iterator[str]:
         if not self._tied:
@@ -285,10 +295,7 @@ class Words:
             sides = [_side(_height(each, prior)) for each in (declared, case)]
             return f"the centre of mass would lie {sides[0]} of the sensor, so read {sides[1]}"
         if part == REACH:
-            lengths = [
-                _length(float(np.linalg.norm(each.evidence.centre_of_mass_S))) for each in (declared, case)
-            ]
-            return f"the centre of mass would lie {lengths[0]} from the sensor, so read {lengths[1]}"
+            return f"the centre of mass would lie {_distance(declared)} from the sensor, so read {_distance(case)}"
         weighed = f"; {prior.mass:.3g} kg was weighed" if part == WEIGHED else ""
         return f"the mass would be {declared.mass:.2g} kg, so read {case.mass:.2g} kg{weighed}"
 
@@ -347,6 +354,10 @@ def _force(newtons: float) -> str:
 
 def _torque(newton_metres: float) -> str:
     return f"{_digits(newton_metres)} N·m" if newton_metres >= 1 else f"{_digits(1e3 * newton_metres)} mN·m"
+
+
+def _distance(case: Case) -> str:
+    return _length(float(np.linalg.norm(case.evidence.centre_of_mass_S)))
 
 
 def _short(number: float) -> str:

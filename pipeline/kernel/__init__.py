@@ -29,20 +29,24 @@ Algorithm1 = _module.Algorithm1
 Batch = _module.Batch
 Candidate = _module.Candidate
 Contact = _module.Contact
+Geodesic = _module.Geodesic
 Iterative = _module.Iterative
 Reason = _module.Reason
 Scan = _module.Scan
 Solver = _module.Solver
+SurfaceIndex = _module.SurfaceIndex
 
 __all__ = [
     "Algorithm1",
     "Batch",
     "Candidate",
     "Contact",
+    "Geodesic",
     "Iterative",
     "Reason",
     "Scan",
     "Solver",
+    "SurfaceIndex",
     "compiler",
     "variant",
 ]

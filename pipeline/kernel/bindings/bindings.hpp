@@ -60,5 +60,7 @@ struct ContactCandidate {
 
 void bind_contact(nb::module_& m);
 void bind_solvers(nb::module_& m);
+void bind_surface(nb::module_& m);
+void bind_geodesic(nb::module_& m);
 
 }  // namespace contactbench::bindings

@@ -7,4 +7,6 @@ NB_MODULE(CONTACTBENCH_MODULE, m) {
     m.attr("compiler") = __VERSION__;
     contactbench::bindings::bind_contact(m);
     contactbench::bindings::bind_solvers(m);
+    contactbench::bindings::bind_surface(m);
+    contactbench::bindings::bind_geodesic(m);
 }

@@ -1,0 +1,275 @@
+// Distances along a surface from points on it, as far as a limit and no further.
+//
+// Method: labels at vertices, spread through facets from a heap as in fast marching (Kimmel & Sethian, PNAS 95,
+// 1998), with the circular wave of Novotni & Klein (WSCG 2002): the distances of two corners place the source
+// in the facet's plane, unfolded, and the third corner's distance is measured from there. That is exact where
+// the surface unfolds (planes, cylinders, cones), also next to the source. A label keeps the way to its source,
+// for edges whose corners were reached from different ones. A label that improves is spread again; so obtuse
+// facets, where the front arrives in the wrong order, need no special edges.
+//
+// Contract: triangles pass `check_triangles`. Setting up is O(n + m); a run touches the facets within the limit
+// and a rim of one facet around them, and allocates only while its lists grow. Not for two threads at once.
+#pragma once
+
+#include <functional>
+
+#include "adjacency.hpp"
+
+namespace contactbench {
+
+struct Mesh {
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> faces;
+    Adjacency adjacency;
+
+    Mesh(std::vector<Vec3> points, std::vector<Triangle> triangles)
+        : vertices(std::move(points)),
+          faces((check_triangles(triangles, vertices.size()), std::move(triangles))),
+          adjacency(faces, vertices.size()) {}
+
+    Vec3 at(std::int32_t vertex) const { return vertices[std::size_t(vertex)]; }
+    const Triangle& face(std::int32_t f) const { return faces[std::size_t(f)]; }
+    Vec3 corner(std::int32_t f, std::size_t c) const { return at(face(f)[c % 3]); }
+    Vec3 centroid(std::int32_t f) const { return (1.0 / 3.0) * (corner(f, 0) + corner(f, 1) + corner(f, 2)); }
+};
+
+class DistanceField {
+public:
+    static constexpr double unreached = std::numeric_limits<double>::infinity();
+
+    explicit DistanceField(const Mesh& mesh)
+        : mesh_(&mesh), labels_(mesh.vertices.size()), seen_(mesh.faces.size(), 0) {}
+
+    // Forget every label, in O(1). `line`: the sources are the corners of a line, which is a source as well.
+    void start(bool line = false) {
+        ++run_;
+        line_ = line;
+        touched_.clear();
+        heap_.clear();
+    }
+
+    // A source inside a facet; `source` tells it from others.
+    void seed(std::int32_t face, Vec3 point, std::int32_t source) {
+        for (std::int32_t v : mesh_->face(face)) lower(v, {norm(mesh_->at(v) - point), source, point - mesh_->at(v)});
+    }
+
+    void seed_vertex(std::int32_t vertex, std::int32_t source) { lower(vertex, {0.0, source, {}}); }
+
+    // Spread what was seeded since the last run, through every facet that comes within the limit.
+    void run(double limit) {
+        while (!heap_.empty()) {
+            const auto [distance, vertex] = heap_.front();
+            std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
+            heap_.pop_back();
+            Label& label = labels_[std::size_t(vertex)];
+            if (distance > label.distance || label.turns >= most_turns) continue;
+            ++label.turns;
+            for (std::int32_t f : mesh_->adjacency.around(vertex)) spread(f, vertex, limit);
+        }
+    }
+
+    double distance(std::int32_t vertex) const {
+        const Label& label = labels_[std::size_t(vertex)];
+        return label.run == run_ ? label.distance : unreached;
+    }
+
+    // Of a facet's centroid, by its corners: not for the facet that holds the source.
+    double centroid_distance(std::int32_t f) const {
+        const Triangle& t = mesh_->face(f);
+        const Vec3 centre = mesh_->centroid(f);
+        double best = unreached;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::int32_t a = t[c], b = t[(c + 1) % 3];
+            if (distance(a) == unreached) continue;
+            best = std::min(best, distance(a) + norm(centre - mesh_->at(a)));
+            if (distance(b) != unreached) best = std::min(best, across(a, b, centre, unreached).distance);
+        }
+        return best;
+    }
+
+    bool centroid_within(std::int32_t f, double radius) const {
+        const Triangle& t = mesh_->face(f);
+        // The distance from one source is convex: at the centroid it is at most the corners' mean.
+        const bool one_source = label(t[0]).source == label(t[1]).source && label(t[1]).source == label(t[2]).source;
+        if (one_source && distance(t[0]) + distance(t[1]) + distance(t[2]) <= 3.0 * radius) return true;
+        return centroid_distance(f) <= radius;
+    }
+
+    // Vertices whose label was set or lowered since they were last taken; possibly several times.
+    const std::vector<std::int32_t>& touched() const { return touched_; }
+    void forget_touched() { touched_.clear(); }
+
+    // Calls visit(facet) once for each facet around the touched vertices.
+    template <class Visit>
+    void each_touched_facet(Visit visit) {
+        ++sweep_;
+        for (std::int32_t v : touched_)
+            for (std::int32_t f : mesh_->adjacency.around(v)) {
+                if (seen_[std::size_t(f)] == sweep_) continue;
+                seen_[std::size_t(f)] = sweep_;
+                visit(f);
+            }
+    }
+
+private:
+    // Improvements below this share of the distance are rounding. A vertex takes its turn about twice on a
+    // bad mesh; the bound on turns ends what labels that contradict each other could start.
+    static constexpr double rounding = 1e-9;
+    static constexpr std::uint32_t most_turns = 64;
+
+    // Among sources that are closer together than corners, a corner's own may label no corner around it. The
+    // line to it then passes beside the edge, over a neighbour: let it, as far as so many edges.
+    static constexpr double slack = 1.0;
+
+    struct Label {
+        double distance = unreached;
+        std::int32_t source = 0;
+        std::uint32_t turns = 0;
+        std::uint64_t run = 0;
+        Vec3 way;  // to the source, as if the surface went on flat from here
+    };
+
+    struct Arrival {
+        double distance;
+        std::int32_t source;
+        Vec3 way;
+    };
+
+    // An edge a-b and a target beside it, in coordinates of their plane: a is the origin, b lies along x, the
+    // target has y > 0 and a source y < 0. x is in lengths of a-b, y squared.
+    struct Plane {
+        Vec3 ab, at;
+        double length2, x, y2;
+
+        Plane(Vec3 a, Vec3 b, Vec3 target) : ab(b - a), at(target - a), length2(norm2(ab)) {
+            x = dot(at, ab) / length2;
+            y2 = std::max(0.0, norm2(at) - x * x * length2);
+        }
+    };
+
+    const Label& label(std::int32_t v) const { return labels_[std::size_t(v)]; }
+
+    void lower(std::int32_t vertex, const Arrival& arrival) {
+        Label& label = labels_[std::size_t(vertex)];
+        if (label.run != run_) label = {unreached, 0, 0, run_, {}};
+        if (!(arrival.distance < label.distance)) return;
+        if (label.distance != unreached && label.distance - arrival.distance <= rounding * label.distance) return;
+        label.distance = arrival.distance;
+        label.source = arrival.source;
+        label.way = arrival.way;
+        touched_.push_back(vertex);
+        heap_.emplace_back(arrival.distance, vertex);
+        std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
+    }
+
+    void spread(std::int32_t f, std::int32_t from, double limit) {
+        const Triangle& t = mesh_->face(f);
+        const std::size_t c = t[0] == from ? 0 : t[1] == from ? 1 : 2;
+        const std::int32_t b = t[(c + 1) % 3], d = t[(c + 2) % 3];
+        reach(d, from, b, limit);
+        reach(b, from, d, limit);
+    }
+
+    // Lower `target` by what comes over the edge from `a`, which has a label, to `b`, which may.
+    void reach(std::int32_t target, std::int32_t a, std::int32_t b, double limit) {
+        Arrival best{distance(target), 0, {}};
+        bool better = false;
+        // What is at least as near as the nearest point of the edge cannot gain.
+        if (const Label& from = label(a); from.distance <= limit && from.distance < best.distance) {
+            const Vec3 step = mesh_->at(a) - mesh_->at(target);
+            if (const double end = from.distance + norm(step); end < best.distance) {
+                best = {end, from.source, end / norm(step) * step};
+                better = true;
+            }
+        }
+        if (distance(b) != unreached) {
+            const Arrival arrival = across(a, b, mesh_->at(target), best.distance, limit);
+            if (arrival.distance < best.distance) {
+                best = arrival;
+                better = true;
+            }
+        }
+        if (better) lower(target, best);
+    }
+
+    // What arrives at `target` over the edge a-b: too late (unreached) where the straight line misses the
+    // edge, where the edge is beyond the limit, and where it comes after `known`.
+    Arrival across(std::int32_t a, std::int32_t b, Vec3 target, double known, double limit = unreached) const {
+        const Label &la = label(a), &lb = label(b);
+        const Plane plane(mesh_->at(a), mesh_->at(b), target);
+        if (la.source == lb.source) return circular_wave(plane, la, lb, known, limit);
+        Arrival best = from_one(plane, la, 0.0, known, limit);
+        if (const Arrival other = from_one(plane, lb, 1.0, known, limit); other.distance < best.distance) best = other;
+        if (line_)
+            if (const Arrival row = plane_wave(plane, la, lb, limit); row.distance < best.distance) best = row;
+        return best;
+    }
+
+    static Arrival circular_wave(const Plane& p, const Label& a, const Label& b, double known, double limit) {
+        const double da2 = a.distance * a.distance, db2 = b.distance * b.distance;
+        const double sx = 0.5 * ((da2 - db2) / p.length2 + 1.0);
+        const double sy2 = std::max(0.0, da2 - sx * sx * p.length2);
+        const double nearest2 = 0.0 <= sx && sx <= 1.0 ? sy2 : std::min(da2, db2);
+        if (!(nearest2 <= limit * limit) || nearest2 >= known * known) return {unreached, a.source, {}};
+        return from_source(p, sx, sy2, known, a.source, 0.0);
+    }
+
+    // The same where only one end's label is of this source: from its way, turned into the plane.
+    static Arrival from_one(const Plane& p, const Label& end, double end_x, double known, double limit) {
+        const Arrival none{unreached, end.source, {}};
+        if (!(end.distance <= limit) || end.distance >= known) return none;
+        const double along = dot(end.way, p.ab) / p.length2, y = std::sqrt(p.y2);
+        const Vec3 up = p.at - p.x * p.ab;  // of length y
+        const double aside = y > 0.0 ? dot(end.way, up) / y : 0.0;
+        const double flat2 = along * along * p.length2 + aside * aside, d2 = end.distance * end.distance;
+        // Not from the target's side, and not bent so much that the direction is lost.
+        if (aside > 0.0 || flat2 < 0.5 * d2) return none;
+        const double stretch = flat2 > 0.0 ? std::sqrt(d2 / flat2) : 1.0;
+        const double sy = stretch * aside;
+        return from_source(p, end_x + stretch * along, sy * sy, known, end.source, slack);
+    }
+
+    // From a source at (sx, -sy), if the line passes the edge's ends by at most `beyond` edges and it is sooner
+    // than `known`. Comparisons are made between squares: this is the innermost loop.
+    static Arrival from_source(const Plane& p, double sx, double sy2, double known, std::int32_t source,
+                               double beyond) {
+        const Arrival none{unreached, source, {}};
+        const double far = 1.0 + beyond;
+        if (!beside(beyond + sx, p.y2, beyond + p.x, sy2) || !beside(far - sx, p.y2, far - p.x, sy2)) return none;
+        const double cross = std::sqrt(p.y2 * sy2), dx = p.x - sx;
+        const double d2 = dx * dx * p.length2 + p.y2 + sy2 + 2.0 * cross;
+        if (!(d2 < known * known)) return none;
+        const double down = p.y2 > 0.0 ? 1.0 + cross / p.y2 : 0.0;  // (y + sy) / y
+        return {std::sqrt(d2), source, -(dx * p.ab + down * (p.at - p.x * p.ab))};
+    }
+
+    // Whether p sqrt(q2) + r sqrt(s2) >= 0, which is on which side of an edge's end a straight line passes.
+    static bool beside(double p, double q2, double r, double s2) {
+        if (p >= 0.0 && r >= 0.0) return true;
+        if (p < 0.0 && r < 0.0) return false;
+        const double first = p * p * q2, second = r * r * s2;
+        return p >= 0.0 ? first >= second : second >= first;
+    }
+
+    // From the line between the sources of both ends.
+    static Arrival plane_wave(const Plane& p, const Label& a, const Label& b, double limit) {
+        const Arrival none{unreached, a.source, {}};
+        const double e = std::sqrt(p.length2), gx = (b.distance - a.distance) / e;
+        if (!(std::fabs(gx) < 1.0) || std::min(a.distance, b.distance) > limit || !(p.y2 > 0.0)) return none;
+        const double x = p.x * e, y = std::sqrt(p.y2), gy = std::sqrt(1.0 - gx * gx), foot = x - y * gx / gy;
+        if (!(0.0 <= foot && foot <= e)) return none;
+        const double d = a.distance + gx * x + gy * y;
+        const Vec3 way = -d * (gx / e * p.ab + gy / y * (p.at - p.x * p.ab));
+        return {d, 2.0 * foot < e ? a.source : b.source, way};
+    }
+
+    const Mesh* mesh_;
+    std::vector<Label> labels_;
+    std::vector<std::pair<double, std::int32_t>> heap_;
+    std::vector<std::int32_t> touched_;
+    std::vector<std::uint64_t> seen_;
+    std::uint64_t run_ = 0, sweep_ = 0;
+    bool line_ = false;
+};
+
+}  // namespace contactbench

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -114,14 +114,15 @@ def measure_health(
     MeshHealth
         In O(m log m); about 0.5 s for a million facets.
     """
-    uses, balance = _edges(faces, len(vertices))
+    edges = edge_table(faces, len(vertices))
+    uses, balance = edges.uses, edges.balance
     # An even number of facets round an edge must run along it equally often in both directions.
     consistent = bool(np.all(np.abs(balance)[uses > 1] <= (uses % 2)[uses > 1]))
     return MeshHealth(
         watertight=bool(np.all(uses == 2)),
         winding_consistent=consistent,
         outward=_outward(vertices, faces) if consistent else None,
-        components=_components(faces, len(vertices)),
+        components=int(label_parts(faces, len(vertices)).max()) + 1,
         boundary_edges=int(np.count_nonzero(uses == 1)),
         nonmanifold_edges=int(np.count_nonzero(uses > 2)),
         duplicate_facets=_duplicates(faces, len(vertices)),
@@ -129,10 +130,42 @@ def measure_health(
     )
 
 
-def _edges(
-    faces: npt.NDArray[np.int32], vertex_count: int
-) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
-    """Per undirected edge: how many facets use it, and uses in one direction minus uses in the other."""
+class EdgeTable(NamedTuple):
+    """
+    Every edge of a mesh once.
+
+    Attributes
+    ----------
+    low, high : (e,) int64
+        Its vertices, the lower index first; edges are in ascending order of both.
+    uses : (e,) int64
+        How many facets have it.
+    balance : (e,) int64
+        Uses from low to high minus uses from high to low.
+    """
+
+    low: npt.NDArray[np.int64]
+    high: npt.NDArray[np.int64]
+    uses: npt.NDArray[np.int64]
+    balance: npt.NDArray[np.int64]
+
+
+def edge_table(faces: npt.NDArray[np.int32], vertex_count: int) -> EdgeTable:
+    """
+    List the edges of a mesh.
+
+    Parameters
+    ----------
+    faces : (m, 3) int32
+        Indices in range, no index twice in a row.
+    vertex_count : int
+        Above the highest index.
+
+    Returns
+    -------
+    EdgeTable
+        In O(m log m).
+    """
     start = faces.T.astype(np.int64)
     end = np.roll(start, -1, axis=0)
     # One integer per directed edge, direction in the lowest bit: a plain sort then groups the edges,
@@ -142,10 +175,26 @@ def _edges(
     first = np.flatnonzero(np.diff(key >> 1, prepend=-1))
     uses = np.diff(first, append=len(key))
     forward = np.add.reduceat(key & 1, first)
-    return uses, 2 * forward - uses
+    low, high = np.divmod(key[first] >> 1, vertex_count)
+    return EdgeTable(low, high, uses, 2 * forward - uses)
 
 
-def _components(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
+def label_parts(faces: npt.NDArray[np.int32], vertex_count: int) -> npt.NDArray[np.int64]:
+    """
+    Label the separate parts of a mesh; facets that share a vertex belong to the same part.
+
+    Parameters
+    ----------
+    faces : (m, 3) int32
+        At least one facet, indices in range.
+    vertex_count : int
+        Above the highest index.
+
+    Returns
+    -------
+    (m,) int64
+        The part of each facet: 0, 1, ..., none left out.
+    """
     rows = np.concatenate((faces[:, 0], faces[:, 1]))
     columns = np.concatenate((faces[:, 1], faces[:, 2]))
     links = coo_array(
@@ -155,7 +204,8 @@ def _components(faces: npt.NDArray[np.int32], vertex_count: int) -> int:
     # Vertices that no facet uses are parts of their own in the graph, but not in the mesh.
     used = np.zeros(len(label), dtype=bool)
     used[label[faces[:, 0]]] = True
-    return int(np.count_nonzero(used))
+    number = np.cumsum(used, dtype=np.int64) - 1
+    return number[label[faces[:, 0]]]
 
 
 def _duplicates(faces: npt.NDArray[np.int32], vertex_count: int) -> int:

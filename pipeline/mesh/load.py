@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import stat
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
@@ -12,11 +13,14 @@ import numpy as np
 from pipeline.mesh.clean import merge_vertices
 from pipeline.mesh.errors import MeshError, MeshWarning
 from pipeline.mesh.obj import read_obj
+from pipeline.mesh.off import read_off
+from pipeline.mesh.parse import refuse_too_many
 from pipeline.mesh.ply import read_ply
 from pipeline.mesh.probe import (
     Probe,
     build_probe,
     check_faces,
+    check_invented,
     check_region,
     check_vertices,
     degenerate_facets,
@@ -24,6 +28,8 @@ from pipeline.mesh.probe import (
     refuse_size,
 )
 from pipeline.mesh.stl import read_stl
+from pipeline.mesh.threemf import read_threemf
+from pipeline.mesh.units import LIKELY_M, METRES, NAMES, UnitGuess, Units, guess_units, in_metres, notes_in
 
 if TYPE_CHECKING:
     import os
@@ -33,14 +39,6 @@ if TYPE_CHECKING:
 
     from pipeline.mesh.parse import RawMesh
 
-Units = Literal["m", "cm", "mm", "in"]
-
-# Metres per unit as a fraction: 120 / 1000 is the float nearest to 0.12, 120 * 0.001 need not be.
-_METRES: dict[Units, tuple[int, int]] = {"m": (1, 1), "cm": (1, 100), "mm": (1, 1000), "in": (127, 5000)}
-
-# A probe is between these for the sake of guessing which unit was meant.
-_LIKELY_M = (0.03, 0.6)
-
 # The vertices of one corner differ by float32 rounding between facets, 6e-8 of the coordinate.
 _MERGE = 1e-7
 
@@ -49,20 +47,42 @@ _DROPPABLE = 0.01
 
 _RIGID = 1e-6
 _FARTHEST_MOUNT_M = 10.0
-_LARGEST_FILE = 2**30
+_LARGEST_FILE = 2**29
 
-_READERS: dict[str, Callable[[bytes], RawMesh]] = {".stl": read_stl, ".ply": read_ply, ".obj": read_obj}
+_READERS: dict[str, Callable[[bytes], RawMesh]] = {
+    ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
+}  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class MeshFile:
+    """
+    A mesh file, read but not converted.
+
+    Attributes
+    ----------
+    raw : RawMesh
+        What it holds, with vertices that are finite and facets whose indices are in range.
+    guess : UnitGuess or None
+        What its numbers are, where that was to be found out.
+    units : {"mm", "m", "cm", "in"}
+        The unit to use.
+    """
+
+    raw: RawMesh
+    guess: UnitGuess | None
+    units: Units
 
 
 def load_probe(
     path: str | os.PathLike[str],
-    units: Units = "mm",
+    units: Units | Literal["auto"] = "mm",
     mount: npt.ArrayLike | None = None,
     *,
     name: str | None = None,
 ) -> Probe:
     """
-    Read a probe from an STL (binary or text), PLY or OBJ file.
+    Read a probe from an STL (binary or text), PLY, OBJ, OFF or 3MF file.
 
     Vertices that coincide within 1e-7 of the size are merged, those that no facet uses are left out, and so
     are facets without area as long as they are at most 1 % of all. A file written by `save_probe` is taken
@@ -72,8 +92,10 @@ def load_probe(
     ----------
     path : str or path
         The file; its suffix says the format.
-    units : {"mm", "m", "cm", "in"}
-        What the file's numbers are. Files do not say; most CAD programs write millimetres.
+    units : {"mm", "m", "cm", "in", "auto"}
+        What the file's numbers are. Most files do not say; most CAD programs write millimetres. "auto" guesses
+        from the size and the file's comments, and warns where that is not certain. A 3MF file states its unit,
+        which is used.
     mount : (4, 4) array_like, optional
         T_SP, the rigid transform from the mesh's frame P to the sensor frame S, translation in metres:
         p_S = T_SP @ p_P, after the units are converted. Left out, P is taken to be S.
@@ -89,23 +111,80 @@ def load_probe(
     ------
     MeshError
         The file is missing, not a complete mesh, or holds bad numbers; the size is under 5 mm or over 2 m
-        with these units; more than 1 % of the facets have no area; the mount is not rigid. The message names
-        the file.
+        with these units, or with all of them; the file states other units than given; more than 1 % of the
+        facets have no area; the mount is not rigid. The message names the file.
+
+    Notes
+    -----
+    What a file can make this allocate is bounded, see `pipeline.mesh.parse`: files over 512 MiB and more than
+    four million facets are refused.
     """
-    if units not in get_args(Units):
-        raise MeshError(f"units={units!r} is not known: pass one of 'm', 'cm', 'mm', 'in'.")
     T_SP = None if mount is None else _rigid(mount)
     file = Path(path)
+    read = read_mesh(file, units)
     try:
-        probe = _settle(_read(file), units, T_SP, file.stem if name is None else name)
+        probe = settle(read, T_SP, file.stem if name is None else name)
     except MeshError as error:
         raise MeshError(f"{file}: {error}") from error
-    if probe.health.sentences:
-        warnings.warn(f"{file}: " + " ".join(probe.health.sentences), MeshWarning, stacklevel=2)
+    doubt = () if read.guess is None or read.guess.certain else (read.guess.reason,)
+    sentences = (*doubt, *probe.health.sentences)
+    if sentences:
+        warnings.warn(f"{file}: " + " ".join(sentences), MeshWarning, stacklevel=2)
     return probe
 
 
-def _read(file: Path) -> RawMesh:
+def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "mm") -> MeshFile:
+    """
+    Read a mesh file and settle what unit its numbers are in, before anything is merged or left out.
+
+    Parameters
+    ----------
+    path : str or path
+        The file; its suffix says the format.
+    units : {"mm", "m", "cm", "in", "auto"}
+        See `load_probe`.
+
+    Returns
+    -------
+    MeshFile
+
+    Raises
+    ------
+    MeshError
+        As `load_probe`, except that facets without area and the size are not looked at. The message names the
+        file.
+    """
+    if units not in (*get_args(Units), "auto"):
+        raise MeshError(f"units={units!r} is not known: pass one of 'm', 'cm', 'mm', 'in', 'auto'.")
+    file = Path(path)
+    try:
+        raw, notes = _read(file)
+        vertices = check_vertices(raw.vertices)
+        check_faces(raw.faces, len(vertices))
+        return _with_units(raw, notes, units)
+    except MeshError as error:
+        raise MeshError(f"{file}: {error}") from error
+
+
+def _with_units(raw: RawMesh, notes: bytes, units: Units | Literal["auto"]) -> MeshFile:
+    if raw.stated is not None and units not in (raw.stated, "auto", "mm"):
+        raise MeshError(
+            f"the file states that its numbers are {NAMES[raw.stated]}, but units={units!r} was given: pass"
+            f" {raw.stated!r} or 'auto'."
+        )
+    if units != "auto" and raw.stated is None:
+        return MeshFile(raw, None, units)
+    used = raw.vertices[raw.faces.ravel()]
+    guess = guess_units(
+        float(np.ptp(used, axis=0).max()),
+        notes=notes,
+        farthest=float(np.abs(used).max()),
+        stated=raw.stated,
+    )
+    return MeshFile(raw, guess, guess.units)
+
+
+def _read(file: Path) -> tuple[RawMesh, bytes]:
     try:
         status = file.stat()
     except FileNotFoundError:
@@ -113,16 +192,19 @@ def _read(file: Path) -> RawMesh:
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise MeshError(f"the file cannot be reached ({error}): check the path.") from error
     _check_file(status.st_mode, status.st_size)
-    reader = _READERS.get(file.suffix.lower())
+    suffix = file.suffix.lower()
+    reader = _READERS.get(suffix)
     if reader is None:
         raise MeshError(
-            f"the suffix {file.suffix!r} is not one of .stl, .ply, .obj: export the part as one of them."
+            f"the suffix {file.suffix!r} is not one of {', '.join(_READERS)}: export the part as one of them."
         )
     try:
         data = file.read_bytes()
     except OSError as error:
         raise MeshError(f"the file cannot be read ({error}): check its permissions.") from error
-    return reader(data)
+    raw = reader(data)
+    refuse_too_many(len(raw.faces))
+    return raw, notes_in(data, suffix)
 
 
 def _check_file(mode: int, size: int) -> None:
@@ -133,7 +215,7 @@ def _check_file(mode: int, size: int) -> None:
     if size == 0:
         raise MeshError("the file is empty: copy or export it again.")
     if size > _LARGEST_FILE:
-        raise MeshError(f"the file has {size} bytes, more than 1 GiB: export the part with fewer facets.")
+        raise MeshError(f"the file has {size} bytes, more than 512 MiB: export the part with fewer facets.")
 
 
 def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -163,24 +245,48 @@ def _rigid(mount: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return T_SP
 
 
-def _settle(raw: RawMesh, units: Units, T_SP: npt.NDArray[np.float64] | None, name: str) -> Probe:
-    """Check, convert, merge, clean and move what a file holds."""
+def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> Probe:
+    """
+    Check, convert, merge, clean and move what a file holds.
+
+    Parameters
+    ----------
+    read : MeshFile
+        From `read_mesh`.
+    T_SP : (4, 4) float64 or None
+        Rigid, metres.
+    name : str
+        For people.
+
+    Returns
+    -------
+    Probe
+
+    Raises
+    ------
+    MeshError
+        The size is that of no probe, or more than 1 % of the facets have no area.
+    """
+    raw = read.raw
     vertices = check_vertices(raw.vertices)
     faces = check_faces(raw.faces, len(vertices))
     region = check_region(raw.region, len(faces))
-    _check_units(extent(vertices, faces), units)
-    numerator, denominator = _METRES[units]
+    invented = check_invented(raw.invented, len(faces))
+    _check_units(extent(vertices, faces), read.units)
+    numerator, denominator = METRES[read.units]
     vertices = vertices * numerator / denominator
     if not raw.settled:
         vertices, faces = merge_vertices(vertices, faces, _MERGE * extent(vertices, faces))
     moved = vertices if T_SP is None else vertices @ T_SP[:3, :3].T + T_SP[:3, 3]
     # Moving rounds: a facet that is flat in the file may not be flat after it, and the other way round.
-    flat = degenerate_facets(vertices, faces) | degenerate_facets(moved, faces)
+    flat = degenerate_facets(vertices, faces)
+    if T_SP is not None:
+        flat |= degenerate_facets(moved, faces)
     dropped = int(np.count_nonzero(flat))
     _refuse_many(dropped, len(faces))
     if dropped:
-        faces, region = faces[~flat], region[~flat]
-    return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped)
+        faces, region, invented = faces[~flat], region[~flat], invented[~flat]
+    return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped, invented)
 
 
 def _refuse_many(dropped: int, total: int) -> None:
@@ -192,19 +298,11 @@ def _refuse_many(dropped: int, total: int) -> None:
 
 
 def _check_units(size: float, units: Units) -> None:
-    def metres(unit: Units) -> float:
-        numerator, denominator = _METRES[unit]
-        return size * numerator / denominator
-
     def remedy(_: bool) -> str:
-        low, high = _LIKELY_M
-        likely = sorted(
-            (unit for unit in _METRES if unit != units and low <= metres(unit) <= high),
-            key=("mm", "m", "cm", "in").index,
-        )
+        low, high = LIKELY_M
+        likely = [unit for unit in NAMES if unit != units and low <= in_metres(size, unit) <= high]
         if not likely:
             return f"with units={units!r} that cannot be a probe. Check the part that was exported."
-        names = {"mm": "millimetres", "m": "metres", "cm": "centimetres", "in": "inches"}
-        return f"did the file hold {names[likely[0]]}? pass units={likely[0]!r} instead of {units!r}."
+        return f"did the file hold {NAMES[likely[0]]}? pass units={likely[0]!r} instead of {units!r}."
 
-    refuse_size(metres(units), remedy)
+    refuse_size(in_metres(size, units), remedy)

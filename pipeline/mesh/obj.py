@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import re
-from itertools import pairwise
+from array import array
 
 from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, parse
+from pipeline.mesh.parse import NUMBER, RawMesh, Triangles, points
 
-_POSITION = re.compile(rb"v" + (rb"\s+" + NUMBER) * 3 + rb"(?!\S)")
+_POSITION = re.compile(rb"v" + (rb"\s+(" + NUMBER + rb")") * 3 + rb"(?!\S)")
 _CORNER = re.compile(rb"([+-]?\d{1,18})(?:/[^\s/]*){0,2}")
 
 
@@ -33,35 +34,31 @@ def read_obj(data: bytes) -> RawMesh:
     MeshError
         No facets, a vertex that is not three numbers, or a facet that refers to a vertex that does not exist.
     """
-    positions: list[bytes] = []
-    corners: list[tuple[int, int, int]] = []
-    where: list[int] = []
+    coordinates = array("d")
+    triangles = Triangles("OBJ")
     text = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n").replace(b"\\\n", b" ")
-    for number, raw in enumerate(text.split(b"\n"), start=1):
+    # A stream gives one line at a time; a list of short lines takes ten times their bytes.
+    for number, raw in enumerate(io.BytesIO(text), start=1):
         line = raw.partition(b"#")[0].strip()
         word = line[:2].rstrip()
         if word == b"v":
-            positions.append(_position(line, number))
+            coordinates.extend(map(float, _position(line, number)))
         elif word == b"f":
-            fan = _fan(line, number, len(positions))
-            corners.extend(fan)
-            where.extend([number] * len(fan))
-    if not corners:
-        raise MeshError("the OBJ text holds no facets ('f' lines): export the part again, as a surface.")
-    _refuse_missing(corners, where, len(positions))
-    return _parse(positions, corners)
+            triangles.add(_polygon(line, number, len(coordinates) // 3), number)
+    faces = triangles.finish(len(coordinates) // 3)
+    return RawMesh(points(coordinates), faces)
 
 
-def _position(line: bytes, number: int) -> bytes:
+def _position(line: bytes, number: int) -> tuple[bytes, ...]:
     match = _POSITION.match(line)
     if match is None:
         raise MeshError(
             f"line {number} of the OBJ text is a vertex without three numbers: export the file again."
         )
-    return match.group()
+    return match.groups()
 
 
-def _fan(line: bytes, number: int, vertices_so_far: int) -> list[tuple[int, int, int]]:
+def _polygon(line: bytes, number: int, vertices_so_far: int) -> list[int]:
     matches = [_CORNER.fullmatch(token) for token in line.split()[1:]]
     polygon = [int(match.group(1)) for match in matches if match]
     if len(polygon) != len(matches) or len(polygon) < 3 or 0 in polygon:
@@ -69,21 +66,5 @@ def _fan(line: bytes, number: int, vertices_so_far: int) -> list[tuple[int, int,
             f"line {number} of the OBJ text is a facet that does not list three or more vertices, counted"
             " from 1: repair that line or export the file again."
         )
-    # A negative index counts back from the vertex read last; trimesh counts from the end of the file instead.
-    absolute = [index if index > 0 else vertices_so_far + 1 + index for index in polygon]
-    return [(absolute[0], *pair) for pair in pairwise(absolute[1:])]
-
-
-def _refuse_missing(corners: list[tuple[int, int, int]], where: list[int], vertex_count: int) -> None:
-    for triangle, number in zip(corners, where, strict=True):
-        if min(triangle) < 1 or max(triangle) > vertex_count:
-            raise MeshError(
-                f"line {number} of the OBJ text is a facet that refers to a vertex that is not there (the"
-                f" file has {vertex_count}): it is damaged or cut short, export it again."
-            )
-
-
-def _parse(positions: list[bytes], corners: list[tuple[int, int, int]]) -> RawMesh:
-    # Names, groups and texture indices change how trimesh orders and splits a mesh: it sees none of them.
-    facets = [b"f %d %d %d" % triangle for triangle in corners]
-    return parse(b"\n".join((*positions, *facets)) + b"\n", "obj", len(corners))
+    # A negative index counts back from the vertex read last, not from the end of the file.
+    return [index - 1 if index > 0 else vertices_so_far + index for index in polygon]

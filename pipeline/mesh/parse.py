@@ -1,27 +1,30 @@
 """
-The one place that calls trimesh, and the bare mesh that every file format ends as.
+What the readers share: the bare mesh that every format ends as, numbers in text, polygons, and the limits.
 
-trimesh reads generously: of a file that is cut short or garbled it may return a part, or numbers that are not
-there. So each format's module (`stl`, `obj`, `ply`) checks the structure of the bytes first and hands trimesh
-only the geometry, in a form with one reading; `parse` then compares the number of facets.
+A reader checks the structure of the bytes before it takes numbers from them, and holds no more than a small
+multiple of the file in memory: numbers go to compact arrays as they are read, and counting stops at a limit.
 """
 
 from __future__ import annotations
 
-import io
+from array import array
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
-# What trimesh's STL, OBJ and PLY readers raise on content they cannot use: numpy's conversion and reshape
-# errors, missing fields, indices beyond an array, and counts too large for a C integer.
-UNREADABLE = (ValueError, TypeError, KeyError, IndexError, OverflowError)
+    from pipeline.mesh.units import Units
+
+# Four times what the whole chain is meant for. A polygon of a text file turns two bytes into a facet, so the
+# file's size alone does not bound the memory that its facets take.
+LARGEST_FACETS = 4_000_000
 
 # No two parts can match the same text, so that a megabyte of digits or spaces costs no more than a megabyte.
 NUMBER = rb"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|(?i:nan|inf(?:inity)?))"
@@ -42,52 +45,95 @@ class RawMesh:
         Priority per facet, where the file holds one.
     settled : bool
         Written by `save_probe`: merged and cleaned already, to be taken as it is.
+    invented : (m,) int64 or None
+        1 for facets that the original did not hold, where the file says so.
+    stated : {"mm", "m", "cm", "in"} or None
+        The unit of the numbers, of a format that must state it.
     """
 
     vertices: npt.NDArray[np.float64]
     faces: npt.NDArray[np.int64]
     region: npt.NDArray[np.int64] | None = None
     settled: bool = False
+    invented: npt.NDArray[np.int64] | None = None
+    stated: Units | None = None
 
 
-def run_trimesh(data: bytes, file_type: str) -> Any:
+class Triangles:
     """
-    Read bytes with trimesh, without its processing and without any file they may refer to.
+    The polygons of a text, as fans of triangles, each with the line it stands on.
 
-    Raises
-    ------
-    MeshError
-        trimesh cannot use them.
+    Parameters
+    ----------
+    kind : str
+        The format's name, for messages.
     """
-    # Costs 0.6 s, which a command that reads no mesh should not pay.
-    import trimesh
 
-    try:
-        # A signalling NaN warns when it is converted; it is refused, with its row, like every other NaN.
-        with np.errstate(invalid="ignore"):
-            return trimesh.load_mesh(
-                io.BytesIO(data), file_type=file_type, process=False, maintain_order=True, skip_materials=True
+    def __init__(self, kind: str) -> None:
+        self._kind = kind
+        self._corners = array("q")
+        self._lines = array("q")
+
+    def add(self, polygon: Sequence[int], line: int) -> None:
+        """
+        Add one polygon of three or more vertices, counted from 0.
+
+        Raises
+        ------
+        MeshError
+            There are too many facets now.
+        """
+        self._corners.extend(fan(polygon))
+        self._lines.extend([line] * (len(polygon) - 2))
+        refuse_too_many(len(self._lines))
+
+    def finish(self, vertex_count: int) -> npt.NDArray[np.int64]:
+        """
+        Give the (m, 3) triangles, all of whose vertices are there.
+
+        Raises
+        ------
+        MeshError
+            No facets, or one refers to a vertex that the file does not have; the message names its line.
+        """
+        if not self._lines:
+            raise MeshError(
+                f"the {self._kind} text holds no facets: export the part again, as a surface of triangles."
             )
-    except UNREADABLE as error:
-        raise MeshError(
-            f"this is not a readable {file_type.upper()} file ({error}). It may be damaged or cut short:"
-            " export it again, with triangles only."
-        ) from error
+        triangles = np.frombuffer(self._corners, dtype=np.int64).reshape(-1, 3)
+        missing = ((triangles < 0) | (triangles >= vertex_count)).any(axis=1)
+        if missing.any():
+            raise MeshError(
+                f"line {self._lines[int(np.argmax(missing))]} of the {self._kind} text is a facet that refers"
+                f" to a vertex that is not there (the file has {vertex_count}): it is damaged or cut short,"
+                " export it again."
+            )
+        return triangles
 
 
-def parse(data: bytes, file_type: str, facet_count: int) -> RawMesh:
+def fan(polygon: Sequence[int]) -> list[int]:
+    """Split a polygon of three or more vertices into triangles about its first, three numbers for each."""
+    flat = [polygon[0]] * (3 * (len(polygon) - 2))
+    flat[1::3], flat[2::3] = polygon[1:-1], polygon[2:]
+    return flat
+
+
+def points(coordinates: array[float]) -> npt.NDArray[np.float64]:
+    """View a flat array of coordinates as (n, 3) points, without a copy."""
+    return np.frombuffer(coordinates, dtype=np.float64).reshape(-1, 3)
+
+
+def refuse_too_many(facet_count: int) -> None:
     """
-    Read bytes that hold triangles only, and insist on their number.
+    Refuse a number of facets whose arrays could fill the memory.
 
     Raises
     ------
     MeshError
-        trimesh cannot use them, or found another number of facets.
+        More than four million.
     """
-    mesh = run_trimesh(data, file_type)
-    faces = np.asarray(mesh.faces, dtype=np.int64)
-    if faces.shape != (facet_count, 3):
+    if facet_count > LARGEST_FACETS:
         raise MeshError(
-            f"{len(faces)} of {facet_count} facets could be read: the file is damaged, export it again."
+            f"the file holds more than {LARGEST_FACETS} facets: export the part with fewer, a tolerance of"
+            " 0.01 mm is finer than any probe needs."
         )
-    return RawMesh(np.asarray(mesh.vertices, dtype=np.float64), faces)

@@ -48,6 +48,8 @@ class Probe:
         Vertex indices, counter-clockwise seen from outside, read-only.
     region : (m,) int32
         Priority per facet: 0 no region, 1 the first priority, 2 the next, and so on; read-only.
+    invented : (m,) bool
+        Facets that close an opening about which the file says nothing: a touch there rests on a guess; read-only.
     name : str
         For people.
     health : MeshHealth
@@ -57,6 +59,7 @@ class Probe:
     vertices: npt.NDArray[np.float64]
     faces: npt.NDArray[np.int32]
     region: npt.NDArray[np.int32]
+    invented: npt.NDArray[np.bool_]
     name: str
     health: MeshHealth
 
@@ -67,6 +70,7 @@ class Probe:
         faces: npt.ArrayLike,
         region: npt.ArrayLike | None = None,
         *,
+        invented: npt.ArrayLike | None = None,
         name: str = "probe",
         check_size: bool = True,
     ) -> Probe:
@@ -81,6 +85,8 @@ class Probe:
             Vertex indices, counter-clockwise seen from outside.
         region : (m,) array_like of integers, optional
             Priority per facet, 0 for none; all 0 when left out.
+        invented : (m,) array_like of bool or 0 and 1, optional
+            Facets that the file did not hold; none when left out.
         name : str
             For people.
         check_size : bool
@@ -94,15 +100,17 @@ class Probe:
         ------
         MeshError
             Wrong shape or dtype, no facets, a coordinate that is not finite, an index out of range, a facet
-            that uses a vertex twice or has no area, a negative region, or an implausible size.
+            that uses a vertex twice or has no area, a negative region, an `invented` other than 0 or 1, or an
+            implausible size.
         """
         vertices = check_vertices(vertices_m)
         triangles = check_faces(faces, len(vertices))
         priorities = check_region(region, len(triangles))
+        guessed = check_invented(invented, len(triangles))
         _refuse_degenerate(vertices, triangles)
         if check_size:
             refuse_size(extent(vertices, triangles), _array_remedy)
-        return build_probe(vertices, triangles, priorities, name)
+        return build_probe(vertices, triangles, priorities, name, invented=guessed)
 
     def with_region(self, region: npt.ArrayLike) -> Probe:
         """
@@ -123,6 +131,25 @@ class Probe:
             Wrong length or dtype, or a negative region.
         """
         return replace(self, region=_frozen(check_region(region, len(self.faces))))
+
+    def with_invented(self, invented: npt.ArrayLike) -> Probe:
+        """
+        Give the same surface other marks of what was made up; vertices and faces are shared, not copied.
+
+        Parameters
+        ----------
+        invented : (m,) array_like of bool
+
+        Returns
+        -------
+        Probe
+
+        Raises
+        ------
+        MeshError
+            Wrong length or content.
+        """
+        return replace(self, invented=_frozen(check_invented(invented, len(self.faces))))
 
     @cached_property
     def normals(self) -> npt.NDArray[np.float64]:
@@ -153,10 +180,13 @@ def build_probe(
     region: npt.NDArray[np.int32],
     name: str,
     dropped_facets: int = 0,
+    invented: npt.NDArray[np.bool_] | None = None,
 ) -> Probe:
     """Make a probe of arrays that have passed every check and belong to nobody else: they are frozen here."""
     health = measure_health(vertices, faces, dropped_facets)
-    return Probe(_frozen(vertices), _frozen(faces), _frozen(region), name, health)
+    if invented is None:
+        invented = np.zeros(len(faces), dtype=bool)
+    return Probe(_frozen(vertices), _frozen(faces), _frozen(region), _frozen(invented), name, health)
 
 
 def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:
@@ -246,6 +276,29 @@ def check_region(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArray[
             f"region: row {row} is {array[row]}: use 0 for no region, 1 for the first priority, and so on."
         )
     return np.array(array, dtype=np.int32, order="C")
+
+
+def check_invented(values: npt.ArrayLike | None, facet_count: int) -> npt.NDArray[np.bool_]:
+    """
+    Copy marks to (m,) bool; all False for None.
+
+    Raises
+    ------
+    MeshError
+        Not one bool, or 0 or 1, per facet.
+    """
+    if values is None:
+        return np.zeros(facet_count, dtype=bool)
+    array = _as_array(values, "invented", "marks")
+    if array.shape != (facet_count,) or array.dtype.kind not in "biu":
+        raise MeshError(
+            f"invented must be one 0 or 1 for each of the {facet_count} facets, not {array.dtype} of shape"
+            f" {array.shape}."
+        )
+    if array.dtype.kind != "b" and not np.isin(array, (0, 1)).all():
+        row = int(np.argmax(~np.isin(array, (0, 1))))
+        raise MeshError(f"invented: row {row} is {array[row]}: use 1 for a facet that was made up, else 0.")
+    return np.array(array, dtype=bool, order="C")
 
 
 def degenerate_facets(

@@ -1,18 +1,27 @@
-"""STL, binary and text: what trimesh would misread is refused first."""
+"""STL, binary and text: facets that each bring their own three corners."""
 
 from __future__ import annotations
 
 import re
+from array import array
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, parse
+from pipeline.mesh.parse import NUMBER, RawMesh, points, refuse_too_many
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 _HEADER, _RECORD = 84, 50
 
-_VERTEX = rb"vertex[ \t]+" + NUMBER + (rb"[ \t]+" + NUMBER) * 2 + rb"[ \t]*\n\s*"
+# Normal and attribute bytes are left alone: the corners alone say what the facet is.
+_FACET_RECORD = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+_VERTEX = rb"vertex" + (rb"[ \t]+(" + NUMBER + rb")") * 3 + rb"[ \t]*\n\s*"
 _FACET = re.compile(
-    rb"facet\b[^\n]*\n\s*outer[ \t]+loop[ \t]*\n\s*((?:" + _VERTEX + rb"){3})endloop[ \t]*\n\s*endfacet\b",
-    re.I,
+    rb"facet\b[^\n]*\n\s*outer[ \t]+loop[ \t]*\n\s*" + _VERTEX * 3 + rb"endloop[ \t]*\n\s*endfacet\b", re.I
 )
 _SOLID = re.compile(rb"^[ \t]*solid\b", re.I | re.M)
 _ENDSOLID = re.compile(rb"^[ \t]*endsolid\b", re.I | re.M)
@@ -51,7 +60,16 @@ def read_stl(data: bytes) -> RawMesh:
 def _read_binary(data: bytes, facet_count: int) -> RawMesh:
     if facet_count == 0:
         raise MeshError("the STL file holds no facets: export the part again.")
-    return parse(data, "stl", facet_count)
+    refuse_too_many(facet_count)
+    corners = np.frombuffer(data, dtype=_FACET_RECORD, offset=_HEADER)["corners"]
+    # A signalling NaN warns when it is converted; it is refused, with its row, like every other NaN.
+    with np.errstate(invalid="ignore"):
+        vertices = corners.reshape(-1, 3).astype(np.float64)
+    return RawMesh(vertices, _own_corners(facet_count))
+
+
+def _own_corners(facet_count: int) -> npt.NDArray[np.int64]:
+    return np.arange(3 * facet_count, dtype=np.int64).reshape(-1, 3)
 
 
 def _broken_binary(data: bytes) -> MeshError:
@@ -70,17 +88,19 @@ def _broken_binary(data: bytes) -> MeshError:
 
 def _read_text(data: bytes) -> RawMesh:
     text = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    starts, ends = len(_SOLID.findall(text)), len(_ENDSOLID.findall(text))
+    starts, ends = (sum(1 for _ in word.finditer(text)) for word in (_SOLID, _ENDSOLID))
     if ends < starts:
         raise MeshError("the STL text ends before 'endsolid': it is cut short, copy or export it again.")
-    facets = len(_FACET_KEYWORD.findall(text))
+    facets = sum(1 for _ in _FACET_KEYWORD.finditer(text))
     if not facets:
         raise MeshError("the STL text holds no facets: export the part again.")
-    loops = _FACET.findall(text)
-    if len(loops) != facets:
+    refuse_too_many(facets)
+    coordinates = array("d")
+    for facet in _FACET.finditer(text):
+        coordinates.extend(map(float, facet.groups()))
+    if len(coordinates) != 9 * facets:
         raise _broken_facet(text)
-    # trimesh looks for the words of the format inside the names of solids too, so it gets none of them.
-    return parse(b"solid\n" + b"".join(loops) + b"endsolid\n", "stl", len(loops))
+    return RawMesh(points(coordinates), _own_corners(facets))
 
 
 def _broken_facet(text: bytes) -> MeshError:

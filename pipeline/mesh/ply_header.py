@@ -1,0 +1,186 @@
+"""The header of a PLY file: which elements follow, how many rows of which properties each."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from pipeline.mesh.errors import MeshError
+
+# `save_probe` writes it; merging or cleaning such a mesh again could renumber what a session refers to.
+SETTLED = "contactbench probe 1"
+
+INDICES = "vertex_indices"
+
+INTEGERS = {
+    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
+    "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "int64": "i8", "uint64": "u8",
+}  # fmt: skip
+KINDS = INTEGERS | {"float16": "f2", "float": "f4", "float32": "f4", "double": "f8", "float64": "f8"}
+
+ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+_END = re.compile(rb"^end_header[ \t]*\r?\n", re.M)
+# Real headers take a few hundred bytes; one of megabytes is no header.
+_LONGEST = 2**16
+
+
+@dataclass(frozen=True)
+class Property:
+    """
+    One column of an element.
+
+    Attributes
+    ----------
+    name : str
+    kind : str
+        Type of its numbers, as PLY names it.
+    count_kind : str or None
+        Type of the number that says how many follow, of a list.
+    """
+
+    name: str
+    kind: str
+    count_kind: str | None = None
+
+    @property
+    def fewest_bytes(self) -> int:
+        """What a row of it takes at least, in a binary body."""
+        return int(KINDS[self.count_kind or self.kind][1:])
+
+
+@dataclass(frozen=True)
+class Element:
+    """Rows of the same properties; a facet's indices go by one name, whichever of two the file uses."""
+
+    name: str
+    count: int
+    properties: tuple[Property, ...]
+
+
+@dataclass(frozen=True)
+class Header:
+    """
+    What a PLY header announces.
+
+    Attributes
+    ----------
+    order : {"", "<", ">"}
+        Byte order of the body; empty for text.
+    elements : tuple of Element
+        Those with rows, in the order of the body.
+    settled : bool
+        Written by `save_probe`.
+    length : int
+        Bytes of the header; the body follows.
+    """
+
+    order: str
+    elements: tuple[Element, ...]
+    settled: bool
+    length: int
+
+    @property
+    def contents(self) -> str:
+        """What is announced, in words."""
+        return ", ".join(f"{element.count} rows of '{element.name}'" for element in self.elements)
+
+
+def read_header(data: bytes) -> Header:
+    """
+    Read and check the header of a PLY file.
+
+    Parameters
+    ----------
+    data : bytes
+        The whole file.
+
+    Returns
+    -------
+    Header
+        With vertices that have numbers x, y and z, and facets that have a list of indices.
+
+    Raises
+    ------
+    MeshError
+        Not a PLY header, or one without vertices or facets, or with properties of an unsuitable type.
+    """
+    if not re.match(rb"ply[ \t]*\r?\n", data):
+        raise MeshError(
+            "the first line is not 'ply': this is not a PLY file, choose another or export it again."
+        )
+    end = _END.search(data, 0, _LONGEST)
+    if end is None:
+        raise MeshError("the PLY header has no 'end_header' line: the file is cut short, export it again.")
+    lines = data[: end.start()].decode("latin-1").split("\n")[1:]
+    order, settled = None, False
+    elements: list[tuple[str, int, list[Property]]] = []
+    for number, line in enumerate(lines, start=2):
+        match line.split():
+            case ["format", kind, "1.0"] if kind in ORDERS:
+                order = ORDERS[kind]
+            case ["element", name, count] if re.fullmatch("[0-9]{1,18}", count):
+                elements.append((name, int(count), []))
+            case ["property", *rest] if elements and (found := _property(rest, elements[-1][0])):
+                elements[-1][2].append(found)
+            case ["comment" | "obj_info", *words]:
+                settled = settled or " ".join(words) == SETTLED
+            case []:
+                pass
+            case _:
+                raise MeshError(
+                    f"line {number} of the PLY header, {line[:60]!r}, cannot be used: export the file again."
+                )
+    if order is None:
+        raise MeshError("the PLY header has no 'format' line: the file is damaged, export it again.")
+    # Elements without rows take no bytes.
+    rows = tuple(Element(name, count, tuple(columns)) for name, count, columns in elements if count)
+    _check(rows)
+    return Header(order, rows, settled, end.end())
+
+
+def _property(words: list[str], element: str) -> Property | None:
+    match words:
+        case ["list", count_kind, kind, name] if count_kind in INTEGERS and kind in KINDS:
+            same = element == "face" and name in (INDICES, "vertex_index")
+            return Property(INDICES if same else name, kind, count_kind)
+        case [kind, name] if kind in KINDS:
+            return Property(name, kind)
+        case _:
+            return None
+
+
+def _check(elements: tuple[Element, ...]) -> None:
+    """Refuse a header without vertices and facets, or with properties of an unsuitable type."""
+    for element in elements:
+        names = {prop.name for prop in element.properties}
+        if not names or len(names) != len(element.properties):
+            raise MeshError(
+                f"the PLY element '{element.name}' has no property, or one twice: export the file again."
+            )
+    found = {element.name: {p.name: p for p in element.properties} for element in elements}
+    if len(found) != len(elements):
+        raise MeshError("the PLY header names an element twice: export the file again.")
+    for axis in "xyz":
+        prop = found.get("vertex", {}).get(axis)
+        if prop is None or prop.count_kind:
+            raise MeshError(
+                f"the PLY file holds no vertices with a number '{axis}': export it again as a mesh."
+            )
+    facets = found.get("face", {})
+    corners = facets.get(INDICES) or facets.get("vertex_index")
+    if corners is None:
+        raise MeshError("the PLY file holds no facets (a point cloud?): export it again as a surface.")
+    if not corners.count_kind or corners.kind not in INTEGERS:
+        raise MeshError("the PLY property 'vertex_indices' is not a list of integers: export the file again.")
+    for name in ("region", "invented"):
+        _check_label(facets.get(name))
+
+
+def _check_label(prop: Property | None) -> None:
+    if prop is not None and (prop.count_kind or prop.kind not in INTEGERS):
+        use = "0 for no region, 1 for the first priority" if prop.name == "region" else "0 or 1"
+        raise MeshError(
+            f"the PLY face property '{prop.name}' is {'a list' if prop.count_kind else prop.kind}: save it as"
+            f" int, {use}."
+        )

@@ -1,0 +1,174 @@
+"""3MF files: placed parts, units, and archives made to do harm."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+
+import numpy as np
+import pytest
+
+from pipeline.mesh import MeshError, MeshWarning, load_probe
+from pipeline.mesh.parse import LARGEST_FACETS
+
+CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+MESH = (
+    "<mesh><vertices>"
+    + "".join(
+        f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in [(0, 0, 0), (50, 0, 0), (0, 50, 0), (0, 0, 50)]
+    )
+    + "</vertices><triangles>"
+    + "".join(
+        f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    )
+    + "</triangles></mesh>"
+)
+OBJECT = f'<object id="1" type="model">{MESH}</object>'
+
+
+def model(objects: str = OBJECT, items: str = '<item objectid="1"/>', attributes: str = "") -> str:
+    return (
+        f'<?xml version="1.0"?><model {attributes} xmlns="{CORE}" xmlns:p="http://example.org/production">'
+        f"<resources>{objects}</resources><build>{items}</build></model>"
+    )
+
+
+def packed(text: str | bytes, name: str = "3D/3dmodel.model", how: int = zipfile.ZIP_DEFLATED) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", how) as archive:
+        archive.writestr("[Content_Types].xml", "<Types/>")
+        archive.writestr(name, text)
+    return out.getvalue()
+
+
+def refuse(path, message: str, **options) -> None:
+    with pytest.raises(MeshError, match=message) as caught:
+        load_probe(path, **options)
+    assert str(path) in str(caught.value)
+
+
+def test_a_part(write):
+    probe = load_probe(write("a.3mf", packed(model())))
+    assert (len(probe.faces), probe.size) == (4, 0.05)
+    assert probe.health.sentences == ()
+
+
+@pytest.mark.parametrize(
+    ("unit", "metres"),
+    [
+        ("millimeter", 0.05),
+        ("centimeter", 0.5),
+        ("inch", 1.27),
+        ("micron", None),
+        ("meter", None),
+        ("foot", None),
+    ],
+)
+@pytest.mark.parametrize("units", ["auto", "mm"])
+def test_the_stated_unit_is_used(write, unit, metres, units):
+    path = write("a.3mf", packed(model(attributes=f'unit="{unit}"')))
+    if metres is None:
+        refuse(path, "the probe is .* mm long", units=units)
+    else:
+        assert load_probe(path, units).size == pytest.approx(metres)
+
+
+def test_another_unit_than_stated_is_refused(write):
+    path = write("a.3mf", packed(model(attributes='unit="inch"')))
+    refuse(
+        path, "states that its numbers are inches, but units='cm' was given: pass 'in' or 'auto'", units="cm"
+    )
+
+
+def test_parts_are_placed_by_components_and_items(write):
+    # The component shifts by 100 in x, then the item turns x into y and shifts by 7 in z.
+    objects = OBJECT + (
+        '<object id="2"><components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 100 0 0"/>'
+        "</components></object>"
+    )
+    items = '<item objectid="2" transform="0 1 0 -1 0 0 0 0 1 0 0 7"/>'
+    probe = load_probe(write("a.3mf", packed(model(objects, items))))
+    np.testing.assert_allclose(probe.bounds * 1000, [[-50, 100, 7], [0, 150, 57]], atol=1e-9)
+    assert probe.health.outward is True
+
+
+def test_a_mirrored_part_keeps_its_outside(write):
+    items = '<item objectid="1" transform="-1 0 0 0 1 0 0 0 1 0 0 0"/>'
+    probe = load_probe(write("a.3mf", packed(model(items=items))))
+    assert probe.health.outward is True
+    assert probe.bounds[0, 0] == pytest.approx(-0.05)
+
+
+def test_only_what_the_build_lists_is_there(write):
+    items = '<item objectid="1"/><item objectid="1" transform="1 0 0 0 1 0 0 0 1 200 0 0"/>'
+    with pytest.warns(MeshWarning, match="2 separate parts"):
+        assert len(load_probe(write("a.3mf", packed(model(items=items)))).faces) == 8
+    refuse(write("b.3mf", packed(model(items=""))), "builds no triangles")
+
+
+def test_elements_of_other_namespaces_are_left_alone(write):
+    odd = OBJECT.replace("<vertices>", '<vertices><p:vertex x="hello"/>')
+    assert len(load_probe(write("a.3mf", packed(model(odd)))).faces) == 4
+
+
+def test_names_may_be_in_another_case(write):
+    assert len(load_probe(write("a.3mf", packed(model(), "/3d/3DModel.MODEL"))).faces) == 4
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"hello", "not a readable 3MF archive"),
+        (packed(model())[:-30], "not a readable 3MF archive"),
+        (packed(model(), "other.model"), "holds no 3D/3dmodel.model"),
+        (packed(model(), how=zipfile.ZIP_BZIP2), "encrypted or packed in an unusual way"),
+        (packed(model()[:-20]), "not sound XML"),
+        (packed(model().replace("<build>", "<build>&nosuch;")), "not sound XML"),
+        (packed(model(attributes='unit="cubit"')), "unknown unit 'cubit'"),
+        (packed(model().replace('x="50"', 'x="fifty"')), "a <vertex> of the 3MF model holds no number"),
+        (packed(model().replace('x="50"', 'x="nan"')), "is not a finite point"),
+        (packed(model().replace('x="50"', "")), "a <vertex> of the 3MF model has no 'x'"),
+        (packed(model().replace('v1="1"', 'v1="4"')), "refers to a vertex that is not there"),
+        (packed(model().replace('v1="1"', 'v1="-1"')), "refers to a vertex that is not there"),
+        (
+            packed(model().replace('v1="1"', f'v1="{10**30}"')),
+            "a <triangle> of the 3MF model holds no number",
+        ),
+        (packed(model(items='<item objectid="9"/>')), "places the object '9', which it does not hold"),
+        (packed(model(items='<item objectid="1" transform="1 0 0"/>')), "not twelve finite numbers"),
+        (
+            packed(model(items='<item objectid="1" transform="1 0 0 0 1 0 0 0 1 0 0 inf"/>')),
+            "not twelve finite",
+        ),
+        (
+            packed(model(items='<item objectid="1" p:path="/3D/other.model"/>')),
+            "split over several model files",
+        ),
+        (packed("<!DOCTYPE a [<!ENTITY b 'c'>]>" + model().partition("?>")[2]), "declares a document type"),
+    ],
+)
+def test_damaged_or_hostile(write, data, message):
+    refuse(write("a.3mf", data), message)
+
+
+def test_an_archive_that_unpacks_to_far_more(write):
+    refuse(write("a.3mf", packed(model() + " " * 40_000_000)), "unpacks to far more than a model takes")
+
+
+def test_objects_that_hold_themselves_or_each_other_many_times(write):
+    loop = '<object id="1"><components><component objectid="1"/></components></object>'
+    refuse(write("a.3mf", packed(model(loop))), "nests or repeats its objects too often")
+    copies = "".join(
+        f'<object id="{i}"><components>{f"""<component objectid="{i + 1}"/>""" * 10}</components></object>'
+        for i in range(1, 8)
+    )
+    nested = copies + OBJECT.replace('id="1"', 'id="8"')
+    refuse(write("b.3mf", packed(model(nested))), "nests or repeats its objects too often")
+
+
+def test_copies_count_towards_the_limit_of_facets(write):
+    mesh = MESH.replace("</triangles>", '<triangle v1="0" v2="1" v3="2"/>' * 5000 + "</triangles>")
+    items = '<item objectid="1"/>' * (LARGEST_FACETS // 5000)
+    refuse(
+        write("a.3mf", packed(model(f'<object id="1">{mesh}</object>', items))), "more than 4000000 facets"
+    )

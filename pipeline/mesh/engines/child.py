@@ -1,0 +1,318 @@
+"""One mesh library's child process, seen from the parent: started late, kept warm, killed without harm."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from dataclasses import dataclass
+from typing import IO, TYPE_CHECKING, BinaryIO, cast
+
+from pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
+from pipeline.mesh.engines.wire import Message, read_message, write_message
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pipeline.mesh.engines.operation import Library
+
+_WORKER = "pipeline.mesh.engines.worker"
+
+# How soon a cancel or a timeout is noticed, and how often the progress callback is given a sign of life.
+_POLL_S = 0.05
+
+# The libraries tell nothing while they work, so the only honest stages are these.
+_STARTED, _WORKING, _DONE = 0.0, 0.1, 1.0
+
+# What the child says goes into error messages; the end of it is where the reason stands.
+_LAST_WORDS = 300
+
+
+@dataclass(frozen=True)
+class Watch:
+    """
+    What the caller wants to know and say while an engine works; all in the caller's thread.
+
+    Attributes
+    ----------
+    progress : callable or None
+        Takes 0 at the start, 0.1 when the library begins, 1 when its result is here, and in between the last of
+        these again every 0.05 s as a sign of life: the libraries do not say how far they are.
+    cancelled : callable or None
+        Asked every 0.05 s whether to stop.
+    timeout_s : float or None
+        Longest time for one operation, with the child's start and without the wait for other threads.
+    """
+
+    progress: Callable[[float], None] | None = None
+    cancelled: Callable[[], bool] | None = None
+    timeout_s: float | None = None
+
+    def report(self, fraction: float) -> None:
+        """Tell the caller how far the work is."""
+        if self.progress is not None:
+            self.progress(fraction)
+
+    def check(self, library: Library) -> None:
+        """
+        Stop here when the caller wants to.
+
+        Raises
+        ------
+        Cancelled
+            The caller cancelled.
+        """
+        if self.cancelled is not None and self.cancelled():
+            raise Cancelled(f"{library}: cancelled")
+
+
+class _DiedIdleError(Exception):
+    """
+    A warm child was gone before it took up the call, which is therefore not what it died of.
+
+    A process that was just killed looks alive until its last thread has ended, so asking beforehand does not settle it.
+    """
+
+
+class Child:
+    """
+    A library's process; any thread may call, one call runs at a time.
+
+    Parameters
+    ----------
+    library : Library
+        Which library it runs.
+    """
+
+    def __init__(self, library: Library) -> None:
+        self.library = library
+        self._lock = threading.Lock()
+        self._process: subprocess.Popen[bytes] | None = None
+        self._ready = False
+        self._noise: IO[bytes] | None = None
+
+    @property
+    def pid(self) -> int | None:
+        """The child's process id, None while there is none."""
+        process = self._process
+        return None if process is None or process.poll() is not None else process.pid
+
+    def call(self, request: Message, watch: Watch) -> Message:
+        """
+        Send a call and wait for its result.
+
+        Raises
+        ------
+        Cancelled
+            The caller cancelled; the child was killed, the next call starts another.
+        EngineError
+            The library is missing, refused, crashed, or took too long.
+        """
+        self._acquire(watch)
+        try:
+            self._start()
+            try:
+                return self._exchange(request, watch)
+            except _DiedIdleError:
+                self._start()
+                return self._exchange(request, watch)
+        finally:
+            self._lock.release()
+
+    def stop(self) -> None:
+        """End the child; a call that another thread is in fails. The next call starts a new child."""
+        if self._lock.acquire(blocking=False):
+            try:
+                self._discard()
+            finally:
+                self._lock.release()
+        elif (process := self._process) is not None:
+            process.kill()
+
+    def forget(self) -> None:
+        """Drop the child without ending it: after a fork it belongs to the parent's parent."""
+        if self._process is not None:
+            for pipe in (self._process.stdin, self._process.stdout):
+                with contextlib.suppress(OSError):
+                    os.close(cast("BinaryIO", pipe).fileno())
+            # Popen would wait for a process that is not this one's child.
+            self._process.returncode = 0
+        self.__init__(self.library)  # type: ignore[misc]
+
+    def _acquire(self, watch: Watch) -> None:
+        watch.check(self.library)
+        while not self._lock.acquire(timeout=_POLL_S):
+            watch.report(_STARTED)
+            watch.check(self.library)
+
+    def _start(self) -> None:
+        if self.pid is not None:
+            return
+        self._discard()
+        # Appending: the file can be emptied here while the child keeps writing at its end.
+        self._noise = tempfile.TemporaryFile("a+b")  # noqa: SIM115 -- it lives as long as the child
+        try:
+            self._process = subprocess.Popen(  # noqa: S603 -- this Python and a module of ours
+                _command(self.library),
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=self._noise,
+                env=_environment(),
+                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+            )
+        except OSError as error:
+            self._discard()
+            raise EngineError(
+                f"{self.library} cannot be started ({error}): check that {sys.executable} can be run."
+            ) from error
+
+    def _exchange(self, request: Message, watch: Watch) -> Message:
+        process, noise = self._process, self._noise
+        if process is None or noise is None:
+            raise AssertionError("started before")
+        noise.truncate(0)
+        events: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
+        thread = threading.Thread(
+            target=_converse,
+            args=(process, request, events, self._ready),
+            name=str(self.library),
+            daemon=True,
+        )
+        thread.start()
+        try:
+            answer = self._wait(request, events, watch)
+        except BaseException:
+            # Whatever ended the wait, an answer to this call must not be read by the next one.
+            process.kill()
+            thread.join()
+            self._discard()
+            raise
+        thread.join()
+        if answer.kind == "failed":
+            raise EngineError(
+                f"{self.library} refused '{request.kind}': {answer.fields.get('reason', 'no reason given')}. "
+                "Repair the mesh first, or use another engine."
+            )
+        watch.report(_DONE)
+        return answer
+
+    def _wait(self, request: Message, events: queue.SimpleQueue[Message | None], watch: Watch) -> Message:
+        deadline = None if watch.timeout_s is None else time.monotonic() + watch.timeout_s
+        stage, warm = _STARTED, self._ready
+        while True:
+            watch.report(stage)
+            watch.check(self.library)
+            if deadline is not None and time.monotonic() > deadline:
+                raise EngineError(
+                    f"{self.library} took longer than {watch.timeout_s:g} s for '{request.kind}' and was stopped. "
+                    "Allow more time, or begin with fewer facets."
+                )
+            with contextlib.suppress(queue.Empty):
+                match events.get(timeout=_POLL_S):
+                    case Message(kind="done" | "failed") as answer:
+                        return answer
+                    case Message(kind="missing") as answer:
+                        raise self._missing(answer)
+                    case Message(kind="ready"):
+                        self._ready = True
+                    case Message(kind="working"):
+                        stage = _WORKING
+                    case _ if warm and stage == _STARTED:
+                        raise _DiedIdleError
+                    case _:
+                        raise self._death(request)
+
+    def _missing(self, answer: Message) -> EngineError:
+        return EngineError(
+            f"{self.library} cannot be loaded ({answer.fields.get('reason')}): install it with"
+            f" {self.library.install}."
+        )
+
+    def _death(self, request: Message) -> EngineError:
+        process = self._process
+        if process is None:
+            raise AssertionError("it died, so it was there")
+        try:
+            code = process.wait(timeout=1)
+        except subprocess.TimeoutExpired:
+            how = "gave an answer that makes no sense"
+        else:
+            how = f"died ({_cause(code)})"
+        facets = len(request.arrays["faces"]) if "faces" in request.arrays else 0
+        return EngineError(
+            f"{self.library} {how} on '{request.kind}' of {facets} facets; nothing else was harmed.{self._last_words()}"
+            " Facets without area, duplicates and holes are the usual reason: repair the mesh first, or use"
+            " another engine."
+        )
+
+    def _last_words(self) -> str:
+        if self._noise is None:
+            return ""
+        self._noise.seek(0)
+        lines = self._noise.read()[-_LAST_WORDS:].decode(errors="replace").split("\n")
+        words = next((line.strip() for line in reversed(lines) if line.strip()), "")
+        return f" Its last words: {words}." if words else ""
+
+    def _discard(self) -> None:
+        process, noise = self._process, self._noise
+        self._process, self._noise, self._ready = None, None, False
+        if process is not None:
+            process.kill()
+            process.wait()
+            for pipe in (process.stdin, process.stdout):
+                # Closing flushes, which a dead child's pipe refuses.
+                with contextlib.suppress(OSError):
+                    cast("BinaryIO", pipe).close()
+        if noise is not None:
+            noise.close()
+
+
+def _converse(
+    process: subprocess.Popen[bytes],
+    request: Message,
+    events: queue.SimpleQueue[Message | None],
+    ready: bool,
+) -> None:
+    """Write the call and read what comes, in a thread of its own: the caller can then leave at any time."""
+    results = cast("BinaryIO", process.stdout)
+    with contextlib.suppress(OSError, ValueError, WireError, MemoryError):
+        if not ready:
+            events.put(greeting := read_message(results))
+            if greeting is None or greeting.kind != "ready":
+                return
+        write_message(cast("BinaryIO", process.stdin), request)
+        while (message := read_message(results)) is not None:
+            events.put(message)
+            if message.kind in ("done", "failed"):
+                return
+    events.put(None)
+
+
+def _command(library: Library) -> list[str]:
+    if getattr(sys, "frozen", False):
+        # A bundled application is its own Python; its entry point calls worker.serve_if_asked.
+        return [sys.executable, _WORKER, str(library)]
+    # -P: a file called numpy.py in the current folder must not be imported.
+    return [sys.executable, "-P", "-m", _WORKER, str(library)]
+
+
+def _environment() -> dict[str, str]:
+    """Leave out what would lead the Qt inside pymeshlab to this program's plugins, and turn warnings fatal."""
+    return {
+        key: value
+        for key, value in os.environ.items()
+        if not key.startswith(("QT_", "QML")) and key != "PYTHONWARNINGS"
+    }
+
+
+def _cause(code: int) -> str:
+    if code >= 0:
+        return f"exit code {code}"
+    name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
+    return f"{name}, perhaps for want of memory" if name == "SIGKILL" else name

@@ -1,0 +1,171 @@
+"""
+Messages between the program and its mesh engines: a JSON header, then the bytes of the arrays.
+
+A message is ``b"MESH"``, the header's length as an unsigned 32-bit little-endian integer, the header in
+UTF-8, and the arrays one after the other. The header is an object with ``kind``, ``fields`` (plain JSON
+values) and ``arrays`` (name, dtype and shape of each). Nothing is ever unpickled, and no length, dtype or
+shape is believed before it is checked, because the other side may have been corrupted by a bad mesh.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+
+from pipeline.mesh.engines.errors import WireError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+_MAGIC = b"MESH"
+_LONGEST_HEADER = 1 << 16
+_MOST_ARRAYS = 16
+_DTYPES: dict[str, np.dtype[Any]] = {text: np.dtype(text) for text in ("<f8", "<i4", "|u1")}
+
+# A hundred million facets; a length beyond it is a corrupt header, not a mesh.
+MOST_BYTES = 100_000_000 * 12
+
+
+@dataclass(frozen=True)
+class Message:
+    """
+    One message.
+
+    Attributes
+    ----------
+    kind : str
+        What it is: a call, its result, a failure, or a sign of life.
+    fields : dict
+        Plain values.
+    arrays : dict
+        float64, int32 or bool arrays of at most two dimensions; bool travels as bytes.
+    """
+
+    kind: str
+    fields: dict[str, Any] = field(default_factory=dict)
+    arrays: dict[str, npt.NDArray[Any]] = field(default_factory=dict)
+
+
+def write_message(stream: BinaryIO, message: Message) -> None:
+    """
+    Write a message and flush.
+
+    Raises
+    ------
+    WireError
+        An array of another dtype.
+    OSError, ValueError
+        The pipe is broken or closed.
+    """
+    arrays = {name: _portable(name, array) for name, array in message.arrays.items()}
+    header = {
+        "kind": message.kind,
+        "fields": message.fields,
+        "arrays": [[name, array.dtype.str, list(array.shape)] for name, array in arrays.items()],
+    }
+    text = json.dumps(header, allow_nan=False).encode()
+    stream.write(_MAGIC + len(text).to_bytes(4, "little") + text)
+    for array in arrays.values():
+        # An empty array has no bytes that could be cast.
+        if array.size:
+            stream.write(array.reshape(-1).view(np.uint8).data)
+    stream.flush()
+
+
+def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> Message | None:
+    """
+    Read a message.
+
+    Parameters
+    ----------
+    stream : binary stream
+        A pipe; it is read to the end of the message and no further.
+    most_bytes : int
+        Refuse arrays that together take more.
+
+    Returns
+    -------
+    Message or None
+        None when the stream ended before the message began.
+
+    Raises
+    ------
+    WireError
+        The bytes are no message, or it is cut short.
+    """
+    first = stream.read(1)
+    if not first:
+        return None
+    start = first + _exactly(stream, 7)
+    length = int.from_bytes(start[4:], "little")
+    if start[:4] != _MAGIC or not 0 < length <= _LONGEST_HEADER:
+        raise WireError("the bytes are not the start of a message")
+    kind, fields, layout = _parse_header(_exactly(stream, length))
+    total = sum(dtype.itemsize * math.prod(shape) for dtype, shape in layout.values())
+    if total > most_bytes:
+        raise WireError(f"the header announces {total} bytes, more than {most_bytes}")
+    arrays = {name: _read_array(stream, dtype, shape) for name, (dtype, shape) in layout.items()}
+    return Message(kind, fields, arrays)
+
+
+def _portable(name: str, array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    if array.dtype == np.bool_:
+        array = array.view(np.uint8)
+    if array.dtype.newbyteorder("<").str not in _DTYPES:
+        raise WireError(f"array {name!r} is {array.dtype}: send float64, int32 or bool")
+    return np.ascontiguousarray(array, dtype=array.dtype.newbyteorder("<"))
+
+
+def _parse_header(
+    text: bytes,
+) -> tuple[str, dict[str, Any], dict[str, tuple[np.dtype[Any], tuple[int, ...]]]]:
+    try:
+        header = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise WireError("the header is not JSON") from error
+    match header:
+        case {"kind": str(kind), "fields": dict(fields), "arrays": list(rows)} if len(rows) <= _MOST_ARRAYS:
+            return kind, fields, _layout(rows)
+    raise WireError("the header lacks its kind, fields or arrays")
+
+
+def _layout(rows: list[Any]) -> dict[str, tuple[np.dtype[Any], tuple[int, ...]]]:
+    layout: dict[str, tuple[np.dtype[Any], tuple[int, ...]]] = {}
+    for row in rows:
+        match row:
+            case [str(name), str(dtype), [*shape]] if dtype in _DTYPES and 1 <= len(shape) <= 2:
+                # bool is an int to Python, and True would pass for a length of 1.
+                if not all(type(length) is int and 0 <= length < 2**31 for length in shape):
+                    raise WireError(f"array {name!r} has an impossible shape")
+                layout[name] = (_DTYPES[dtype], tuple(shape))
+            case _:
+                raise WireError("the header describes an array wrongly")
+    if len(layout) != len(rows):
+        raise WireError("the header names an array twice")
+    return layout
+
+
+def _read_array(stream: BinaryIO, dtype: np.dtype[Any], shape: tuple[int, ...]) -> npt.NDArray[Any]:
+    array = np.empty(shape, dtype=dtype)
+    view = array.reshape(-1).view(np.uint8).data
+    done = 0
+    while done < len(view):
+        count = stream.readinto(view[done:])  # type: ignore[attr-defined]
+        if not count:
+            raise WireError("the message is cut short")
+        done += count
+    if dtype == np.uint8:
+        # Any byte but 0 and 1 would be a bool that equals neither.
+        return np.not_equal(array, 0)
+    return array.astype(dtype.newbyteorder("="), copy=False)
+
+
+def _exactly(stream: BinaryIO, count: int) -> bytes:
+    data = stream.read(count)
+    if len(data) != count:
+        raise WireError("the message is cut short")
+    return data

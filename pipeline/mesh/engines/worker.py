@@ -1,0 +1,160 @@
+"""
+The child process: reads calls from standard input, lets one mesh library do them, writes the results.
+
+``python -P -m pipeline.mesh.engines.worker meshlab``
+
+A crash, a leak or a lost state of the library ends or spoils this process only. The parent starts it,
+and it ends when its standard input does, which is when the parent goes, however it goes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import os
+import signal
+import sys
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from pipeline.mesh.engines.errors import WireError
+from pipeline.mesh.engines.libraries import REFUSALS, perform
+from pipeline.mesh.engines.operation import Library, Operation
+from pipeline.mesh.engines.wire import Message, read_message, write_message
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+MODULE = "pipeline.mesh.engines.worker"
+
+# Imported by name at run time: pymeshlab is GPL-3, and stays on this side of the process boundary, where
+# nothing but the messages of this package passes.
+_MODULES = {Library.FAST_SIMPLIFICATION: "fast_simplification", Library.MESHLAB: "pymeshlab"}
+
+
+def serve_if_asked(argv: Sequence[str]) -> None:
+    """
+    Become an engine when the command line says so, and never return then.
+
+    A bundled application has no Python to run a module with: the parent starts the application itself with
+    the same arguments. Its entry point calls this before anything else.
+
+    Parameters
+    ----------
+    argv : sequence of str
+        ``sys.argv``.
+    """
+    if len(argv) >= 2 and argv[-2] == MODULE:
+        sys.exit(main(argv[-1]))
+
+
+def main(library: str) -> int:
+    """
+    Serve calls until standard input ends.
+
+    Parameters
+    ----------
+    library : str
+        A `Library`.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
+    # Ctrl-C in a terminal reaches the whole group; the parent decides what it means.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    calls, results = _private_pipes()
+    _limit_resources()
+    name = Library(library)
+    try:
+        module = importlib.import_module(_MODULES[name])
+    except ImportError as error:
+        write_message(results, Message("missing", {"reason": str(error)}))
+        return 0
+    write_message(results, Message("ready"))
+    try:
+        while (call := read_message(calls)) is not None:
+            write_message(results, Message("working"))
+            with _ended_with_the_parent(calls.fileno()):
+                result = _answer(module, call)
+            write_message(results, result)
+    except (BrokenPipeError, WireError):
+        # The parent went away in the middle of a message; there is nobody left to tell.
+        return 1
+    return 0
+
+
+def _answer(module: Any, call: Message) -> Message:
+    try:
+        arrays = perform(module, Operation(call.kind), call.arrays, call.fields)
+    except MemoryError:
+        return Message("failed", {"reason": "it ran out of memory"})
+    except REFUSALS as error:
+        return Message("failed", {"reason": _in_one_line(error)})
+    # pymeshlab's own exception is known only through the module.
+    except getattr(module, "PyMeshLabException", RuntimeError) as error:
+        return Message("failed", {"reason": _in_one_line(error)})
+    return Message("done", arrays=arrays)
+
+
+def _in_one_line(error: BaseException) -> str:
+    return " ".join(str(error).split())[:1000]
+
+
+def _private_pipes() -> tuple[BinaryIO, BinaryIO]:
+    """Take standard input and output for messages: what the libraries print goes to standard error instead."""
+    calls = os.fdopen(os.dup(0), "rb")
+    results = os.fdopen(os.dup(1), "wb")
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
+    return calls, results
+
+
+@contextlib.contextmanager
+def _ended_with_the_parent(calls: int) -> Iterator[None]:
+    """
+    End this process at once when the parent goes while the library works.
+
+    The library holds the interpreter, so no thread of ours could watch. The kernel does: it sends SIGIO, which
+    ends a process that does not handle it, when the pipe's other end closes. (PR_SET_PDEATHSIG looks made for
+    this, but means the parent's *thread*: the engine would die with the worker thread that first used it.)
+    Where there is no such signal, the end comes after the operation.
+    """
+    if not hasattr(os, "O_ASYNC"):
+        yield
+        return
+    import fcntl
+    import select
+
+    flags = fcntl.fcntl(calls, fcntl.F_GETFL)
+    signal.signal(signal.SIGIO, signal.SIG_DFL)
+    fcntl.fcntl(calls, fcntl.F_SETOWN, os.getpid())
+    fcntl.fcntl(calls, fcntl.F_SETFL, flags | os.O_ASYNC)
+    try:
+        # The parent may have gone just before the kernel was asked.
+        if select.select([calls], [], [], 0)[0]:
+            raise BrokenPipeError
+        yield
+    finally:
+        fcntl.fcntl(calls, fcntl.F_SETFL, flags)
+
+
+def _limit_resources() -> None:
+    """Leave no core file of a crash, and fail for want of memory rather than make the machine swap."""
+    try:
+        import resource
+    except ImportError:
+        return
+    resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
+    machine = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    limit = machine if hard == resource.RLIM_INFINITY else min(machine, hard)
+    # Some systems have the limit but refuse to set it.
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1]))

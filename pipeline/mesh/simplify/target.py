@@ -1,0 +1,97 @@
+"""What a simplification is to reach."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pipeline.mesh.errors import MeshError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pipeline.mesh.probe import Probe
+
+# A tetrahedron; a closed surface has no fewer.
+FEWEST = 4
+
+
+@dataclass(frozen=True)
+class Count:
+    """
+    So many facets.
+
+    Attributes
+    ----------
+    facets : int
+        At least 4. A probe that has no more is left as it is.
+
+    Raises
+    ------
+    MeshError
+        Fewer than 4.
+    """
+
+    facets: int
+
+    def __post_init__(self) -> None:
+        if self.facets < FEWEST:
+            raise MeshError(
+                f"{self.facets} facets are asked for, but no closed surface has fewer than {FEWEST}: ask for more."
+            )
+
+
+@dataclass(frozen=True)
+class MaxDeviation:
+    """
+    The fewest facets found whose Hausdorff distance from the original is within a limit.
+
+    Attributes
+    ----------
+    metres : float
+        The limit, above 0.
+
+    Raises
+    ------
+    MeshError
+        Not a length above 0.
+    """
+
+    metres: float
+
+    def __post_init__(self) -> None:
+        _refuse_unless_positive(self.metres, "the largest deviation")
+
+
+@dataclass(frozen=True)
+class MaxError:
+    """
+    The fewest facets found whose error, by a measure of the caller's, is within a limit.
+
+    Attributes
+    ----------
+    measure : callable
+        Takes a simplified probe, returns its error; 0 or more, and on the whole smaller for more facets.
+    limit : float
+        In the measure's unit, above 0.
+
+    Raises
+    ------
+    MeshError
+        A limit that is not above 0.
+    """
+
+    measure: Callable[[Probe], float]
+    limit: float
+
+    def __post_init__(self) -> None:
+        _refuse_unless_positive(self.limit, "the largest error")
+
+
+Target = Count | MaxDeviation | MaxError
+
+
+def _refuse_unless_positive(value: float, what: str) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise MeshError(f"{what} is {value:g}: give a number above 0.")

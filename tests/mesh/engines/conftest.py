@@ -1,0 +1,28 @@
+"""A ball to work on, and engines that do not outlive the tests."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+import trimesh
+
+from pipeline.mesh import engines
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@pytest.fixture(scope="session")
+def ball() -> tuple[np.ndarray, np.ndarray]:
+    """A closed mesh of 1,280 facets, radius 50."""
+    mesh = trimesh.creation.icosphere(3, radius=50.0)
+    return np.array(mesh.vertices), np.array(mesh.faces, dtype=np.int32)
+
+
+@pytest.fixture(scope="package", autouse=True)
+def _stop() -> Iterator[None]:
+    yield
+    engines.stop_engines()
+    assert [engines.engine_pid(library) for library in engines.Library] == [None, None]

@@ -1,0 +1,180 @@
+"""What an inspection found, as numbers and as sentences."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from pipeline.mesh.health import MeshHealth
+    from pipeline.mesh.inspect.holes import Hole
+    from pipeline.mesh.inspect.parts import Part
+    from pipeline.mesh.inspect.shape import EdgeLengths, Slivers
+    from pipeline.mesh.inspect.visibility import Visibility
+    from pipeline.mesh.units import UnitGuess
+
+Level = Literal["fault", "doubt", "note"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """
+    One thing found.
+
+    Attributes
+    ----------
+    level : {"fault", "doubt", "note"}
+        A fault spoils contacts and has to be mended; a doubt is to be looked at; a note is to be known.
+    text : str
+        What it is, why it matters and what to do, in sentences.
+    """
+
+    level: Level
+    text: str
+
+
+@dataclass(frozen=True)
+class FileCounts:
+    """
+    What was in the file before vertices were merged.
+
+    Attributes
+    ----------
+    vertices : int
+    facets : int
+        Polygons as the triangles they were split into.
+    surplus_vertices : int
+        Merged into others, or used by no facet. An STL file holds every vertex about six times.
+    shared : bool
+        The format lets facets share vertices, so that surplus ones are a defect of the export.
+    """
+
+    vertices: int
+    facets: int
+    surplus_vertices: int
+    shared: bool
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """
+    All that is known about a mesh.
+
+    Attributes
+    ----------
+    name : str
+        For people.
+    vertices, facets : int
+        After merging and cleaning, where it came from a file.
+    file : FileCounts or None
+        None for a mesh that came as arrays.
+    unit : UnitGuess or None
+        How the file's unit was found out; None where it was given.
+    extents_m : (3,) tuple of float
+        Along the axes of the mesh's frame.
+    centre_m : (3,) tuple of float
+        Middle of the bounding box.
+    area_m2 : float
+    volume_m3 : float or None
+        Signed; None unless all parts are closed and their facets agree.
+    edges : EdgeLengths
+    health : MeshHealth
+    slivers : Slivers
+    back_to_back : int
+        Facets with the same three vertices as another, and the other winding.
+    coincident_vertices : int
+        Vertices beyond the first on exactly the same spot, not merged.
+    seam_vertices : int
+        Vertices of rims with a vertex of a rim right beside them: seams that only look closed.
+    self_intersections : int or None
+        Facets that cut through others; None where that was not checked.
+    not_checked : str or None
+        Why self-intersections were not checked.
+    hole_count : int
+    hole_perimeter_m : float
+        All rims together.
+    holes : tuple of Hole
+        The 100 with the longest rims, widest first.
+    part_count : int
+    parts : tuple of Part
+        The largest 200.
+    euler : int
+        V - E + F.
+    genus : int or None
+        Handles of all parts together; None for a surface that is open or not manifold.
+    visibility : Visibility
+    """
+
+    name: str
+    vertices: int
+    facets: int
+    file: FileCounts | None
+    unit: UnitGuess | None
+    extents_m: tuple[float, float, float]
+    centre_m: tuple[float, float, float]
+    area_m2: float
+    volume_m3: float | None
+    edges: EdgeLengths
+    health: MeshHealth
+    slivers: Slivers
+    back_to_back: int
+    coincident_vertices: int
+    seam_vertices: int
+    self_intersections: int | None
+    not_checked: str | None
+    hole_count: int
+    hole_perimeter_m: float
+    holes: tuple[Hole, ...]
+    part_count: int
+    parts: tuple[Part, ...]
+    euler: int
+    genus: int | None
+    visibility: Visibility
+
+    @property
+    def size_m(self) -> float:
+        """Largest extent in metres."""
+        return max(self.extents_m)
+
+    @property
+    def facts(self) -> tuple[str, ...]:
+        """Size, area, volume and counts, in sentences."""
+        from pipeline.mesh.inspect.words import facts
+
+        return facts(self)
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """What is wrong or worth knowing, faults first; empty when there is nothing."""
+        from pipeline.mesh.inspect.words import findings
+
+        return findings(self)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The texts of `findings`."""
+        return tuple(finding.text for finding in self.findings)
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing was found that spoils contacts."""
+        return not any(finding.level == "fault" for finding in self.findings)
+
+    def to_json(self) -> dict[str, Any]:
+        """Give all numbers, and the sentences, as plain data; a number that is not finite becomes None."""
+        content = _plain(asdict(self))
+        content["sound"] = self.sound
+        content["facts"] = list(self.facts)
+        content["findings"] = [asdict(finding) for finding in self.findings]
+        return dict(content)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [_plain(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

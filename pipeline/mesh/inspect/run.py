@@ -1,0 +1,226 @@
+"""Inspect a mesh file, a probe or arrays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from pipeline.mesh.engines import Cancelled
+from pipeline.mesh.errors import MeshError
+from pipeline.mesh.health import edge_table
+from pipeline.mesh.inspect.holes import count_seam_vertices, find_holes
+from pipeline.mesh.inspect.parts import find_parts, genus_of
+from pipeline.mesh.inspect.report import FileCounts, Inspection
+from pipeline.mesh.inspect.shape import count_back_to_back, count_coincident, measure_edges, measure_slivers
+from pipeline.mesh.inspect.visibility import SAMPLES, look
+from pipeline.mesh.load import read_mesh, settle
+from pipeline.mesh.probe import Probe
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+    from pipeline.mesh.units import UnitGuess, Units
+
+# Formats whose facets each bring their own vertices, so that surplus ones say nothing.
+_SOUP = frozenset({".stl"})
+
+
+def inspect(
+    source: str | os.PathLike[str] | Probe,
+    units: Units | Literal["auto"] = "auto",
+    *,
+    samples: int = SAMPLES,
+    intersections: bool = True,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Inspection:
+    """
+    Find out all about a mesh: sizes, defects, holes, parts, hidden and double walls.
+
+    Parameters
+    ----------
+    source : str, path or Probe
+        A mesh file that `load_probe` reads, or a probe.
+    units : {"mm", "m", "cm", "in", "auto"}
+        What the file's numbers are; a probe is in metres.
+    samples : int
+        Points from which it is looked whether the outside can be seen, about; at least 100.
+    intersections : bool
+        Whether to look for facets that cut through others, which takes the optional library pymeshlab.
+    progress : callable, optional
+        Told the share that is done, 0 to 1.
+    cancelled : callable, optional
+        Asked often; the inspection stops when it returns True.
+
+    Returns
+    -------
+    Inspection
+
+    Raises
+    ------
+    MeshError
+        The file cannot be read as a probe, see `load_probe`; the message names it.
+    Cancelled
+        As asked for.
+    """
+    if samples < 100:
+        raise MeshError(f"samples={samples} are too few to tell what is hidden: give at least 100.")
+    work = _Work(progress or (lambda _: None), cancelled or (lambda: False))
+    work.reach(0.0)
+    if isinstance(source, Probe):
+        return _inspect(source, None, None, samples, intersections, work)
+    file = Path(source)
+    read = read_mesh(file, units)
+    work.reach(0.1)
+    try:
+        probe = settle(read, None, file.stem)
+    except MeshError as error:
+        raise MeshError(f"{file}: {error}") from error
+    counts = FileCounts(
+        len(read.raw.vertices),
+        len(read.raw.faces),
+        len(read.raw.vertices) - len(probe.vertices),
+        file.suffix.lower() not in _SOUP,
+    )
+    return _inspect(probe, counts, read.guess, samples, intersections, work)
+
+
+def inspect_arrays(
+    vertices_m: npt.ArrayLike,
+    faces: npt.ArrayLike,
+    *,
+    name: str = "mesh",
+    samples: int = SAMPLES,
+    intersections: bool = True,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Inspection:
+    """
+    Find out all about a mesh given as arrays; a size that no probe has is not refused.
+
+    Parameters
+    ----------
+    vertices_m : (n, 3) array_like
+        Metres.
+    faces : (m, 3) array_like of integers
+        Vertex indices, counter-clockwise seen from outside.
+    name : str
+        For people.
+    samples, intersections, progress, cancelled
+        See `inspect`.
+
+    Returns
+    -------
+    Inspection
+
+    Raises
+    ------
+    MeshError
+        The arrays are no mesh, or facets have no area.
+    Cancelled
+        As asked for.
+    """
+    probe = Probe.from_arrays(vertices_m, faces, name=name, check_size=False)
+    return inspect(
+        probe, samples=samples, intersections=intersections, progress=progress, cancelled=cancelled
+    )
+
+
+class _Work:
+    """How far the work is, and whether to go on."""
+
+    def __init__(self, progress: Callable[[float], None], cancelled: Callable[[], bool]) -> None:
+        self._progress = progress
+        self.cancelled = cancelled
+
+    def reach(self, share: float) -> None:
+        if self.cancelled():
+            raise Cancelled("the inspection was cancelled")
+        self._progress(share)
+
+    def between(self, low: float, high: float) -> Callable[[float], None]:
+        return lambda share: self._progress(low + share * (high - low))
+
+
+def _inspect(
+    probe: Probe,
+    file: FileCounts | None,
+    unit: UnitGuess | None,
+    samples: int,
+    intersections: bool,
+    work: _Work,
+) -> Inspection:
+    vertices, faces = probe.vertices, probe.faces
+    work.reach(0.2)
+    edges = edge_table(faces, len(vertices))
+    hole_count, perimeter, holes = find_holes(vertices, edges)
+    work.reach(0.25)
+    parts = find_parts(vertices, faces, edges)
+    euler, genus = genus_of(vertices, faces, edges, parts.count)
+    work.reach(0.3)
+    slivers, lengths = measure_slivers(vertices, faces), measure_edges(vertices, edges)
+    seams = count_seam_vertices(vertices, edges)
+    back_to_back = count_back_to_back(faces, probe.health.duplicate_facets)
+    work.reach(0.4)
+    visibility, listed = look(
+        vertices, faces, parts, samples=samples, progress=work.between(0.4, 0.8), cancelled=work.cancelled
+    )
+    work.reach(0.8)
+    cutting, why = _self_intersections(vertices, faces, work) if intersections else (None, "it was left out.")
+    work.reach(1.0)
+    volumes = [part.volume_m3 for part in parts.listed]
+    x, y, z = np.ptp(probe.bounds, axis=0).tolist()
+    u, v, w = probe.bounds.mean(axis=0).tolist()
+    return Inspection(
+        name=probe.name,
+        vertices=len(vertices),
+        facets=len(faces),
+        file=file,
+        unit=unit,
+        extents_m=(x, y, z),
+        centre_m=(u, v, w),
+        area_m2=float(parts.area.sum()),
+        volume_m3=_volume(volumes) if parts.count == len(volumes) else None,
+        edges=lengths,
+        health=probe.health,
+        slivers=slivers,
+        back_to_back=back_to_back,
+        coincident_vertices=count_coincident(vertices, faces),
+        seam_vertices=seams,
+        self_intersections=cutting,
+        not_checked=why,
+        hole_count=hole_count,
+        hole_perimeter_m=perimeter,
+        holes=holes,
+        part_count=parts.count,
+        parts=listed,
+        euler=euler,
+        genus=genus,
+        visibility=visibility,
+    )
+
+
+def _volume(volumes: list[float | None]) -> float | None:
+    known = [volume for volume in volumes if volume is not None]
+    return float(sum(known)) if len(known) == len(volumes) else None
+
+
+def _self_intersections(
+    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], work: _Work
+) -> tuple[int | None, str | None]:
+    """Count facets that cut through others, or say why that was not checked."""
+    # The library is optional and runs in a child process: only an inspection that asks for it pays for it.
+    from pipeline.mesh.engines import EngineError, self_intersections
+
+    try:
+        cutting = self_intersections(
+            vertices, faces, progress=work.between(0.8, 1.0), cancelled=work.cancelled
+        )
+    except EngineError as error:
+        return None, str(error)
+    return int(np.count_nonzero(cutting)), None

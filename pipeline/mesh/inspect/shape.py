@@ -1,0 +1,124 @@
+"""Facets by shape: slivers, edge lengths, and facets that stand back to back or vertices on one spot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from pipeline.mesh.health import EdgeTable
+
+# Below it the normal of a facet from a float32 file is uncertain by degrees once the facet is small.
+SLIVER_DEG = 1.0
+
+
+@dataclass(frozen=True)
+class Slivers:
+    """
+    Facets much longer than they are high.
+
+    Attributes
+    ----------
+    count : int
+        With an angle under 1 degree.
+    smallest_angle_deg : float
+        Of all facets.
+    worst_aspect : float
+        Greatest ratio of the longest edge to the height over it; 1.15 in an equilateral facet.
+    """
+
+    count: int
+    smallest_angle_deg: float
+    worst_aspect: float
+
+
+@dataclass(frozen=True)
+class EdgeLengths:
+    """Lengths of all edges, each counted once, in metres."""
+
+    shortest_m: float
+    median_m: float
+    mean_m: float
+    longest_m: float
+
+
+def measure_slivers(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> Slivers:
+    """
+    Measure the facets' angles and aspect ratios.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Any unit.
+    faces : (m, 3) int32
+        With an area.
+    """
+    corners = vertices[faces]
+    sides = np.roll(corners, -1, axis=1) - corners
+    square = np.sort(np.einsum("ijk,ijk->ij", sides, sides), axis=1)
+    double_area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    # The smallest angle lies between the two longest sides.
+    sine = double_area / np.sqrt(square[:, 1] * square[:, 2])
+    angle = np.degrees(np.arcsin(np.minimum(sine, 1.0)))
+    return Slivers(
+        int(np.count_nonzero(angle < SLIVER_DEG)),
+        float(angle.min()),
+        float((square[:, 2] / double_area).max()),
+    )
+
+
+def measure_edges(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> EdgeLengths:
+    """
+    Measure the edges of a mesh.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Metres.
+    edges : EdgeTable
+        Of the mesh.
+    """
+    length = np.linalg.norm(vertices[edges.low] - vertices[edges.high], axis=1)
+    return EdgeLengths(
+        float(length.min()), float(np.median(length)), float(length.mean()), float(length.max())
+    )
+
+
+def count_back_to_back(faces: npt.NDArray[np.int32], duplicates: int) -> int:
+    """
+    Count facets beyond the first with the same three vertices and the other winding.
+
+    Parameters
+    ----------
+    faces : (m, 3) int32
+        Indices.
+    duplicates : int
+        Facets beyond the first with the same three vertices and the same winding.
+    """
+    a, b, c = np.sort(faces, axis=1).T
+    order = np.lexsort((c, b, a))
+    same = [np.diff(axis[order]) == 0 for axis in (a, b, c)]
+    return int(np.count_nonzero(same[0] & same[1] & same[2])) - duplicates
+
+
+def count_coincident(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> int:
+    """
+    Count used vertices beyond the first on exactly the same spot.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Any unit.
+    faces : (m, 3) int32
+        Indices in range.
+    """
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
+    x, y, z = vertices[used].T
+    order = np.lexsort((z, y, x))
+    same = [np.diff(axis[order]) == 0 for axis in (x, y, z)]
+    return int(np.count_nonzero(same[0] & same[1] & same[2]))

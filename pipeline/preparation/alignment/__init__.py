@@ -1,0 +1,45 @@
+"""Where the probe's mesh lies in the sensor frame: typed, by points, by the flange, by its shape, by touches."""
+
+from pipeline.preparation.alignment.alignment import Alignment, Method, from_json
+from pipeline.preparation.alignment.axes import AxesAlignment, align_axes
+from pipeline.preparation.alignment.errors import AlignmentError
+from pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
+from pipeline.preparation.alignment.points import align_frame, align_points
+from pipeline.preparation.alignment.rigid import check_transform
+from pipeline.preparation.alignment.touch_csv import TouchFileError, read_touches
+from pipeline.preparation.alignment.touches import (
+    Advice,
+    CrossValidation,
+    MarkerTouches,
+    MountBelief,
+    TouchAlignment,
+    align_touches,
+)
+from pipeline.preparation.alignment.typed import from_angles, from_matrix, from_quaternion, from_transform
+
+__all__ = [
+    "Advice",
+    "Alignment",
+    "AlignmentError",
+    "AxesAlignment",
+    "CrossValidation",
+    "MarkerTouches",
+    "Method",
+    "MountBelief",
+    "MountingFace",
+    "TouchAlignment",
+    "TouchFileError",
+    "align_axes",
+    "align_flange",
+    "align_frame",
+    "align_points",
+    "align_touches",
+    "check_transform",
+    "find_mounting_face",
+    "from_angles",
+    "from_json",
+    "from_matrix",
+    "from_quaternion",
+    "from_transform",
+    "read_touches",
+]

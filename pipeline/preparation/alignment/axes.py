@@ -1,0 +1,180 @@
+"""An alignment from the shape alone: principal axes, with the signs by stated rules and the others listed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, get_args
+
+import numpy as np
+
+from pipeline.preparation.alignment.alignment import Alignment, Method
+from pipeline.preparation.alignment.errors import AlignmentError
+from pipeline.preparation.alignment.rigid import check_numbers, make_transform
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.mesh import Probe
+
+    Floats = NDArray[np.float64]
+
+Weight = Literal["volume", "area"]
+
+# Spreads that differ by less than this share of the larger cannot be told apart on a real part.
+_EQUAL = 0.05
+# The origin is in the middle if both ends are equally far from it to this share of the length.
+_MIDDLE = 0.05
+# The four proper rotations that keep the axes: signs of x, y, z.
+_SIGNS = ((1.0, 1.0, 1.0), (-1.0, -1.0, 1.0), (1.0, -1.0, -1.0), (-1.0, 1.0, -1.0))
+
+
+@dataclass(frozen=True, eq=False)
+class AxesAlignment:
+    """
+    What the shape says of the mount.
+
+    Attributes
+    ----------
+    alignment : Alignment
+        By the rules; its `how` tells them.
+    alternatives : (4, 4, 4) float64
+        T_SP of the four proper rotations that put the same axes on x, y, z; the chosen one first. Each has the
+        flange end at the same place.
+    spreads_m : (3,) float64
+        Root second moments along x, y, z of S, m; ascending from y over x to z.
+    determined : (3,) bool
+        Whether the turn about x, y, z of S is determined: the two other spreads differ by 5 % or more.
+    weight : "volume" or "area"
+        What was weighed.
+    """
+
+    alignment: Alignment
+    alternatives: Floats
+    spreads_m: Floats
+    determined: NDArray[np.bool_]
+    weight: Weight
+
+
+def align_axes(
+    probe_P: Probe,
+    *,
+    weight: Weight = "volume",
+    tip_P: ArrayLike | None = None,
+    offset: float = 0.0,
+) -> AxesAlignment:
+    """
+    Align by the principal axes: longest along z, middle along x, shortest along y.
+
+    The handle points along -z. Which end is the tip: the one nearer to `tip_P`; without it, the one further
+    from the mesh's origin. The sign of x: that with x of S towards +x of P, or towards +y or +z where x of P is
+    across. The lowest point lies at ``z = offset``, the centroid on the z axis.
+
+    Parameters
+    ----------
+    probe_P : Probe
+        In P.
+    weight : {"volume", "area"}
+        What is weighed. An open mesh has no volume: its area is taken, with a warning.
+    tip_P : (3,) array_like, optional
+        A point picked near the tip, m.
+    offset : float
+        Where the flange end lies along z of S, m.
+
+    Raises
+    ------
+    AlignmentError
+        Another weight, or a tip or offset that is not finite.
+    """
+    if weight not in get_args(Weight):
+        raise AlignmentError(f"weight: {weight!r} is not 'volume' or 'area'.")
+    warnings = []
+    if weight == "volume" and not (probe_P.health.watertight and probe_P.health.outward):
+        weight = "area"
+        warnings.append("The mesh is open or badly wound and has no volume: its area was weighed instead.")
+    centroid, moment = _volume_moments(probe_P) if weight == "volume" else _area_moments(probe_P)
+    values, vectors = np.linalg.eigh(moment)
+    spreads = np.sqrt(np.maximum(values, 0.0))[[1, 0, 2]]
+    R = vectors[:, [1, 0, 2]].T  # rows: x, y, z of S in P
+    R[2] *= _tip_sign(probe_P, R[2], centroid, tip_P, warnings)
+    R[0] *= 1.0 if R[0, np.argmax(np.abs(R[0]) > 0.5)] > 0 else -1.0
+    R[1] = np.cross(R[2], R[0])
+    determined = _determined(spreads)
+    warnings += _words(spreads, determined)
+    chosen = [_transform(np.diag(signs) @ R, centroid, probe_P, offset) for signs in _SIGNS]
+    how = (
+        (
+            f"Principal axes of the {weight}: the longest (rms {1e3 * spreads[2]:.1f} mm) along z, the middle"
+            f" ({1e3 * spreads[0]:.1f}) along x, the shortest ({1e3 * spreads[1]:.1f}) along y; the lowest point at"
+            f" z = {1e3 * offset:g} mm, the centroid on the axis."
+        ),
+        (
+            "The tip is the end"
+            f" {'nearer to the point picked' if tip_P is not None else 'further from the mesh origin'};"
+            " x is towards +x of the mesh's frame, or +y or +z where that is across. Three other rotations fit"
+            " as well."
+        ),
+    )
+    alignment = Alignment(chosen[0], Method.AXES, how, tuple(warnings))
+    return AxesAlignment(alignment, np.stack(chosen), spreads, determined, weight)
+
+
+def _volume_moments(probe: Probe) -> tuple[Floats, Floats]:
+    """Return the centroid (3,) and the second moment (3, 3) per volume, m², by signed tetrahedra."""
+    # From a point of the mesh: far from the origin the tetrahedra would cancel.
+    base = probe.bounds.mean(axis=0)
+    corners = probe.vertices[probe.faces] - base
+    volume = np.einsum("fi,fi->f", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    total = corners.sum(axis=1)
+    centre = np.einsum("f,fi->i", volume, total) / (4 * volume.sum())
+    second = np.einsum("f,fi,fj->ij", volume, total, total)
+    second += np.einsum("f,fci,fcj->ij", volume, corners, corners)
+    return base + centre, second / (20 * volume.sum()) - np.outer(centre, centre)
+
+
+def _area_moments(probe: Probe) -> tuple[Floats, Floats]:
+    base = probe.bounds.mean(axis=0)
+    corners = probe.vertices[probe.faces] - base
+    area = probe.areas
+    total = corners.sum(axis=1)
+    centre = np.einsum("f,fi->i", area, total) / (3 * area.sum())
+    second = np.einsum("f,fi,fj->ij", area, total, total) + np.einsum("f,fci,fcj->ij", area, corners, corners)
+    return base + centre, second / (12 * area.sum()) - np.outer(centre, centre)
+
+
+def _tip_sign(
+    probe: Probe, z_P: Floats, centroid: Floats, tip_P: ArrayLike | None, warnings: list[str]
+) -> float:
+    """Return 1 if z points to the tip, or -1."""
+    if tip_P is not None:
+        return 1.0 if (check_numbers(tip_P, (3,), "tip_P") - centroid) @ z_P >= 0 else -1.0
+    heights = probe.vertices[np.unique(probe.faces)] @ z_P
+    low, high = float(-heights.min()), float(heights.max())
+    told = "The tip was taken to be the end further from the mesh's origin, which many files put at the lens."
+    if abs(high - low) < _MIDDLE * (high + low):
+        told = "The mesh's origin lies in its middle and does not tell the tip from the handle."
+    warnings.append(f"{told} Pick a point on the tip to be sure.")
+    return 1.0 if high >= low else -1.0
+
+
+def _determined(spreads: Floats) -> NDArray[np.bool_]:
+    pairs = ((1, 2), (0, 2), (0, 1))
+    gaps = [abs(spreads[a] - spreads[b]) / max(spreads[a], spreads[b], 1e-12) for a, b in pairs]
+    return np.array(gaps) >= _EQUAL
+
+
+def _words(spreads: Floats, determined: NDArray[np.bool_]) -> list[str]:
+    words = []
+    for axis in np.flatnonzero(~determined):
+        a, b = (other for other in range(3) if other != axis)
+        words.append(
+            f"The spreads along {'xyz'[a]} and {'xyz'[b]} are nearly equal ({1e3 * spreads[a]:.1f} and"
+            f" {1e3 * spreads[b]:.1f} mm), so the turn about {'xyz'[axis]} is not determined: fix it by a point or by"
+            " touches."
+        )
+    return words
+
+
+def _transform(R_SP: Floats, centroid: Floats, probe: Probe, offset: float) -> Floats:
+    heights = probe.vertices[np.unique(probe.faces)] @ R_SP[2]
+    x, y, _ = R_SP @ centroid
+    return make_transform(R_SP, np.array([-x, -y, offset - float(heights.min())]))

@@ -1,0 +1,275 @@
+"""An alignment from the mesh's mounting face: the plane that is screwed to the sensor."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial.transform import Rotation
+
+from pipeline.preparation.alignment.alignment import Alignment, Method
+from pipeline.preparation.alignment.errors import AlignmentError
+from pipeline.preparation.alignment.rigid import check_numbers, make_transform, turn_between
+from pipeline.preparation.alignment.rim import Rim, find_rim
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.mesh import Probe
+
+    Floats = NDArray[np.float64]
+
+_GROWINGS = 3
+# Least absolute distances by reweighting; under a micrometre all distances count alike.
+_REWEIGHTED, _FINE_M = 15, 1e-6
+_UNEVEN_M = 0.0002
+_SMALL_M = 0.005
+_DOWN_S = np.array([0.0, 0.0, -1.0])
+_NO_DIRECTION = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class MountingFace:
+    """
+    A plane patch of the mesh.
+
+    Attributes
+    ----------
+    facets : (m,) bool
+        Which facets of the mesh belong to it.
+    normal_P : (3,) float64
+        Outward unit normal of the plane fitted to it.
+    centre_P : (3,) float64
+        On the plane, m: of the circle if the rim is round, or else of the area inside the rim.
+    area_m2 : float
+        Of its facets.
+    planarity_rms, planarity_max : float
+        Distances of its vertices from the plane, m.
+    rim : Rim
+        Its outer outline, and the circle fitted to it.
+    """
+
+    facets: NDArray[np.bool_]
+    normal_P: Floats
+    centre_P: Floats
+    area_m2: float
+    planarity_rms: float
+    planarity_max: float
+    rim: Rim
+
+    @property
+    def round(self) -> bool:
+        """Whether the rim is a circle."""
+        return self.rim.round
+
+
+def find_mounting_face(
+    probe_P: Probe, facet: int, *, angle_deg: float = 5.0, flatness: float = 0.0001
+) -> MountingFace:
+    """
+    Grow the plane patch around a picked facet.
+
+    Facets join while they are connected to the picked one and their normals are within `angle_deg` of the
+    patch's mean normal: of the mean, not of the neighbour, so that it cannot creep round a smooth edge. Those
+    that rise from the plane of the others by more than `flatness`, as the first facets of a rounded edge do,
+    leave it again.
+
+    Parameters
+    ----------
+    probe_P : Probe
+        In P.
+    facet : int
+        Index of the picked facet.
+    angle_deg : float
+        Above 0, at most 45.
+    flatness : float
+        Largest distance of a vertex from the plane, m. A scanned face that is rougher is taken whole.
+
+    Raises
+    ------
+    AlignmentError
+        There is no such facet, the angle is out of range, or the patch has no outline, as a closed surface.
+    """
+    if not 0 <= facet < len(probe_P.faces):
+        raise AlignmentError(
+            f"facet: {facet} is not between 0 and {len(probe_P.faces) - 1}: pick one of the mesh."
+        )
+    if not 0 < angle_deg <= 45:
+        raise AlignmentError(f"angle_deg: {angle_deg} is not above 0 and at most 45.")
+    pairs = _neighbours(probe_P.faces)
+    normal = probe_P.normals[facet]
+    for _ in range(_GROWINGS):
+        near = probe_P.normals @ normal >= np.cos(np.radians(angle_deg))
+        if not near[facet]:
+            break  # the picked facet is a bump on a larger face: keep what grew around it
+        facets = _connected(pairs, near, facet)
+        mean = (probe_P.normals[facets] * probe_P.areas[facets, None]).sum(axis=0)
+        normal = mean / np.linalg.norm(mean)
+    middle, plane = _plane(probe_P, facets, normal, robust=True)
+    rise = np.abs((probe_P.vertices[probe_P.faces] - middle) @ plane).max(axis=1)
+    flat = facets & (rise <= flatness)
+    if flat[facet]:
+        facets = _connected(pairs, flat, facet)
+    return _measure(probe_P, facets, normal)
+
+
+def align_flange(
+    face: MountingFace,
+    *,
+    offset: float = 0.0,
+    toward_P: ArrayLike | None = None,
+    along_P: ArrayLike | None = None,
+    clock_deg: float = 0.0,
+) -> Alignment:
+    """
+    Put the mounting face on the sensor: its plane at ``z = offset``, its centre on the z axis.
+
+    The face looks at the sensor, so its outward normal becomes -z of S and the probe extends along +z.
+
+    Parameters
+    ----------
+    face : MountingFace
+    offset : float
+        Where the sensor's mounting plane lies along z of S, m.
+    toward_P : (3,) array_like, optional
+        A picked point, m: the direction to it from the centre is the clocking direction.
+    along_P : (3,) array_like, optional
+        Instead: the clocking direction itself, such as an edge.
+    clock_deg : float
+        Angle of the clocking direction from +x of S about +z, degrees.
+
+    Returns
+    -------
+    Alignment
+        Its residual is the face's planarity.
+
+    Raises
+    ------
+    AlignmentError
+        Two clocking directions, or one that points along the axis.
+    """
+    if not abs(clock_deg) <= 360:
+        raise AlignmentError(f"clock_deg: {clock_deg} is not within ±360 degrees.")
+    if toward_P is not None and along_P is not None:
+        raise AlignmentError("toward_P, along_P: give one clocking direction, not two.")
+    R_SP = turn_between(face.normal_P, _DOWN_S)
+    warnings = list(_face_warnings(face))
+    direction = _direction(face, toward_P, along_P)
+    if direction is None:
+        warnings.append(
+            "No clocking direction was given: the mesh is turned about the axis as little as possible. Pick a"
+            " point or"
+            " an edge that fixes it."
+        )
+    else:
+        x, y, _ = R_SP @ direction
+        turn = np.radians(clock_deg) - np.arctan2(y, x)
+        R_SP = Rotation.from_rotvec([0.0, 0.0, turn]).as_matrix() @ R_SP
+    p_SP_S = np.array([0.0, 0.0, offset]) - R_SP @ face.centre_P
+    centre = (
+        f"the centre of its rim, a circle of {2e3 * face.rim.radius:.2f} mm diameter to"
+        f" {_fine(face.rim.radius_rms)}"
+        " mm rms"
+        if face.round
+        else "the centre of the area inside its rim"
+    )
+    how = (
+        f"The mounting face ({int(face.facets.sum())} facets, {1e6 * face.area_m2:.0f} mm², plane to"
+        f" {_fine(face.planarity_rms)} mm rms, {_fine(face.planarity_max)} at most) laid on z ="
+        f" {1e3 * offset:g} mm;"
+        f" {centre}, on the axis."
+    )
+    return Alignment(
+        make_transform(R_SP, p_SP_S), Method.FLANGE, (how,), tuple(warnings), residual_m=face.planarity_rms
+    )
+
+
+def _fine(length: float) -> str:
+    """Return a small length in mm."""
+    return f"{1e3 * length:.2g}" if length >= 1e-6 else "under 0.001"
+
+
+def _plane(probe: Probe, facets: NDArray[np.bool_], normal: Floats, *, robust: bool) -> tuple[Floats, Floats]:
+    """Fit a plane to a patch: a point of it (3,) and its normal (3,) on the side of `normal`."""
+    corners = probe.vertices[probe.faces[facets]]
+    weight = probe.areas[facets]
+    for _ in range(_REWEIGHTED if robust else 1):
+        middle = np.average(corners.mean(axis=1), axis=0, weights=weight)
+        # Each facet's corners count alike, by its area: wide facets outweigh slivers.
+        spread = np.einsum("f,fci,fcj->ij", weight, corners - middle, corners - middle)
+        plane = np.linalg.eigh(spread)[1][:, 0]
+        rise = np.abs((corners - middle) @ plane).max(axis=1)
+        weight = probe.areas[facets] / np.maximum(rise, _FINE_M)
+    return middle, plane if plane @ normal > 0 else -plane
+
+
+def _measure(probe: Probe, facets: NDArray[np.bool_], normal: Floats) -> MountingFace:
+    middle, plane = _plane(probe, facets, normal, robust=False)
+    used = np.unique(probe.faces[facets])
+    distance = np.abs((probe.vertices[used] - middle) @ plane)
+    rim = find_rim(probe.vertices, probe.faces[facets], middle, plane)
+    centre = rim.circle_centre if rim.round else rim.area_centre
+    return MountingFace(
+        facets=facets,
+        normal_P=plane,
+        centre_P=centre,
+        area_m2=float(probe.areas[facets].sum()),
+        planarity_rms=float(np.sqrt((distance**2).mean())),
+        planarity_max=float(distance.max()),
+        rim=rim,
+    )
+
+
+def _neighbours(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Return pairs (k, 2) of facets that share an edge."""
+    edges = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1).astype(np.int64)
+    keys = edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1]
+    order = np.argsort(keys, kind="stable")
+    same = keys[order][1:] == keys[order][:-1]
+    owner = order // 3
+    return np.column_stack([owner[:-1][same], owner[1:][same]])
+
+
+def _connected(pairs: NDArray[np.int64], among: NDArray[np.bool_], facet: int) -> NDArray[np.bool_]:
+    inside = pairs[among[pairs].all(axis=1)]
+    n = len(among)
+    graph = coo_array((np.ones(len(inside)), (inside[:, 0], inside[:, 1])), shape=(n, n))
+    _, labels = connected_components(graph, directed=False)
+    return np.asarray(among & (labels == labels[facet]))
+
+
+def _direction(face: MountingFace, toward: ArrayLike | None, along: ArrayLike | None) -> Floats | None:
+    """Return the clocking direction in P, or None without one."""
+    if toward is None and along is None:
+        return None
+    name = "along_P" if toward is None else "toward_P"
+    given = check_numbers(toward if along is None else along, (3,), name)  # type: ignore[arg-type]
+    given = given if toward is None else given - face.centre_P
+    flat: Floats = given - (given @ face.normal_P) * face.normal_P
+    if np.linalg.norm(flat) <= _NO_DIRECTION * max(float(np.linalg.norm(given)), 1e-6):
+        raise AlignmentError(
+            f"{name}: it points along the axis, so it shows no turn about it: pick it to the side."
+        )
+    return flat
+
+
+def _face_warnings(face: MountingFace) -> tuple[str, ...]:
+    words = []
+    if face.planarity_max > _UNEVEN_M:
+        words.append(
+            f"The face is {1e3 * face.planarity_max:.2g} mm off a plane: a curved or noisy face is a poor datum. Pick"
+            " another facet, or lower the angle."
+        )
+    if np.sqrt(face.area_m2) < _SMALL_M:
+        words.append(
+            f"The face has only {1e6 * face.area_m2:.2g} mm²: a turn of it hardly shows. Was the right facet picked?"
+        )
+    if not face.round:
+        words.append(
+            "The rim is not round: the axis goes through the middle of the area inside it, which screw holes and"
+            " notches in the rim shift. Check it against the drawing."
+        )
+    return tuple(words)

@@ -1,0 +1,224 @@
+"""Alignments from points that are known on the mesh and in the sensor frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtrc
+
+from pipeline.preparation.alignment.alignment import Alignment, Method
+from pipeline.preparation.alignment.errors import AlignmentError
+from pipeline.preparation.alignment.rigid import apply, check_numbers, make_transform
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    Floats = NDArray[np.float64]
+
+# The points must spread across their line by this share of along it, and by so many times their accuracy.
+_THIN, _CLEAR = 0.05, 5.0
+# Distances in S and P that differ by more than this factor are in two units.
+_SCALED = 1.2
+_MIRRORED = 0.2
+_DOUBT = 1e-3
+
+
+def align_points(points_P: ArrayLike, points_S: ArrayLike, *, accuracy: float = 0.0002) -> Alignment:
+    """
+    Align three or more points of the mesh with their places in the sensor frame, by least squares.
+
+    Kabsch's solution: the rotation comes from the singular value decomposition of the cross-covariance, without
+    scale and without reflection.
+
+    Parameters
+    ----------
+    points_P, points_S : (n, 3) array_like
+        The same points in the same order, m.
+    accuracy : float
+        Standard deviation of a pair's disagreement along each axis, m.
+
+    Returns
+    -------
+    Alignment
+        With its covariance about the points' centroid, and the root mean square of the distances left.
+
+    Raises
+    ------
+    AlignmentError
+        Fewer than three points, unequal numbers, points on (nearly) one line, or distances in S and P that
+        differ by more than a factor of 1.2.
+    """
+    a, b = check_numbers(points_P, (-1, 3), "points_P"), check_numbers(points_S, (-1, 3), "points_S")
+    if not 0 < accuracy < 1:
+        raise AlignmentError(
+            f"accuracy: {accuracy} m is not above 0 and under 1: give one standard deviation."
+        )
+    if len(a) != len(b) or len(a) < 3:
+        raise AlignmentError(
+            f"{len(a)} points in the mesh and {len(b)} in the sensor frame: give three or more, one for one."
+        )
+    a0, b0 = a.mean(axis=0), b.mean(axis=0)
+    _refuse_line(a - a0, accuracy)
+    _refuse_scale(a - a0, b - b0)
+    T_SP = _fit(a, b)
+    left = _left(T_SP, a, b)
+    rms = float(np.sqrt((left**2).mean()))
+    warnings = _warnings(a, b, left, accuracy)
+    how = (
+        f"{len(a)} points of the mesh laid on their places in the sensor frame by least squares; {1e3 * rms:.2g} mm"
+        " rms is left."
+    )
+    covariance = _covariance(b - b0, accuracy) * max(1.0, _scatter(left, accuracy))
+    return Alignment(T_SP, Method.POINTS, (how,), warnings, covariance, b0, rms)
+
+
+def align_frame(
+    origin_P: ArrayLike,
+    axis_P: ArrayLike,
+    plane_P: ArrayLike,
+    *,
+    origin_S: ArrayLike = (0.0, 0.0, 0.0),
+    accuracy: float = 0.0002,
+) -> Alignment:
+    """
+    Align by three points that span a frame: nothing is left over, so nothing is checked.
+
+    Parameters
+    ----------
+    origin_P : (3,) array_like
+        The point that lies at `origin_S`, m.
+    axis_P : (3,) array_like
+        A point on the line through it along +z of S, m.
+    plane_P : (3,) array_like
+        A point of the half plane towards +x of S, m.
+    origin_S : (3,) array_like
+        Where the origin lies in S, m.
+    accuracy : float
+        Standard deviation of each point along each axis, m.
+
+    Returns
+    -------
+    Alignment
+        With its covariance about the origin.
+
+    Raises
+    ------
+    AlignmentError
+        The points are (nearly) on one line.
+    """
+    o, z, x = (
+        check_numbers(values, (3,), name)
+        for values, name in ((origin_P, "origin_P"), (axis_P, "axis_P"), (plane_P, "plane_P"))
+    )
+    origin = check_numbers(origin_S, (3,), "origin_S")
+    if not 0 < accuracy < 1:
+        raise AlignmentError(
+            f"accuracy: {accuracy} m is not above 0 and under 1: give one standard deviation."
+        )
+    points = np.array([o, z, x])
+    _refuse_line(points - points.mean(axis=0), accuracy)
+    along = np.linalg.norm(z - o)
+    if along < _CLEAR * accuracy:
+        raise AlignmentError("axis_P: it coincides with origin_P: pick it further along the axis.")
+    ez = (z - o) / along
+    side = (x - o) - ((x - o) @ ez) * ez
+    beside = np.linalg.norm(side)
+    if beside < max(_CLEAR * accuracy, _THIN * float(np.linalg.norm(x - o))):
+        raise AlignmentError("plane_P: it lies on the axis: pick it off to the side, towards +x of S.")
+    ex = side / beside
+    R_SP = np.array([ex, np.cross(ez, ex), ez])
+    # The axis point turns about x and y, the plane point about z; the origin moves both ends of each lever.
+    level = float((x - o) @ ez)
+    J = np.zeros((6, 9))
+    J[:3, :3] = np.eye(3)
+    J[3, [1, 4]] = np.array([1, -1]) / along
+    J[4, [0, 3]] = np.array([-1, 1]) / along
+    J[5, 7], J[5, 1] = 1 / beside, -1 / beside
+    J[5, [1, 4]] += np.array([1, -1]) * level / (along * beside)
+    how = "The mesh's origin point laid on its place, its axis point on +z, its plane point towards +x."
+    warnings = ("Three points that span a frame leave nothing over: a wrong pick does not show.",)
+    covariance = accuracy**2 * J @ J.T
+    T_SP = make_transform(R_SP, origin - R_SP @ o)
+    return Alignment(T_SP, Method.FRAME, (how,), warnings, covariance, origin)
+
+
+def _fit(a: Floats, b: Floats) -> Floats:
+    """Return the rigid transform (4, 4) that takes points a nearest to points b."""
+    a0, b0 = a.mean(axis=0), b.mean(axis=0)
+    u, _, vt = np.linalg.svd((b - b0).T @ (a - a0))
+    proper = float(np.sign(np.linalg.det(u) * np.linalg.det(vt)))
+    R = u @ np.diag([1.0, 1.0, proper]) @ vt
+    return make_transform(R, b0 - R @ a0)
+
+
+def _left(T: Floats, a: Floats, b: Floats) -> Floats:
+    """Return the distances (n,) that a transform leaves, m."""
+    return np.asarray(np.linalg.norm(b - apply(T, a), axis=1))
+
+
+def _refuse_line(centred: Floats, accuracy: float) -> None:
+    spread = np.linalg.svd(centred, compute_uv=False) / np.sqrt(len(centred))
+    if spread[0] < _CLEAR * accuracy:
+        raise AlignmentError("The points are all in one place: pick points far from one another.")
+    if spread[1] < max(_THIN * spread[0], _CLEAR * accuracy):
+        raise AlignmentError(
+            f"The points lie nearly on one line ({1e3 * spread[1]:.2g} mm off it, {1e3 * spread[0]:.2g} mm along it,"
+            " rms), so a turn about it cannot be seen: pick one well to the side."
+        )
+
+
+def _refuse_scale(a: Floats, b: Floats) -> None:
+    scale = float(np.sqrt((b**2).sum() / (a**2).sum()))
+    if not 1 / _SCALED < scale < _SCALED:
+        raise AlignmentError(
+            f"Distances between the points in the sensor frame are {scale:.4g} times those in the mesh: give both in"
+            " the same unit, and the points in the same order."
+        )
+
+
+def _scatter(left: Floats, accuracy: float) -> float:
+    """Return by how much residuals widen the covariance: 1 unless chance cannot explain them."""
+    freedom = 3 * len(left) - 6
+    square = float((left**2).sum()) / accuracy**2
+    return square / freedom if chdtrc(freedom, square) < _DOUBT else 1.0
+
+
+def _warnings(a: Floats, b: Floats, left: Floats, accuracy: float) -> tuple[str, ...]:
+    if len(a) == 3:
+        few = "Three points check one another in their distances only: a fourth would show a wrong one."
+        return (few,) if _scatter(left, accuracy) == 1 else (_disagreement(left, accuracy), few)
+    if _scatter(left, accuracy) == 1:
+        return ()
+    words = [_disagreement(left, accuracy)]
+    rms = float(np.sqrt((left**2).mean()))
+    flipped = a * [1.0, 1.0, -1.0]
+    if np.sqrt((_left(_fit(flipped, b), flipped, b) ** 2).mean()) < _MIRRORED * rms:
+        words.append(
+            "The points fit mirrored: two are swapped, or one of the frames is left-handed. Check the order."
+        )
+    else:
+        # The point without which the others agree best: the largest distance left may be another's.
+        others = [np.delete(np.arange(len(a)), row) for row in range(len(a))]
+        without = [float(np.sqrt((_left(_fit(a[o], b[o]), a[o], b[o]) ** 2).mean())) for o in others]
+        worst = int(np.argmin(without))
+        words.append(
+            f"Without point {worst + 1} the others agree within {1e3 * without[worst]:.2g} mm rms: check its place."
+        )
+    return tuple(words)
+
+
+def _disagreement(left: Floats, accuracy: float) -> str:
+    return (
+        f"The points disagree by up to {1e3 * left.max():.2g} mm, more than {1e3 * accuracy:g} mm accuracy explains."
+        " The uncertainty has been widened by that."
+    )
+
+
+def _covariance(b: Floats, accuracy: float) -> Floats:
+    """Return the covariance (6, 6) of shift and rotation about the centroid."""
+    C = np.zeros((6, 6))
+    C[:3, :3] = np.eye(3) / len(b)
+    C[3:, 3:] = np.linalg.inv((b**2).sum() * np.eye(3) - b.T @ b)
+    covariance: Floats = accuracy**2 * C
+    return covariance

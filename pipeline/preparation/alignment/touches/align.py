@@ -1,0 +1,249 @@
+"""The mount from touches of marked points, checked on touches that the fit has not seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.contact import WrenchNoise
+from pipeline.preparation.alignment.alignment import Alignment, Method
+from pipeline.preparation.alignment.errors import AlignmentError
+from pipeline.preparation.alignment.rigid import check_transform
+from pipeline.preparation.alignment.touches.crossval import (
+    Advice,
+    CrossValidation,
+    advise,
+    cross_validate,
+    rms,
+)
+from pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
+from pipeline.preparation.alignment.touches.marker import MarkerTouches, put_on_mesh
+from pipeline.preparation.alignment.touches.model import TouchModel
+from pipeline.preparation.alignment.touches.solve import MountBelief
+from pipeline.preparation.alignment.touches.words import (
+    bias_effect,
+    bias_sentence,
+    fit_sentences,
+    implausible_start,
+    unseen_motions,
+    unseen_sentences,
+    weak_sentences,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.mesh import Probe
+
+    Floats = NDArray[np.float64]
+
+_PLACEMENT_M = 0.0003
+_LARGEST_PLACEMENT_M = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class TouchAlignment:
+    """
+    What touches say of the mount, and whether to believe it.
+
+    Attributes
+    ----------
+    fitted : Alignment
+        By the touches, with its covariance about the touches' centroid.
+    before : (4, 4)
+        The mount it started from, T_SP; of several, the one that explained the touches best.
+    advice : Advice
+        Whether `fitted` predicts touches that it has not seen clearly better than `before`.
+    reasons : tuple of str
+        Why.
+    check : CrossValidation
+    rank : int
+        Of six: how many combinations of shift and rotation the touches show. The others stayed at `before`.
+    unseen : tuple of str
+        What they do not show, a few words for each.
+    names : tuple of str
+        Of the touches.
+    kept : (n,) bool
+        Which touches were used; the others are named in the warnings.
+    deviates : (n,)
+        How far each touch is from what the others say, in sigmas.
+    scatter : float
+        By how much the residuals widened the covariance; 1 if noise and placement explain them.
+    bias_effect : (6, 6)
+        Motion of the mount (m, rad, about the centroid) per N and N·m of a wrench error in every touch.
+    """
+
+    fitted: Alignment
+    before: Floats
+    advice: Advice
+    reasons: tuple[str, ...]
+    check: CrossValidation
+    rank: int
+    unseen: tuple[str, ...]
+    names: tuple[str, ...]
+    kept: NDArray[np.bool_]
+    deviates: Floats
+    scatter: float
+    bias_effect: Floats
+
+    @property
+    def T_SP(self) -> Floats:
+        """(4, 4) the mount to use: the fitted one if it is to be adopted, or else the first."""
+        return self.fitted.T_SP if self.advice is Advice.ADOPT else self.before
+
+
+def align_touches(
+    probe_P: Probe,
+    touches: MarkerTouches,
+    mounts: ArrayLike | Sequence[ArrayLike],
+    noise: WrenchNoise | None = None,
+    *,
+    placement: float = _PLACEMENT_M,
+    belief: MountBelief | None = None,
+    robust: bool = True,
+    bias_covariance: ArrayLike | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> TouchAlignment:
+    """
+    Find the mount by touches of marked points.
+
+    Parameters
+    ----------
+    probe_P : Probe
+        The mesh in its own frame P, m.
+    touches : MarkerTouches
+        Markers in P and compensated wrenches in S.
+    mounts : (4, 4) or (k, 4, 4) array_like
+        T_SP to start from: the present mount, or several candidates such as those of `align_axes`.
+    noise : WrenchNoise, optional
+        Of each wrench, independent from touch to touch. What all touches share belongs in `bias_covariance`.
+    placement : float
+        Standard deviation of where a marker is hit, in each direction of the surface, m.
+    belief : MountBelief, optional
+        How far the mounts may be off.
+    robust : bool
+        Leave out, and name, touches that the others deny.
+    bias_covariance : (6, 6) array_like, optional
+        Of a wrench error common to all touches: what the calibration leaves, N and N·m. It widens the
+        covariance; touches cannot tell it from the mount.
+    progress : callable, optional
+        Gets the share that is done.
+
+    Returns
+    -------
+    TouchAlignment
+
+    Raises
+    ------
+    AlignmentError
+        Nothing is uncertain (no noise and no placement), a mount is not rigid, a marker is off the mesh, or
+        most forces pull instead of push.
+    """
+    noise, belief = noise or WrenchNoise(), belief or MountBelief()
+    starts = _starts(mounts)
+    on_mesh = put_on_mesh(touches, probe_P)
+    _check_noise(noise, placement)
+    model = TouchModel(on_mesh.points_P, on_mesh.normals_P, touches.wrenches, noise.covariance, placement)
+    fit = fit_mount(model, starts, belief, robust=robust)
+    pressed = model.pressed(fit.T_SP)
+    _refuse_pulling(pressed)
+    check = cross_validate(probe_P, model, on_mesh.points_P, fit, belief, robust=robust, progress=progress)
+    advice, reasons = advise(fit, check)
+    effect, _ = bias_effect(fit, model, belief)
+    shared = bias_sentence(fit, model, belief)
+    warnings = (
+        *on_mesh.warnings,
+        *fit_sentences(fit, touches.names, pressed),
+        *unseen_sentences(fit, belief),
+        *weak_sentences(fit, belief),
+        *implausible_start(fit, belief),
+    )
+    return TouchAlignment(
+        fitted=_alignment(
+            fit, (check.sentence, shared), check, warnings, _shared_covariance(effect, bias_covariance)
+        ),
+        before=fit.start,
+        advice=advice,
+        reasons=reasons,
+        check=check,
+        rank=fit.rank,
+        unseen=tuple(unseen_motions(fit, belief)) if fit.unseen.shape[1] else (),
+        names=touches.names,
+        kept=fit.kept,
+        deviates=fit.deviates,
+        scatter=fit.scatter,
+        bias_effect=effect,
+    )
+
+
+def _starts(mounts: ArrayLike | Sequence[ArrayLike]) -> list[Floats]:
+    try:
+        array = np.asarray(mounts, dtype=np.float64)
+    except (ValueError, TypeError) as error:
+        raise AlignmentError(f"mounts: these are not numbers ({error}): give T_SP (4, 4).") from error
+    if array.shape == (4, 4):
+        array = array[None]
+    if array.ndim != 3 or not len(array):
+        raise AlignmentError(
+            f"mounts: the shape is {array.shape}: give one T_SP (4, 4), or several (k, 4, 4)."
+        )
+    return [check_transform(T, f"mount {row + 1}") for row, T in enumerate(array)]
+
+
+def _check_noise(noise: WrenchNoise, placement: float) -> None:
+    if not 0 <= placement <= _LARGEST_PLACEMENT_M:
+        raise AlignmentError(
+            f"placement: {placement} m is not between 0 and 0.05: give metres, such as 0.0003."
+        )
+    if placement == 0 and np.linalg.eigvalsh(noise.covariance[3:, 3:])[0] <= 0:
+        raise AlignmentError(
+            "With no torque noise and no placement error every touch would be infinitely sure: state one of them."
+        )
+
+
+def _refuse_pulling(pressed: NDArray[np.bool_]) -> None:
+    pulling = int((~pressed).sum())
+    if 2 * pulling > len(pressed):
+        raise AlignmentError(
+            f"{pulling} of {len(pressed)} forces pull on the surface. The wrenches must be what the tissue does"
+            " to the"
+            " probe: negate them if the sensor reports the reaction; or the mesh is inside out or the first mount"
+            " turned over."
+        )
+
+
+def _shared_covariance(effect: Floats, bias_covariance: ArrayLike | None) -> Floats:
+    if bias_covariance is None:
+        return np.zeros((6, 6))
+    shared = WrenchNoise(0.0, 0.0, bias_covariance).covariance  # checks that it is one
+    return np.asarray(effect @ shared @ effect.T)
+
+
+def _alignment(
+    fit: MountFit, told: tuple[str, ...], check: CrossValidation, warnings: tuple[str, ...], shared: Floats
+) -> Alignment:
+    # The covariance is about where the touches' centroid was with the first mount: it moves with the fit.
+    centre = fit.T_SP[:3, :3] @ (fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])) + fit.T_SP[:3, 3]
+    how = (
+        (
+            f"Fitted to {int(fit.kept.sum())} of {len(fit.kept)} touches of marked points, which show {fit.rank}"
+            " of the six"
+            " combinations of shift and rotation."
+        ),
+        *told,
+    )
+    covariance = _about(fit.covariance + shared, centre - fit.about_S)
+    return Alignment(fit.T_SP, Method.TOUCHES, how, warnings, covariance, centre, rms(check.out_of_sample))
+
+
+def _about(covariance: Floats, lever: Floats) -> Floats:
+    """Return a covariance of shift and rotation about a point that is `lever` further."""
+    x, y, z = lever
+    A = np.eye(6)
+    A[:3, 3:] = -np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])  # d' = d + w x lever
+    moved: Floats = A @ covariance @ A.T
+    return moved

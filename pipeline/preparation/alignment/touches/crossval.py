@@ -1,0 +1,228 @@
+"""Whether the fitted mount is better than the first one, on touches that it has not seen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.contact import ContactSolver, Gates, Reason, WrenchNoise
+from pipeline.preparation.alignment.touches.fit import fit_mount
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.mesh import Probe
+    from pipeline.preparation.alignment.touches.fit import MountFit
+    from pipeline.preparation.alignment.touches.model import TouchModel
+    from pipeline.preparation.alignment.touches.solve import MountBelief
+
+    Floats = NDArray[np.float64]
+
+_ONE_BY_ONE = 20
+_FOLDS = 10
+# One-sided: the chance to prefer a mount that is no better.
+_CHANCE = 0.05
+_FEWEST = 6
+_MOST_OUT = 0.25
+
+
+class Advice(StrEnum):
+    """What to do with the fitted mount."""
+
+    ADOPT = "adopt"
+    KEEP = "keep"
+
+
+@dataclass(frozen=True, eq=False)
+class CrossValidation:
+    """
+    Contact errors at the markers: as fitted, left out, and with the first mount.
+
+    Each touch of a fold is left out, the mount fitted to the others, and the solver asked where the wrench
+    that was left out touches the mesh with that mount. Where it has no answer, the marker's tangent plane
+    stands in for the mesh, so that a bad mount cannot look good by missing the probe.
+
+    Attributes
+    ----------
+    in_sample, out_of_sample, before : (n,) float64
+        Distance from the marker, m: with the fit to all touches, with the fit that did not see the touch,
+        and with the first mount.
+    bound : (n,) float64
+        Root mean square distance that noise and placement alone make with the true mount, m.
+    kept : (n,) bool
+        Touches that the fit to all of them used.
+    missed : int
+        Touches left out for which the solver had no answer.
+    folds : int
+    p_value : float
+        Chance of so clear a gain over the first mount if there were none (Wilcoxon's signed ranks, one-sided).
+    """
+
+    in_sample: Floats
+    out_of_sample: Floats
+    before: Floats
+    bound: Floats
+    kept: NDArray[np.bool_]
+    missed: int
+    folds: int
+    p_value: float
+
+    @property
+    def ratio(self) -> float:
+        """Out-of-sample error over what noise and placement alone make; root mean squares. 1 is perfect."""
+        return rms(self.out_of_sample) / rms(self.bound)
+
+    @property
+    def ratio_before(self) -> float:
+        """The first mount's error over what noise and placement alone make."""
+        return rms(self.before) / rms(self.bound)
+
+    @property
+    def sentence(self) -> str:
+        """The figures, in one sentence."""
+        before, after, inside = (
+            f"{1e3 * rms(e):.2f} mm rms (median {1e3 * float(np.median(e)):.2f})"
+            for e in (self.before, self.out_of_sample, self.in_sample)
+        )
+        words = (
+            f"On touches it has not seen, the fitted mount errs by {after}, the first mount by {before}; on its own"
+            f" touches the fit errs by {inside}; noise and placement alone make {1e3 * rms(self.bound):.2f}."
+        )
+        if not self.kept.all():
+            after, before = (f"{1e3 * rms(e[self.kept]):.2f}" for e in (self.out_of_sample, self.before))
+            words += f" Without the touches that were left out these are {after} and {before} mm rms."
+        return words
+
+
+def cross_validate(
+    probe_P: Probe,
+    model: TouchModel,
+    markers_P: Floats,
+    fit: MountFit,
+    belief: MountBelief,
+    *,
+    robust: bool = True,
+    progress: Callable[[float], None] | None = None,
+) -> CrossValidation:
+    """
+    Predict every touch by a mount fitted without it.
+
+    Up to 20 touches are left out one by one, more in ten folds. Touches that the fit left out are judged like
+    all others: what its own outlier test dislikes must not improve its score.
+
+    Parameters
+    ----------
+    probe_P : Probe
+        In P.
+    model : TouchModel
+    markers_P : (n, 3)
+        Where the touches are held to be, m.
+    fit : MountFit
+        To all touches.
+    belief : MountBelief
+    robust : bool
+        As for `fit_mount`.
+    progress : callable, optional
+        Gets the share that is done.
+    """
+    judge = _Judge(probe_P, model, markers_P, fit.start)
+    n = len(model)
+    folds = n if n <= _ONE_BY_ONE else _FOLDS
+    out, missed = np.empty(n), 0
+    for fold in range(folds):
+        left = np.arange(fold, n, folds)  # neighbours in the file are often neighbours on the probe
+        others = np.ones(n, dtype=bool)
+        others[left] = False
+        T_SP = fit_mount(model.chosen(others), [fit.start], belief, robust=robust).T_SP
+        out[left], misses = judge.errors(T_SP, left)
+        missed += misses
+        if progress is not None:
+            progress((fold + 1) / folds)
+    every = np.arange(n)
+    inside, _ = judge.errors(fit.T_SP, every)
+    before, _ = judge.errors(fit.start, every)
+    bound = np.sqrt(np.trace(model.sigmas(fit.T_SP), axis1=1, axis2=2))
+    return CrossValidation(inside, out, before, bound, fit.kept, missed, folds, _chance(before - out))
+
+
+def advise(fit: MountFit, check: CrossValidation) -> tuple[Advice, tuple[str, ...]]:
+    """Say whether to adopt the fitted mount, and why."""
+    n, kept = len(fit.kept), int(fit.kept.sum())
+    # Ranks bear a touch of the wrong marker; the root mean square does not, and is taken without it.
+    gain = rms(check.out_of_sample[fit.kept]) < rms(check.before[fit.kept])
+    if fit.rank == 0:
+        return Advice.KEEP, ("The touches show nothing of the mount.",)
+    if n < _FEWEST:
+        return Advice.KEEP, (
+            f"{n} touches cannot prove a gain: touch at least {_FEWEST} markers, better 15.",
+        )
+    if kept < (1 - _MOST_OUT) * n:
+        return Advice.KEEP, (
+            (
+                f"Only {kept} of {n} touches agree with one mount. Check the order of the markers, the sign of"
+                " the wrenches"
+                " and the mesh."
+            ),
+        )
+    if not gain or check.p_value >= _CHANCE:
+        why = f"is not clearly better (p = {check.p_value:.2g})" if gain else "is no better"
+        return Advice.KEEP, (f"The fitted mount {why} on touches that it has not seen.", check.sentence)
+    return Advice.ADOPT, (
+        f"The fitted mount is better on touches that it has not seen (p = {check.p_value:.2g}).",
+        check.sentence,
+    )
+
+
+def rms(errors: Floats) -> float:
+    """Return the root mean square."""
+    return float(np.sqrt((errors**2).mean()))
+
+
+class _Judge:
+    """Contact errors at markers for any mount, by one solver."""
+
+    def __init__(self, probe_P: Probe, model: TouchModel, markers_P: Floats, T_SP: Floats) -> None:
+        # To move the wrench into P is the same as to move the mesh into S, and the solver is built once.
+        # Its noise is that of the first mount: it decides only what is called ambiguous.
+        W = wrench_transform(T_SP)
+        noise = WrenchNoise(0.0, 0.0, W @ model.covariance @ W.T)
+        self._solver = ContactSolver(probe_P, noise, Gates())
+        self._model = model
+        self._markers = markers_P
+
+    def errors(self, T_SP: Floats, rows: Sequence[int] | NDArray[np.intp]) -> tuple[Floats, int]:
+        """Return the distance (k,) from the marker of each touch, m, and how many had no answer."""
+        model = self._model.chosen(np.asarray(rows))
+        wrenches_P = np.ascontiguousarray(model.wrenches @ wrench_transform(T_SP).T)
+        batch = self._solver.locate_batch(wrenches_P)
+        answered = np.isin(batch.reasons, (Reason.OK, Reason.VERTEX))
+        distance = np.linalg.norm(batch.points - self._markers[rows], axis=1)
+        errors: Floats = np.where(answered, distance, model.plane_errors(T_SP))
+        return errors, int((~answered).sum())
+
+
+def wrench_transform(T_SP: Floats) -> Floats:
+    """Return the (6, 6) matrix that takes wrenches about S's origin in S to P's origin in P."""
+    R_PS, p = T_SP[:3, :3].T, T_SP[:3, 3]
+    cross = np.array([[0.0, -p[2], p[1]], [p[2], 0.0, -p[0]], [-p[1], p[0], 0.0]])
+    W = np.zeros((6, 6))
+    W[:3, :3] = W[3:, 3:] = R_PS
+    W[3:, :3] = -R_PS @ cross
+    return W
+
+
+def _chance(gains: Floats) -> float:
+    """Return the one-sided probability of gains so clear, if there were none."""
+    from scipy.stats import wilcoxon
+
+    gains = gains[gains != 0]
+    if not len(gains):
+        return 1.0
+    return float(
+        wilcoxon(gains, alternative="greater", method="exact" if len(gains) <= 50 else "approx").pvalue
+    )

@@ -1,0 +1,152 @@
+"""Touches of marked points: where the mesh says they are, and what the sensor felt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.kernel import SurfaceIndex
+from pipeline.preparation.alignment.errors import AlignmentError
+from pipeline.preparation.alignment.rigid import check_numbers
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.mesh import Probe
+
+    Floats = NDArray[np.float64]
+
+_SMALLEST_FORCE_N = 0.5
+_LARGEST_M = 10.0
+# Further from the surface, a marker is not on this mesh, or not in its unit; nearer, it is worth a word.
+_OFF_MESH_M, _NEAR_MESH_M = 0.010, 0.001
+_NORMAL_AGREES = np.cos(np.radians(60.0))
+
+
+@dataclass(frozen=True, eq=False)
+class MarkerTouches:
+    """
+    Touches of points that are known on the mesh.
+
+    Attributes
+    ----------
+    points_P : (n, 3) float64
+        The markers in the mesh's frame, m.
+    wrenches : (n, 6) float64
+        Fx Fy Fz Mx My Mz in S, N and N·m about the sensor origin: what the tissue does to the probe,
+        compensated for gravity and bias.
+    normals_P : (n, 3) float64 or None
+        Outward unit normals there; None: those of the mesh.
+    names : tuple of str
+        For people; numbered from 1 when left out.
+
+    Raises
+    ------
+    AlignmentError
+        Fewer than three touches, a wrong shape, a number that is not finite, a force under 0.5 N, a
+        normal without length.
+    """
+
+    points_P: Floats
+    wrenches: Floats
+    normals_P: Floats | None = None
+    names: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        points = check_numbers(self.points_P, (-1, 3), "points_P")
+        wrenches = check_numbers(self.wrenches, (-1, 6), "wrenches")
+        names = tuple(self.names) or tuple(f"touch {row + 1}" for row in range(len(points)))
+        if len({len(points), len(wrenches), len(names)}) > 1:
+            raise AlignmentError(
+                f"{len(points)} points, {len(wrenches)} wrenches and {len(names)} names: give one of each per touch."
+            )
+        if len(points) < 3:
+            raise AlignmentError(f"{len(points)} touches cannot show a mount: touch at least three markers.")
+        _check_sizes(points, wrenches, names)
+        object.__setattr__(self, "points_P", points)
+        object.__setattr__(self, "wrenches", wrenches)
+        object.__setattr__(self, "names", names)
+        if self.normals_P is not None:
+            object.__setattr__(self, "normals_P", _unit(self.normals_P, names))
+
+    def __len__(self) -> int:
+        return len(self.points_P)
+
+
+@dataclass(frozen=True, eq=False)
+class OnMesh:
+    """
+    The touches on their mesh.
+
+    Attributes
+    ----------
+    points_P, normals_P : (n, 3) float64
+        The nearest points of the surface, m, and the outward unit normals there.
+    warnings : tuple of str
+        About markers that lie off the surface, or whose normal disagrees with it.
+    """
+
+    points_P: Floats
+    normals_P: Floats
+    warnings: tuple[str, ...]
+
+
+def put_on_mesh(touches: MarkerTouches, probe_P: Probe) -> OnMesh:
+    """
+    Move each marker to the nearest point of the mesh, and take the normal there if none was given.
+
+    Raises
+    ------
+    AlignmentError
+        A marker is over 10 mm from the surface: another mesh, frame or unit.
+    """
+    index = SurfaceIndex(probe_P.vertices, probe_P.faces)
+    distance, face, foot = index.closest(np.ascontiguousarray(touches.points_P))
+    worst = int(np.argmax(distance))
+    if distance[worst] > _OFF_MESH_M:
+        raise AlignmentError(
+            f"{touches.names[worst]}: the marker is {1e3 * distance[worst]:.1f} mm from the mesh. Give the markers in"
+            " millimetres in the mesh's own frame, and the mesh that they were measured on."
+        )
+    warnings = [
+        f"{name}: the marker is {1e3 * d:.1f} mm from the mesh; the nearest point of the mesh is used."
+        for name, d in zip(touches.names, distance, strict=True)
+        if d > _NEAR_MESH_M
+    ]
+    normals: Floats = probe_P.normals[face]
+    if touches.normals_P is not None:
+        agree = np.einsum("ij,ij->i", normals, touches.normals_P)
+        warnings += [
+            f"{name}: the normal given is {np.degrees(np.arccos(np.clip(a, -1, 1))):.0f}° from the mesh's there."
+            " Check its sign and the marker."
+            for name, a in zip(touches.names, agree, strict=True)
+            if a < _NORMAL_AGREES
+        ]
+        normals = touches.normals_P
+    return OnMesh(np.asarray(foot), normals, tuple(warnings))
+
+
+def _check_sizes(points: Floats, wrenches: Floats, names: tuple[str, ...]) -> None:
+    force = np.linalg.norm(wrenches[:, :3], axis=1)
+    weak = int(np.argmin(force))
+    if force[weak] < _SMALLEST_FORCE_N:
+        raise AlignmentError(
+            f"{names[weak]}: the force is {force[weak]:.3g} N, under {_SMALLEST_FORCE_N:g} N: no touch. Remove"
+            " the row,"
+            " or press with 8 to 10 N."
+        )
+    far = int(np.argmax(np.abs(points).max(axis=1)))
+    if np.abs(points[far]).max() > _LARGEST_M:
+        raise AlignmentError(f"{names[far]}: the marker is over 10 m away: give metres in the mesh's frame.")
+
+
+def _unit(values: ArrayLike, names: tuple[str, ...]) -> Floats:
+    normals = check_numbers(values, (len(names), 3), "normals_P")
+    length = np.linalg.norm(normals, axis=1)
+    short = int(np.argmin(length))
+    if length[short] < 1e-9:
+        raise AlignmentError(f"{names[short]}: the normal has no length: leave all normals out, or give it.")
+    unit: Floats = normals / length[:, None]
+    return unit

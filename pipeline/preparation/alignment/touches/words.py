@@ -1,0 +1,208 @@
+"""What touches show of the mount and what they do not, in sentences."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtrc
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.preparation.alignment.touches.fit import MountFit
+    from pipeline.preparation.alignment.touches.model import TouchModel
+    from pipeline.preparation.alignment.touches.solve import MountBelief
+
+    Floats = NDArray[np.float64]
+
+# A block of the unseen space this near to containing a pure shift or a pure turn is said to contain it.
+_PURE = 0.9
+# This near to an axis of S, as a cosine, a direction is called by its name.
+_AXIS = 0.97
+# Known only to this share of the belief is worth a word.
+_WEAK = 0.5
+# A part of a motion under this share of it is not worth saying.
+_SMALL = 0.2
+# A wrench error taken for a mount error to this share cannot be told from one.
+_ABSORBED = 0.9
+_BIAS_N, _BIAS_NM = 0.1, 0.005
+
+
+def unseen_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+    """Say which shifts and turns the touches do not show, why they stay, and what would show them."""
+    if not fit.unseen.shape[1]:
+        return ()
+    things = unseen_motions(fit, belief)
+    return (
+        (
+            f"The touches cannot show {_listed(things)} better than the {1e3 * belief.shift:g} mm and"
+            f" {np.degrees(belief.rotation):g}° that the mount may be off: there it stays as it was. Touch"
+            " markers whose"
+            " normals point in other directions, or drag a little so that the forces differ in direction."
+        ),
+    )
+
+
+def unseen_motions(fit: MountFit, belief: MountBelief) -> list[str]:
+    """
+    Name the motions that the touches do not show, in S, one name per motion.
+
+    The unseen space is cut with the pure shifts and the pure turns about the touches' centroid; what is left
+    of it is said as shifts combined with turns.
+    """
+    U = fit.unseen
+    shifts, turns = _within(U, slice(0, 3)), _within(U, slice(3, 6))
+    things = [f"a shift along {axis_name(v)}" for v in shifts.T]
+    things += [f"a turn about {axis_name(v)}" for v in turns.T]
+    pure = np.zeros((6, shifts.shape[1] + turns.shape[1]))
+    pure[:3, : shifts.shape[1]], pure[3:, shifts.shape[1] :] = shifts, turns
+    rest = U - pure @ (pure.T @ U)
+    left = np.linalg.svd(rest)[0][:, : U.shape[1] - pure.shape[1]]
+    things += [_mixture(v, belief) for v in left.T]
+    return things
+
+
+def axis_name(v: Floats) -> str:
+    """Name a direction of S."""
+    v = v / np.linalg.norm(v)
+    k = int(np.argmax(np.abs(v)))
+    if abs(v[k]) > _AXIS:
+        return "xyz"[k]
+    v = v if v[k] > 0 else -v
+    return "({})".format(", ".join(f"{value + 0.0:.2f}" for value in np.round(v, 2)))
+
+
+def weak_sentences(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+    """Say which combination is known worst, if it is known hardly better than before."""
+    if not fit.rank:
+        return ()
+    values, vectors = np.linalg.eigh(fit.seen.T @ fit.information @ fit.seen)
+    sigma = float(np.sqrt(fit.scatter / values[0]))
+    if sigma < _WEAK:
+        return ()
+    motion = _mixture(sigma * (fit.seen @ vectors[:, 0]), belief)
+    return (
+        (
+            f"Weakly determined: {motion} (1 sigma), little better than before. More touches, or touches on other"
+            " sides,"
+            " would help."
+        ),
+    )
+
+
+def fit_sentences(fit: MountFit, names: Sequence[str], pressed: NDArray[np.bool_]) -> tuple[str, ...]:
+    """Name the touches that were left out, and say whether the noise given explains the others."""
+    words = []
+    for row in np.flatnonzero(~fit.kept):
+        why = (
+            f"it is {fit.deviates[row]:.1f} sigma from where the others put it"
+            if pressed[row]
+            else "its force pulls on the surface instead of pushing"
+        )
+        words.append(f"{names[int(row)]} was left out: {why}. Was another marker touched, or slipped off?")
+    if fit.scatter > 1:
+        words.append(
+            f"The touches scatter {np.sqrt(fit.scatter):.1f} times as much as noise and placement explain; every"
+            " uncertainty has been widened by that. The compensation, the noise given or the mesh is to blame."
+        )
+    return tuple(words)
+
+
+def bias_sentence(fit: MountFit, model: TouchModel, belief: MountBelief) -> str:
+    """Say how far an error of the calibration, common to all touches, shifts the mount."""
+    shift, absorbed = bias_effect(fit, model, belief)
+    parts = []
+    for columns, size, what in (
+        (slice(0, 3), _BIAS_N, "a force of 0.1 N"),
+        (slice(3, 6), _BIAS_NM, "a torque of 5 mN·m"),
+    ):
+        moved = 1e3 * size * np.linalg.norm(shift[:3, columns], axis=0)
+        worst = int(np.argmax(moved))
+        unseen = " (and would not show in the residuals)" if absorbed[columns][worst] > _ABSORBED else ""
+        parts.append(f"{what} along {'xyz'[worst]} by {moved[worst]:.2g} mm{unseen}")
+    return (
+        f"What compensation leaves in every touch is taken for a mount: {parts[0]}, {parts[1]}. The mount cannot be"
+        " better than the calibration behind it."
+    )
+
+
+def bias_effect(fit: MountFit, model: TouchModel, belief: MountBelief) -> tuple[Floats, Floats]:
+    """
+    Return what a wrench error common to all touches does to the mount.
+
+    Returns
+    -------
+    (6, 6)
+        Motion of the mount about `about_S` (m, rad) per N and N·m of error.
+    (6,)
+        Share of the error's square that the fit takes for mount, 0 to 1, by channel.
+    """
+    used = model.chosen(fit.kept)
+    J = used.jacobian(fit.T_SP, fit.about_S, belief.scales).reshape(-1, 6) @ fit.seen
+    B = used.bias_jacobian(fit.T_SP).reshape(-1, 6)
+    y = -np.linalg.lstsq(J, B, rcond=None)[0]
+    left = ((B + J @ y) ** 2).sum(axis=0)
+    whole = (B**2).sum(axis=0)
+    absorbed = 1 - left / np.where(whole > 0, whole, 1.0)
+    return belief.scales[:, None] * (fit.seen @ y), absorbed
+
+
+def implausible_start(fit: MountFit, belief: MountBelief) -> tuple[str, ...]:
+    """Warn when the mount moved further than the belief about it makes likely."""
+    moved = np.linalg.norm(fit.T_SP @ np.append(_home(fit), 1.0) - np.append(fit.about_S, 1.0))
+    R = fit.T_SP[:3, :3] @ fit.start[:3, :3].T
+    turn = float(np.arccos(np.clip((np.trace(R) - 1) / 2, -1, 1)))
+    far = chdtrc(3, (moved / belief.shift) ** 2) < 1e-3 or chdtrc(3, (turn / belief.rotation) ** 2) < 1e-3
+    if not far:
+        return ()
+    return (
+        (
+            f"The touches move the mount by {1e3 * moved:.1f} mm and {np.degrees(turn):.1f}°, further than it was"
+            " said to be"
+            " off. Check the first mount, the order of the markers, and the sign of the wrenches."
+        ),
+    )
+
+
+def _home(fit: MountFit) -> Floats:
+    """Return the point of P that the start puts at `about_S`."""
+    home: Floats = fit.start[:3, :3].T @ (fit.about_S - fit.start[:3, 3])
+    return home
+
+
+def _within(U: Floats, block: slice) -> Floats:
+    """Return the directions (3, k) of a block of unknowns that lie in the space U (6, m)."""
+    values, vectors = np.linalg.eigh(U[block] @ U[block].T)
+    return _near_axes(vectors[:, values > _PURE])
+
+
+def _near_axes(space: Floats) -> Floats:
+    """Return the orthonormal basis (3, k) of a space that lies nearest to the axes: easiest to say."""
+    chosen: list[Floats] = []
+    while len(chosen) < space.shape[1]:
+        shadow = space @ space.T  # its columns: the axes' shadows on what is left of the space
+        v = shadow[:, int(np.argmax(np.linalg.norm(shadow, axis=0)))]
+        chosen.append(v / np.linalg.norm(v))
+        left = space - np.outer(chosen[-1], chosen[-1] @ space)
+        u, s, _ = np.linalg.svd(left, full_matrices=False)
+        space = u * (s > 0.5)  # keeps its width, so that the loop knows how many there are
+    return np.column_stack(chosen) if chosen else np.zeros((3, 0))
+
+
+def _mixture(z: Floats, belief: MountBelief) -> str:
+    """Say a motion about the centroid, scaled (6,), without what is small in it."""
+    shift, turn = z[:3] * belief.shift, z[3:] * belief.rotation
+    small = _SMALL * float(np.linalg.norm(z))
+    parts = []
+    if np.linalg.norm(z[:3]) > small:
+        parts.append(f"a shift of {1e3 * float(np.linalg.norm(shift)):.2g} mm along {axis_name(shift)}")
+    if np.linalg.norm(z[3:]) > small:
+        parts.append(f"a turn of {np.degrees(float(np.linalg.norm(turn))):.2g}° about {axis_name(turn)}")
+    return " together with ".join(parts)
+
+
+def _listed(things: Sequence[str]) -> str:
+    return things[0] if len(things) == 1 else ", ".join(things[:-1]) + " or " + things[-1]

@@ -1,0 +1,94 @@
+"""Principal axes: known moments, the signs by rule, all four rotations, and shapes that have no axes."""
+
+import numpy as np
+import pytest
+import trimesh
+from contact_cases import ball, bundled
+
+import assets
+from pipeline.mesh import Probe
+from pipeline.preparation.alignment import AlignmentError, align_axes
+
+SIZES = (0.06, 0.03, 0.12)
+
+
+def box():
+    mesh = trimesh.creation.box(extents=SIZES).subdivide()
+    return Probe.from_arrays(np.asarray(mesh.vertices) + [0.01, 0.02, 0.1], np.asarray(mesh.faces))
+
+
+def test_a_box_has_the_moments_of_a_box():
+    found = align_axes(box())
+    assert np.allclose(found.spreads_m, np.array(SIZES) / np.sqrt(12), rtol=1e-9)
+    assert np.allclose(found.alignment.T_SP[:3, :3], np.eye(3), atol=1e-9)
+    assert np.allclose(found.alignment.p_SP_S, [-0.01, -0.02, -0.04], atol=1e-9)
+    assert found.determined.all()
+    assert found.weight == "volume"
+
+
+def test_area_moments_are_those_of_the_surface():
+    found = align_axes(box(), weight="area")
+    a, b, c = SIZES
+    walls = [
+        (2 * b * c, (a / 2) ** 2),
+        (2 * a * c, a**2 / 12),
+        (2 * a * b, a**2 / 12),
+    ]
+    expected = sum(area * square for area, square in walls) / sum(area for area, _ in walls)
+    assert np.isclose(found.spreads_m[0], np.sqrt(expected), rtol=1e-9)
+
+
+@pytest.mark.parametrize("name", assets.PROBE_NAMES)
+@pytest.mark.parametrize("seed", range(3))
+def test_one_of_the_four_rotations_is_right_however_the_mesh_lies(name, seed, random_rigid, move):
+    probe = bundled(name, 1000)
+    T = random_rigid(np.random.default_rng(seed), 0.3, 170.0)
+    back = np.linalg.inv(T)
+    mesh = Probe.from_arrays(move(back, probe.vertices), probe.faces)
+    tip = move(back, np.array([[0.0, 0.0, 0.15]]))[0]
+    found = align_axes(mesh, tip_P=tip)
+    off = np.abs(found.alternatives - T).reshape(4, -1).max(axis=1)
+    # The probes are symmetric in x and y, so of the two with the tip up either may be the first.
+    assert off[:2].min() < 1e-4
+    assert np.array_equal(found.alternatives[0], found.alignment.T_SP)
+    for T_SP in found.alternatives:
+        placed = move(T_SP, mesh.vertices)
+        assert np.isclose(placed[:, 2].min(), 0.0, atol=1e-12)
+        assert np.isclose(np.linalg.det(T_SP[:3, :3]), 1.0)
+    assert len({tuple(np.round(T_SP[:3, :3], 6).ravel()) for T_SP in found.alternatives}) == 4
+
+
+def test_the_tip_is_the_end_further_from_the_origin_or_the_one_picked():
+    probe = bundled("linear", 1000)
+    up = align_axes(probe)
+    down = Probe.from_arrays(probe.vertices * [1, -1, -1], probe.faces)
+    assert np.isclose(up.alignment.R_SP[2, 2], 1.0)
+    assert np.isclose(align_axes(down).alignment.R_SP[2, 2], -1.0)
+    assert np.isclose(align_axes(probe, tip_P=[0, 0, 0]).alignment.R_SP[2, 2], -1.0)
+    middle = Probe.from_arrays(probe.vertices - [0, 0, 0.075], probe.faces)
+    assert any("in its middle" in sentence for sentence in align_axes(middle).alignment.warnings)
+    assert any("further from the mesh's origin" in sentence for sentence in up.alignment.warnings)
+    assert not align_axes(probe, tip_P=[0, 0, 0.15]).alignment.warnings
+
+
+def test_shapes_without_axes_say_so():
+    found = align_axes(ball())
+    assert not found.determined.any()
+    assert len(found.alignment.warnings) >= 3
+    rod = trimesh.creation.cylinder(radius=0.01, height=0.1, sections=64)
+    round_one = align_axes(Probe.from_arrays(np.asarray(rod.vertices) + [0, 0, 0.05], np.asarray(rod.faces)))
+    assert round_one.determined.tolist() == [True, True, False]
+    assert any("turn about z is not determined" in sentence for sentence in round_one.alignment.warnings)
+
+
+def test_an_open_mesh_is_weighed_by_its_area():
+    probe = bundled("linear", 1000)
+    opened = Probe.from_arrays(probe.vertices, probe.faces[:-10])
+    found = align_axes(opened)
+    assert found.weight == "area"
+    assert any("no volume" in sentence for sentence in found.alignment.warnings)
+
+
+def test_another_weight_is_refused():
+    with pytest.raises(AlignmentError, match="'volume' or 'area'"):
+        align_axes(box(), weight="mass")

@@ -1,0 +1,295 @@
+"""The mount from touches: exact, near the bound, honest about what it cannot see and whom to believe."""
+
+import numpy as np
+import pytest
+from scipy.special import chdtri
+
+from pipeline.contact import WrenchNoise
+from pipeline.preparation.alignment import (
+    Advice,
+    AlignmentError,
+    MarkerTouches,
+    MountBelief,
+    align_axes,
+    align_touches,
+    from_json,
+)
+from pipeline.preparation.alignment.rigid import difference
+from pipeline.preparation.alignment.touches.fit import fit_mount
+from pipeline.preparation.alignment.touches.marker import put_on_mesh
+from pipeline.preparation.alignment.touches.model import TouchModel
+
+NOISE = WrenchNoise(0.05, 0.002)
+
+
+def model_of(case, placement=0.0003):
+    on_mesh = put_on_mesh(case.touches, case.probe_P)
+    return TouchModel(on_mesh.points_P, on_mesh.normals_P, case.touches.wrenches, NOISE.covariance, placement)
+
+
+def flat_touches(rng, *, angle=0.0, count=15):
+    """Touches of a face of 50 x 16 mm at z = 150 mm, and their noisy wrenches."""
+    points = np.column_stack(
+        [rng.uniform(-0.025, 0.025, count), rng.uniform(-0.008, 0.008, count), np.full(count, 0.15)]
+    )
+    tilt, around = np.radians(angle) * rng.uniform(0, 1, count), rng.uniform(0, 2 * np.pi, count)
+    forces = np.column_stack([np.sin(tilt) * np.cos(around), np.sin(tilt) * np.sin(around), -np.cos(tilt)])
+    forces *= rng.uniform(8, 10, count)[:, None]
+    wrenches = np.hstack([forces, np.cross(points, forces)])
+    wrenches += np.sqrt(np.diag(NOISE.covariance)) * rng.standard_normal(wrenches.shape)
+    return TouchModel(points, np.tile([0.0, 0.0, 1.0], (count, 1)), wrenches, NOISE.covariance, 0.0003)
+
+
+@pytest.mark.parametrize("name", ["linear", "t-shape"])
+def test_without_noise_the_mount_is_found_to_the_mesh_s_own_error(bench, name):
+    case = bench(name, 1, noise=None, placement=0.0, facets=8000)
+    fit = fit_mount(model_of(case), [case.T_before], MountBelief())
+    far, angle = case.error(fit.T_SP)
+    assert far < 2e-4
+    assert angle < 0.15
+    before, _ = case.error(case.T_before)
+    assert before > 2e-3
+
+
+def test_the_residual_is_whitened(bench):
+    whole = []
+    for seed in range(60):
+        case = bench("convex", seed, facets=8000)
+        whole.append(model_of(case).residuals(case.T_true))
+    r = np.concatenate(whole)
+    assert np.allclose(np.cov(r.T), np.eye(2), atol=0.12)
+    assert np.abs(r.mean(axis=0)).max() < 0.1
+
+
+def test_the_bound_is_the_textbook_figure():
+    model = flat_touches(np.random.default_rng(0), count=400)
+    middle = np.abs(model.points_P[:, :2]).max(axis=1) < 0.004
+    expected = 2 * (0.002**2 + (0.15 * 0.05) ** 2) / model.wrenches[middle, 2] ** 2 + 2 * 0.0003**2
+    found = np.trace(model.sigmas(np.eye(4)), axis1=1, axis2=2)[middle]
+    assert np.allclose(found, expected, rtol=0.02)
+
+
+def test_the_ellipsoid_covers_what_it_says(bench):
+    inside, count = 0, 120
+    for seed in range(count):
+        case = bench("linear", 1000 + seed)
+        fit = fit_mount(model_of(case), [case.T_before], MountBelief())
+        error = difference(case.T_true, fit.T_SP, fit.about_S)
+        inside += error @ np.linalg.solve(fit.covariance, error) < chdtri(6, 0.05)
+    # 95 % of 120 is 114, give or take 2.4.
+    assert 107 <= inside <= 120
+
+
+def test_fifteen_touches_serve_new_touches_nearly_as_well_as_the_truth(bench):
+    true, found, before = [], [], []
+    for seed in range(40):
+        case, new = bench("convex", seed), bench("convex", 500 + seed, count=60, placement=0.0)
+        fit = fit_mount(model_of(case), [case.T_before], MountBelief())
+        # New touches of the same probe, with the mounts' errors carried over to its own true mount.
+        judge = model_of(new, placement=0.0)
+        for errors, T in ((true, case.T_true), (found, fit.T_SP), (before, case.T_before)):
+            errors.append(judge.plane_errors(T @ np.linalg.inv(case.T_true) @ new.T_true))
+    scale = [np.sqrt(np.mean(np.square(errors))) for errors in (true, found, before)]
+    assert scale[1] < 1.15 * scale[0]
+    assert scale[2] > 2 * scale[0]
+
+
+def test_normal_touches_of_one_flat_face_show_three_of_six(random_rigid):
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        model = flat_touches(rng)
+        start = random_rigid(rng, 0.002, 1.5)
+        fit = fit_mount(model, [start], MountBelief())
+        assert fit.rank == 3
+        # Unseen: the shift along the normal, and the tilts about the two axes in the face.
+        unseen = np.eye(6)[:, [2, 3, 4]]
+        assert np.linalg.norm(fit.unseen.T @ unseen, ord=-2) > 0.97
+        # Along them the mount stays where it was, with the uncertainty that it had.
+        moved = difference(fit.T_SP, fit.start, fit.about_S) / MountBelief().scales
+        assert np.abs(fit.unseen.T @ moved).max() < 0.02
+        assert np.allclose(np.sqrt(np.diag(fit.covariance))[2:5] / MountBelief().scales[2:5], 1.0, atol=0.05)
+        # The rest is known well: 0.75 mm of each touch by the root of fifteen.
+        assert np.sqrt(np.diag(fit.covariance))[:2].max() < 0.0003
+
+
+def test_friction_on_the_flat_face_shows_the_normal_shift_but_not_the_tilts(random_rigid):
+    rng = np.random.default_rng(3)
+    fit = fit_mount(flat_touches(rng, angle=30.0), [random_rigid(rng, 0.002, 1.5)], MountBelief())
+    assert fit.rank == 4
+    assert np.linalg.norm(fit.unseen.T @ np.eye(6)[:, [3, 4]], ord=-2) > 0.97
+
+
+def test_what_the_touches_cannot_show_is_said_and_kept(bench):
+    case = bench("linear", 0, angle=(0.0, 1.0), above=0.1499, facing=0.9999, torsion_arm=0.0)
+    found = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+    assert found.rank == 3
+    assert len(found.unseen) == 3
+    assert sum(thing.startswith("a shift along") for thing in found.unseen) == 1
+    assert sum(thing.startswith("a turn about") for thing in found.unseen) == 2
+    said = [sentence for sentence in found.fitted.warnings if "cannot show" in sentence]
+    assert len(said) == 1
+    assert all(thing in said[0] for thing in found.unseen)
+
+
+def test_a_clear_gain_is_adopted_with_its_figures(bench):
+    case = bench("convex", 4)
+    found = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+    assert found.advice is Advice.ADOPT
+    assert np.array_equal(found.T_SP, found.fitted.T_SP)
+    assert found.rank == 6
+    assert found.kept.all()
+    assert found.check.folds == 15
+    assert 0.6 < found.check.ratio < 1.6
+    assert found.check.ratio_before > 2
+    again = from_json(found.fitted.to_json())
+    assert np.array_equal(again.T_SP, found.fitted.T_SP)
+    assert any("better than the calibration" in sentence for sentence in again.how)
+    far, _ = case.error(found.T_SP)
+    assert far < case.error(case.T_before)[0]
+
+
+def test_left_out_touches_cost_more_than_those_that_were_fitted(bench):
+    inside, outside = [], []
+    for seed in range(6):
+        case = bench("t-shape", seed)
+        check = align_touches(case.probe_P, case.touches, case.T_before, NOISE).check
+        inside.append((check.in_sample**2).mean())
+        outside.append((check.out_of_sample**2).mean())
+    assert np.sqrt(np.mean(outside)) > 1.1 * np.sqrt(np.mean(inside))
+
+
+def test_a_mount_that_is_right_already_is_kept(bench):
+    kept = 0
+    for seed in range(8):
+        case = bench("linear", seed, off=(0.0, 0.0))
+        found = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+        if found.advice is Advice.KEEP:
+            kept += 1
+            assert np.array_equal(found.T_SP, found.before)
+    assert kept >= 7  # one in twenty may be adopted by chance
+
+
+def test_swapped_markers_are_named_and_left_out(bench):
+    case = bench("linear", 2)
+    points = case.touches.points_P.copy()
+    points[[3, 7]] = points[[7, 3]]
+    names = tuple(f"M{row}" for row in range(15))
+    found = align_touches(
+        case.probe_P, MarkerTouches(points, case.touches.wrenches, names=names), case.T_before, NOISE
+    )
+    assert np.flatnonzero(~found.kept).tolist() == [3, 7]
+    for name in ("M3", "M7"):
+        assert any(sentence.startswith(f"{name} was left out") for sentence in found.fitted.warnings)
+    assert found.advice is Advice.ADOPT
+    assert case.error(found.T_SP)[0] < 0.002
+    blind = align_touches(
+        case.probe_P, MarkerTouches(points, case.touches.wrenches), case.T_before, NOISE, robust=False
+    )
+    assert blind.kept.all()
+    assert case.error(blind.fitted.T_SP)[0] > 0.005
+
+
+def test_the_right_one_of_four_axes_is_chosen(bench):
+    case = bench("t-shape", 5)
+    axes = align_axes(case.probe_P)
+    starts = [case.T_true @ np.linalg.inv(axes.alternatives[0]) @ T for T in axes.alternatives]
+    found = align_touches(case.probe_P, case.touches, starts, NOISE, belief=MountBelief(0.05, 0.5))
+    assert case.error(found.fitted.T_SP)[0] < 0.004
+
+
+def test_too_small_a_noise_widens_the_covariance_instead_of_blaming_touches(bench):
+    case = bench("convex", 6)
+    small = WrenchNoise(0.05 / 8, 0.002 / 8)
+    right = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+    wrong = align_touches(case.probe_P, case.touches, case.T_before, small, placement=0.0003 / 8)
+    assert wrong.scatter > 10
+    assert wrong.kept.sum() >= 13
+    assert np.all(wrong.fitted.sigmas_mm > 0.4 * right.fitted.sigmas_mm)
+    assert any("scatter" in sentence for sentence in wrong.fitted.warnings)
+
+
+def test_a_common_wrench_error_moves_the_mount_as_predicted(bench):
+    case = bench("linear", 7)
+    bias = np.array([0.02, -0.03, 0.01, 0.001, -0.0005, 0.0008])
+    clean = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+    shifted = MarkerTouches(case.touches.points_P, case.touches.wrenches + bias)
+    biased = align_touches(case.probe_P, shifted, case.T_before, NOISE)
+    moved = difference(biased.fitted.T_SP, clean.fitted.T_SP, clean.fitted.about_S)
+    predicted = clean.bias_effect @ bias
+    assert np.linalg.norm(moved - predicted) < 0.1 * np.linalg.norm(predicted)
+    unsure = align_touches(
+        case.probe_P,
+        case.touches,
+        case.T_before,
+        NOISE,
+        bias_covariance=np.diag([0.02**2] * 3 + [0.001**2] * 3),
+    )
+    assert np.all(unsure.fitted.sigmas_mm > clean.fitted.sigmas_mm)
+
+
+def test_few_touches_prove_nothing(bench):
+    case = bench("linear", 8, count=5)
+    found = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+    assert found.advice is Advice.KEEP
+    assert "at least 6" in found.reasons[0]
+
+
+def test_three_touches_are_fitted_as_far_as_they_go(bench):
+    case = bench("linear", 8, count=3)
+    found = align_touches(case.probe_P, case.touches, case.T_before, NOISE)
+    assert 1 <= found.rank <= 6
+    assert len(found.unseen) == 6 - found.rank
+    assert found.advice is Advice.KEEP
+
+
+def test_many_touches_are_left_out_in_ten_folds(bench):
+    done = []
+    case = bench("linear", 9, count=24)
+    found = align_touches(case.probe_P, case.touches, case.T_before, NOISE, progress=done.append)
+    assert found.check.folds == 10
+    assert np.allclose(done, np.arange(1, 11) / 10)
+
+
+def test_touches_that_cannot_be_used_are_refused(bench):
+    case = bench("linear", 10)
+    points, wrenches = case.touches.points_P, case.touches.wrenches
+    with pytest.raises(AlignmentError, match="forces pull"):
+        align_touches(case.probe_P, MarkerTouches(points, -wrenches), case.T_before, NOISE)
+    with pytest.raises(AlignmentError, match="mm from the mesh"):
+        align_touches(case.probe_P, MarkerTouches(points * 2, wrenches), case.T_before, NOISE)
+    with pytest.raises(AlignmentError, match="infinitely sure"):
+        align_touches(case.probe_P, case.touches, case.T_before, WrenchNoise(0, 0), placement=0.0)
+    with pytest.raises(AlignmentError, match="not a rotation"):
+        align_touches(case.probe_P, case.touches, case.T_before @ np.diag([2, 2, 2, 1.0]), NOISE)
+    with pytest.raises(AlignmentError, match="these are not numbers"):
+        align_touches(case.probe_P, case.touches, [[1, 2], [3]], NOISE)
+    with pytest.raises(AlignmentError, match="give metres"):
+        align_touches(case.probe_P, case.touches, case.T_before, NOISE, placement=0.3)
+    with pytest.raises(AlignmentError, match=r"MountBelief\.shift"):
+        MountBelief(5.0)
+    with pytest.raises(AlignmentError, match="one of each"):
+        MarkerTouches(points, wrenches[:-1])
+
+
+def test_a_marker_beside_the_mesh_is_moved_onto_it_and_told(bench):
+    case = bench("linear", 11)
+    points = case.touches.points_P.copy()
+    normals = put_on_mesh(case.touches, case.probe_P).normals_P
+    points[2] += 0.003 * normals[2]
+    touches = MarkerTouches(points, case.touches.wrenches, normals)
+    found = align_touches(case.probe_P, touches, case.T_before, NOISE)
+    assert any(sentence.startswith("touch 3: the marker is 3.0 mm") for sentence in found.fitted.warnings)
+    flipped = normals.copy()
+    flipped[4] *= -1
+    warnings = put_on_mesh(
+        MarkerTouches(case.touches.points_P, case.touches.wrenches, flipped), case.probe_P
+    ).warnings
+    assert any(sentence.startswith("touch 5: the normal given is 180°") for sentence in warnings)
+
+
+def test_the_same_touches_give_the_same_bytes(bench):
+    case = bench("convex", 12)
+    first, second = (
+        align_touches(case.probe_P, case.touches, case.T_before, NOISE).fitted.to_json() for _ in range(2)
+    )
+    assert first == second

@@ -21,6 +21,7 @@ from pipeline import __version__
 from pipeline.commands.gravity import gravity_app
 from pipeline.commands.options import numbers
 from pipeline.commands.poses import poses_app
+from pipeline.commands.probe import probe_app
 from pipeline.console import Bar, JsonOption, print_json, report_error, say, wants_json
 from pipeline.errors import InputError
 from pipeline.study.commands import study_app
@@ -384,6 +385,7 @@ def demo(
 # import nothing heavy at their top.
 app.add_typer(gravity_app)
 app.add_typer(poses_app)
+app.add_typer(probe_app, name="probe")
 app.add_typer(study_app, name="study")
 
 

@@ -4,6 +4,8 @@ import os
 import secrets
 from pathlib import Path
 
+from pipeline.errors import InputError
+
 
 def write_durably(file: Path, data: bytes) -> None:
     """Put `data` in `file` in one step: whoever reads it sees the old content or the new.
@@ -40,3 +42,22 @@ def sync_folder(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder, and those above it.
+
+    Raises
+    ------
+    InputError
+        It is a file, or cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError) as error:
+        taken = next((path for path in (folder, *folder.parents) if path.is_file()), folder)
+        raise InputError(f"{folder}: {taken} is a file: choose another name for the folder.") from error
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        raise InputError(
+            f"{folder}: the folder cannot be made ({error}): choose one in a place that is writable."
+        ) from error

@@ -12,10 +12,11 @@ from pipeline.contact import ContactSolver, WrenchNoise
 from pipeline.contact.stream import locate_file
 from pipeline.contact.wrench_csv import WrenchReader
 from pipeline.demo.compare import FACE, HEAD, compare_methods
-from pipeline.demo.files import make_folder, write_bytes, write_csv, write_truth
+from pipeline.demo.files import write_bytes, write_csv, write_truth
 from pipeline.demo.gravity import GravityResult, weigh_and_compensate
 from pipeline.demo.picture import Located, PictureError, draw
 from pipeline.demo.report import DemoReport, ProbeResult
+from pipeline.durable import make_folder
 from pipeline.errors import InputError
 from pipeline.mesh import Probe, load_probe, save_probe
 from pipeline.simulation import Touches, draw_touches

@@ -1,6 +1,8 @@
 """Touches of a surface that is known exactly, and the wrenches a perfect or a real sensor reads."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,8 +36,16 @@ class Touches:
         return len(self.points)
 
 
+class Sampled(Protocol):
+    """Anything that gives random points of itself, evenly by area, with the normals there."""
+
+    def sample(self, count: int, rng: np.random.Generator) -> Sequence[Float]:
+        """Give points (count, 3), m, outward normals (count, 3), and perhaps more."""
+        ...
+
+
 def draw_touches(
-    surface: Surface,
+    surface: Sampled,
     count: int,
     rng: np.random.Generator,
     *,
@@ -49,7 +59,7 @@ def draw_touches(
 
     Parameters
     ----------
-    surface : Surface
+    surface : Sampled
         The true surface, S, metres.
     count : int
         How many.

@@ -17,7 +17,7 @@ from pipeline.errors import InputError
 from pipeline.robot import Robot
 from pipeline.simulation.weighing import Weighing, bump, draw_weighing
 from pipeline.study.blind_sets import BLIND_SETS, try_blind
-from pipeline.study.timing import time_calls
+from pipeline.timing import time_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable

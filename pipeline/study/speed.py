@@ -15,7 +15,7 @@ from pipeline.contact.wrench_axis import EmbreeAxis
 from pipeline.errors import InputError
 from pipeline.mesh import Probe
 from pipeline.simulation import add_noise, draw_slide, draw_touches
-from pipeline.study.timing import Timing, time_calls
+from pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -196,7 +196,7 @@ def test_time_is_told_and_not_asserted(monkeypatch):
 
 
 def gravity_times(calls):
-    from pipeline.study.timing import Timing
+    from pipeline.timing import Timing
 
     for function, arguments in calls.values():
         function(arguments[0])

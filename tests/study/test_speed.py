@@ -10,7 +10,6 @@ from pipeline.cli import app
 from pipeline.errors import InputError
 from pipeline.study import speed
 from pipeline.study.speed_tables import markdown, tables
-from pipeline.study.timing import Timing, time_calls
 
 
 @pytest.fixture(scope="module")
@@ -73,13 +72,6 @@ def test_report_is_plain_data(report):
 def test_targets_are_judged_both_ways():
     assert speed.Target("a", 2.0, 1.0).met is False
     assert speed.Target("a", 2.0, 1.0, at_least=True).met is True
-
-
-def test_timing_counts_every_call():
-    seen = []
-    timings = time_calls({"append": (seen.append, list(range(50)))}, rounds=3, block=10)
-    assert len(seen) == 2 * 10 + 3 * 10
-    assert isinstance(timings["append"], Timing)
 
 
 @pytest.mark.parametrize(

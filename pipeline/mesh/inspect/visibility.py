@@ -16,6 +16,7 @@ import numpy as np
 
 from pipeline.kernel import SurfaceIndex
 from pipeline.mesh.engines import Cancelled
+from pipeline.mesh.triangles import directions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -189,21 +190,13 @@ def _sky(
     index: SurfaceIndex, points: npt.NDArray[np.float64], normals: npt.NDArray[np.float64], lift: float
 ) -> npt.NDArray[np.float64]:
     """Share of the sky before each point that is free, weighted by the cosine."""
-    fan = _fan(DIRECTIONS)
+    fan = directions(DIRECTIONS)
     cosine = normals @ fan.T
     row, ray = np.nonzero(cosine > _GRAZING)
     free = index.escapes((points + lift * normals)[row], fan[ray])
     weight = cosine[row, ray]
     seen = np.bincount(row, weight * free, minlength=len(points))
     return seen / np.bincount(row, weight, minlength=len(points))
-
-
-def _fan(count: int) -> npt.NDArray[np.float64]:
-    """Directions evenly over the sphere, (count, 3): a Fibonacci lattice, which no CAD edge is aligned with."""
-    step = np.arange(count) + 0.5
-    height = 1 - 2 * step / count
-    radius, turn = np.sqrt(1 - height**2), np.pi * (1 + np.sqrt(5)) * step
-    return np.column_stack((radius * np.cos(turn), radius * np.sin(turn), height))
 
 
 def _walls(

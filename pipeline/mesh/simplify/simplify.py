@@ -58,7 +58,9 @@ class Simplified:
         for priority, part in self.regions.items():
             where = f"In region {priority}" if priority else "Outside every region"
             out.append(f"{where}: {part.sentence}.")
-        return (*out, *(self.steps if len(self.steps) > 1 else ()))
+        if len(self.steps) > 1:
+            out.append(f"That took {len(self.steps)} attempts; the history lists them.")
+        return tuple(out)
 
 
 def simplify(

@@ -1,12 +1,19 @@
-"""Paired timing of Python calls: every rival in the same run, a block each in turn."""
+"""Paired timing: every rival in the same run, a block each in turn."""
 
-from collections.abc import Callable, Mapping, Sequence
+from __future__ import annotations
+
 from dataclasses import dataclass
 from time import perf_counter_ns
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+_Key = TypeVar("_Key", bound="Hashable")
 
 
 @dataclass(frozen=True)
@@ -23,7 +30,7 @@ class Timing:
     p99: float
 
     @classmethod
-    def of(cls, ns: NDArray[np.float64], overhead: float = 0.0) -> "Timing":
+    def of(cls, ns: NDArray[np.float64], overhead: float = 0.0) -> Timing:
         """Summarise calls that took `ns` (n,) each, of which `overhead` is the clock's."""
         return cls(float(np.median(ns)) - overhead, float(np.percentile(ns, 99)) - overhead)
 
@@ -56,6 +63,42 @@ def time_calls(
                 function(argument)
                 times.append(perf_counter_ns() - before)
     return {name: Timing.of(np.array(times, dtype=np.float64), overhead) for name, times in taken.items()}
+
+
+def time_batches(
+    timers: Mapping[
+        _Key, tuple[Callable[[NDArray[np.float64]], NDArray[np.float64]], NDArray[np.float64], int]
+    ],
+    *,
+    rounds: int = 20,
+    after_round: Callable[[int], None] = lambda _: None,
+) -> dict[_Key, Timing]:
+    """Time compiled calls that measure themselves, in interleaved blocks.
+
+    Parameters
+    ----------
+    timers : mapping
+        Key -> (timer, rows, block). The timer takes some of the rows (n, ...) and returns the nanoseconds of
+        each; a block is how many it gets at a time, at most all of them.
+    rounds : int
+        How many blocks of each; the rows are gone through in turn, and again from the start.
+    after_round : callable
+        Told how many rounds are done; what it raises ends the timing.
+
+    Returns
+    -------
+    dict
+        Key -> Timing; the clock's own time is left in.
+    """
+    taken: dict[_Key, list[NDArray[np.float64]]] = {key: [] for key in timers}
+    for timer, rows, block in timers.values():  # warm-up
+        timer(rows[:block])
+    for done in range(rounds):
+        for key, (timer, rows, block) in timers.items():
+            start = done * block % max(1, len(rows) - block + 1)
+            taken[key].append(timer(rows[start : start + block]))
+        after_round(done + 1)
+    return {key: Timing.of(np.concatenate(ns)) for key, ns in taken.items()}
 
 
 def clock_overhead() -> float:

@@ -1,0 +1,49 @@
+"""
+Priority regions of a probe: named, ordered sets of facets, edited with undo, kept in files, carried along.
+
+A `RegionSet` is a value: names and colours in the order of priority, and a rank per facet, which is what
+`Probe.region` holds. A `RegionModel` edits one; a `FacetGraph` knows the mesh. Nothing here draws anything.
+"""
+
+from pipeline.mesh.regions.closest import carry_labels
+from pipeline.mesh.regions.errors import RegionError
+from pipeline.mesh.regions.exchange import load_regions, save_regions
+from pipeline.mesh.regions.facet_graph import FacetGraph
+from pipeline.mesh.regions.mirror import Mirrored, mirror
+from pipeline.mesh.regions.model import Change, RegionModel
+from pipeline.mesh.regions.morphology import grow, shrink, smooth
+from pipeline.mesh.regions.region import PALETTE, Region, RegionSet
+from pipeline.mesh.regions.selections import component, facing, flood, half_space, in_box
+from pipeline.mesh.regions.sidecar import load_with_regions, save_with_regions
+from pipeline.mesh.regions.stroke import Brush, Stroke
+from pipeline.mesh.regions.transfer import RegionReport, Transferred, transfer
+
+__all__ = [
+    "PALETTE",
+    "Brush",
+    "Change",
+    "FacetGraph",
+    "Mirrored",
+    "Region",
+    "RegionError",
+    "RegionModel",
+    "RegionReport",
+    "RegionSet",
+    "Stroke",
+    "Transferred",
+    "carry_labels",
+    "component",
+    "facing",
+    "flood",
+    "grow",
+    "half_space",
+    "in_box",
+    "load_regions",
+    "load_with_regions",
+    "mirror",
+    "save_regions",
+    "save_with_regions",
+    "shrink",
+    "smooth",
+    "transfer",
+]

@@ -1,0 +1,264 @@
+"""Regions as files of their own: JSON with names and colours, bound to its mesh; CSV with a rank per facet."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.durable import write_durably
+from pipeline.mesh.regions.errors import RegionError
+from pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionSet
+from pipeline.tables import TableReader, Wording, read_table
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from pipeline.mesh.probe import Probe
+
+FORMAT, VERSION = "contactbench regions", 1
+SIZE_LIMIT = 64 * 2**20  # bytes; half a million scattered facets take a tenth of it
+
+_CSV = Wording(
+    header="face,region",
+    rows="facets and regions",
+    meaning="the facet, counted from 0, and the rank of its region, 0 for none",
+    not_finite="write the number of a facet or region.",
+    error=RegionError,
+)
+
+
+def mesh_hash(probe: Probe) -> str:
+    """SHA-256 over the faces, then the vertices, as little-endian int32 and float64: 64 hexadecimal digits."""
+    digest = hashlib.sha256(np.ascontiguousarray(probe.faces, dtype="<i4").tobytes())
+    digest.update(np.ascontiguousarray(probe.vertices, dtype="<f8").tobytes())
+    return digest.hexdigest()
+
+
+def encode_json(regions: RegionSet, probe: Probe) -> bytes:
+    """
+    Write regions as JSON: per region its name, its colour and its facets as runs of [first, count].
+
+    Parameters
+    ----------
+    regions : RegionSet
+    probe : Probe
+        Their mesh; its hash goes into the file.
+    """
+    document = {
+        "format": FORMAT,
+        "version": VERSION,
+        "mesh": {"sha256": mesh_hash(probe), "facets": len(probe.faces)},
+        "regions": [
+            {"name": region.name, "colour": region.colour, "facets": _runs(regions.faces_of(rank))}
+            for rank, region in enumerate(regions.regions, 1)
+        ],
+    }
+    return (json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+def decode_json(data: bytes, probe: Probe) -> RegionSet:
+    """
+    Read what `encode_json` wrote.
+
+    Parameters
+    ----------
+    data : bytes
+    probe : Probe
+        The mesh that the regions are for.
+
+    Raises
+    ------
+    RegionError
+        Not such a file, of another mesh, or with contents that cannot be: facets out of range or in two
+        regions, names or colours that are none.
+    """
+    document = parse_json(data)
+    if _of(document, "format", str) != FORMAT:
+        raise RegionError("this JSON file does not hold regions: choose a file that was exported as regions.")
+    version = _of(document, "version", int)
+    if version != VERSION:
+        raise RegionError(
+            f"these regions have the format {version}, not {VERSION}: use a newer contactbench."
+        )
+    _check_mesh(_of(document, "mesh", dict), probe)
+    entries = _of(document, "regions", list)
+    if len(entries) > MOST_REGIONS:
+        raise RegionError(f"the file holds {len(entries)} regions, more than {MOST_REGIONS}: merge some.")
+    labels = np.zeros(len(probe.faces), dtype=np.int32)
+    listed = []
+    for rank, entry in enumerate(entries, 1):
+        listed.append(read_region(entry, rank))
+        _fill(labels, rank, _of(entry, "facets", list), listed[-1].name)
+    return RegionSet(tuple(listed), labels)
+
+
+def parse_json(data: bytes) -> dict[str, Any]:
+    """Parse a JSON object; RegionError for anything else, and for a key that occurs twice in one object."""
+    try:
+        document = json.loads(data.decode("utf-8-sig"), object_pairs_hook=_once, parse_constant=_no_constant)
+    except (ValueError, RecursionError) as error:  # UnicodeDecodeError and JSONDecodeError are ValueErrors
+        raise RegionError(f"this is not a JSON file ({error}): copy or export it again.") from error
+    if not isinstance(document, dict):
+        raise RegionError("the JSON file does not hold one object in {}: choose another file.")
+    return document
+
+
+def read_region(entry: object, rank: int) -> Region:
+    """Return the name and colour of one region of a file; RegionError if it has none."""
+    if not isinstance(entry, dict):
+        raise RegionError(f"region {rank} of the file is not an object with a name and a colour.")
+    return Region(_of(entry, "name", str), _of(entry, "colour", str))
+
+
+def encode_csv(regions: RegionSet) -> bytes:
+    """Write a row ``face,region`` for each facet, also those of no region (0)."""
+    text = io.StringIO()
+    text.write("face,region\n")
+    table = np.column_stack((np.arange(len(regions.labels)), regions.labels))
+    np.savetxt(text, table, fmt="%d", delimiter=",")
+    return text.getvalue().encode()
+
+
+def decode_csv(source: Path | io.BytesIO, facet_count: int) -> npt.NDArray[np.int32]:
+    """
+    Read ranks from a table ``face,region``; facets without a row belong to no region.
+
+    Returns
+    -------
+    (m,) int32
+
+    Raises
+    ------
+    RegionError
+        Not such a table, numbers that are not whole or out of range, or two rows for one facet.
+    """
+
+    def select(reader: TableReader) -> None:
+        reader.select(("face", "region"))
+
+    rows = read_table(source, select, _CSV, row_limit=facet_count)
+    name = source if isinstance(source, Path) else "the table"
+    for column, limit in (("face", facet_count - 1), ("region", MOST_REGIONS)):
+        values = rows.column(column)
+        bad = (values != np.floor(values)) | (values < 0) | (values > limit)
+        if bad.any():
+            row = int(np.argmax(bad))
+            raise RegionError(
+                f"{name}: line {rows.lines[row]}: {column} is {values[row]:g}, not a whole number from 0 to {limit}."
+            )
+    face = rows.column("face").astype(np.int64)
+    _, first = np.unique(face, return_index=True)
+    if len(first) < len(face):
+        row = int(np.setdiff1d(np.arange(len(face)), first)[0])
+        raise RegionError(f"{name}: line {rows.lines[row]}: facet {face[row]} occurs twice: keep one row.")
+    labels = np.zeros(facet_count, dtype=np.int32)
+    labels[face] = rows.column("region").astype(np.int32)
+    return labels
+
+
+def save_regions(regions: RegionSet, probe: Probe, file: Path) -> None:
+    """Write .json or .csv, in one step; RegionError for another suffix or where that fails."""
+    suffix = file.suffix.lower()
+    if suffix not in {".json", ".csv"}:
+        raise RegionError(f"{file}: regions are written as .json or .csv: end the name in one of them.")
+    data = encode_json(regions, probe) if suffix == ".json" else encode_csv(regions)
+    try:
+        write_durably(file, data)
+    except (OSError, ValueError) as error:
+        raise RegionError(
+            f"{file}: the regions cannot be written ({error}): choose another place."
+        ) from error
+
+
+def load_regions(file: Path, probe: Probe) -> RegionSet:
+    """Read .json or .csv for a mesh; RegionError, naming the file, where that fails."""
+    suffix = file.suffix.lower()
+    if suffix == ".csv":
+        return RegionSet.from_labels(decode_csv(file, len(probe.faces)))
+    if suffix != ".json":
+        raise RegionError(f"{file}: regions are read from .json or .csv: choose one of them.")
+    try:
+        return decode_json(read_limited(file), probe)
+    except RegionError as error:
+        raise RegionError(f"{file}: {error}") from error
+
+
+def read_limited(file: Path) -> bytes:
+    """Read a file of at most 64 MiB; RegionError if it is larger or cannot be read."""
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(SIZE_LIMIT + 1)
+    except (OSError, ValueError) as error:
+        raise RegionError(f"the file cannot be read ({error}): check the path.") from error
+    if len(data) > SIZE_LIMIT:
+        raise RegionError(f"the file is larger than {SIZE_LIMIT // 2**20} MiB: it does not hold regions.")
+    return data
+
+
+def _runs(faces: npt.NDArray[np.int64]) -> list[list[int]]:
+    if len(faces) == 0:
+        return []
+    first = np.flatnonzero(np.diff(faces, prepend=-2) != 1)
+    counts = np.diff(first, append=len(faces))
+    return [list(run) for run in zip(faces[first].tolist(), counts.tolist(), strict=True)]
+
+
+def _fill(labels: npt.NDArray[np.int32], rank: int, runs: list[Any], name: str) -> None:
+    for number, run in enumerate(runs):
+        if not (isinstance(run, list) and len(run) == 2 and all(type(value) is int for value in run)):
+            raise RegionError(
+                f"region {name!r}: facets[{number}] is not a run [first, count] of two integers."
+            )
+        first, count = run
+        if not (first >= 0 and 0 < count <= len(labels) - first):
+            raise RegionError(
+                f"region {name!r}: facets[{number}] is {str(run)[:60]}, but facets run from 0 to {len(labels) - 1}."
+            )
+        part = labels[first : first + count]
+        if part.any():
+            face = first + int(np.argmax(part != 0))
+            raise RegionError(
+                f"region {name!r}: facet {face} is listed twice: a facet has at most one region."
+            )
+        part[:] = rank
+
+
+def _check_mesh(mesh: dict[str, Any], probe: Probe) -> None:
+    facets = _of(mesh, "facets", int)
+    remedy = "Transfer them from the mesh that they were made for instead (contactbench region transfer)."
+    if facets != len(probe.faces):
+        raise RegionError(
+            f"the regions are for a mesh of {str(facets)[:20]} facets, this one has {len(probe.faces)}. {remedy}"
+        )
+    if _of(mesh, "sha256", str) != mesh_hash(probe):
+        raise RegionError(
+            f"the regions are for another mesh of {facets} facets: its vertices or faces differ. {remedy}"
+        )
+
+
+def _of(part: dict[str, Any], key: str, kind: type[Any]) -> Any:
+    value = part.get(key)
+    if type(value) is not kind:  # True is an int to isinstance
+        found = "is missing" if key not in part else f"is {type(value).__name__}"
+        raise RegionError(
+            f"{key!r} {found} in the JSON file, where {kind.__name__} belongs: export it again."
+        )
+    return value
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    result = dict(pairs)
+    if len(result) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise RegionError(f"the key {twice[:40]!r} occurs twice in one object: keep one.")
+    return result
+
+
+def _no_constant(text: str) -> float:
+    raise RegionError(f"{text} is not a number that JSON knows: export the file again.")

@@ -1,0 +1,107 @@
+"""A mesh as regions see it: which facets are neighbours, how they lie, and how far it is along the surface."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.kernel import Geodesic, SurfaceIndex
+from pipeline.mesh.regions.errors import RegionError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from pipeline.mesh.probe import Probe
+
+    Mask = npt.NDArray[np.bool_]
+
+
+class FacetGraph:
+    """
+    Neighbours, normals, areas and distances of a mesh's facets.
+
+    Facets are neighbours when they share an edge, also one of more than two facets. Building takes about
+    0.1 s for 300,000 facets; what only some edits need is worked out when it is first asked for.
+
+    Parameters
+    ----------
+    probe : Probe
+        Its vertices and faces count, not its regions.
+    """
+
+    def __init__(self, probe: Probe) -> None:
+        self.probe = probe
+        self.geodesic = Geodesic(probe.vertices, probe.faces)
+        self._first, self._second = self.geodesic.neighbours()
+
+    @property
+    def facet_count(self) -> int:
+        """How many facets there are."""
+        return len(self.probe.faces)
+
+    @property
+    def neighbours(self) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+        """Facets across the edges of facet f: ``second[first[f]:first[f + 1]]``; (m + 1,) and (k,)."""
+        return self._first, self._second
+
+    @cached_property
+    def pairs(self) -> npt.NDArray[np.int64]:
+        """Neighbours, each pair once, the lower facet first; (k, 2)."""
+        one = np.repeat(np.arange(self.facet_count), np.diff(self._first))
+        once = one < self._second
+        return np.column_stack((one[once], self._second[once]))
+
+    @cached_property
+    def creases(self) -> npt.NDArray[np.float64]:
+        """Angle between the normals of each pair, rad, (k,): 0 where the surface is flat."""
+        # The half-angle form keeps its digits at 0 and at pi, where the cosine alone loses half of them.
+        one, other = (self.probe.normals[self.pairs[:, side]] for side in (0, 1))
+        half = np.arctan2(np.linalg.norm(one - other, axis=1), np.linalg.norm(one + other, axis=1))
+        return 2 * np.asarray(half, dtype=np.float64)
+
+    @cached_property
+    def centroids(self) -> npt.NDArray[np.float64]:
+        """Centroid per facet in S, m, (m, 3)."""
+        a, b, c = (self.probe.vertices[self.probe.faces[:, corner]] for corner in range(3))
+        centres: npt.NDArray[np.float64] = (a + b + c) / 3
+        return centres
+
+    @cached_property
+    def index(self) -> SurfaceIndex:
+        """Where the nearest point of the surface is."""
+        return SurfaceIndex(self.probe.vertices, self.probe.faces)
+
+    def pick(self, points: npt.ArrayLike) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]]:
+        """
+        Find the points of the surface that are nearest to given ones.
+
+        Parameters
+        ----------
+        points : (k, 3) array_like
+            S, m.
+
+        Returns
+        -------
+        faces : (k,) int32
+        points : (k, 3) float64
+            On these facets.
+        """
+        rows = np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 3)
+        _, faces, nearest = self.index.closest(rows)
+        return faces, nearest
+
+    def border_vertices(self, mask: Mask) -> npt.NDArray[np.int32]:
+        """Vertices between facets of the mask (m,) and others, ascending; the mesh's own rims are not among them."""
+        inside = np.zeros(len(self.probe.vertices), dtype=bool)
+        outside = np.zeros(len(self.probe.vertices), dtype=bool)
+        inside[self.probe.faces[mask]] = True
+        outside[self.probe.faces[~mask]] = True
+        return np.flatnonzero(inside & outside).astype(np.int32)
+
+    def check_face(self, face: int) -> int:
+        """Return the facet number; RegionError if the mesh has no such facet."""
+        if not 0 <= face < self.facet_count:
+            raise RegionError(f"facet {face} does not exist: they run from 0 to {self.facet_count - 1}.")
+        return int(face)

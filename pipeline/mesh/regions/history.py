@@ -1,0 +1,103 @@
+"""Steps of editing that can be undone and redone, byte for byte."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from pipeline.mesh.regions.region import Region
+
+    Ints = npt.NDArray[np.int32]
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """
+    One edit: a new list of regions, ranks renumbered by it, and facets that changed hands.
+
+    Attributes
+    ----------
+    text : str
+        What was done, for a menu: "paint Lens".
+    before, after : tuple of Region
+        The list.
+    table : (k + 1,) int32 or None
+        New rank per old rank, 0 for 0 and for a region that went; None where no rank moves.
+    faces : (c,) int32
+        Ascending: those whose label is not what the table alone makes of it, or could not be made back.
+    old, new : (c,) int32
+        Their labels before and after.
+    """
+
+    text: str
+    before: tuple[Region, ...]
+    after: tuple[Region, ...]
+    table: Ints | None
+    faces: Ints
+    old: Ints
+    new: Ints
+
+    def redo(self, labels: Ints) -> None:
+        """Change labels (m,) in place."""
+        if self.table is not None:
+            labels[:] = self.table[labels]
+        labels[self.faces] = self.new
+
+    def undo(self, labels: Ints) -> None:
+        """Change labels (m,) in place, back to what they were."""
+        if self.table is not None:
+            back = np.zeros(len(self.after) + 1, dtype=np.int32)
+            kept = np.flatnonzero(self.table)
+            back[self.table[kept]] = kept
+            labels[:] = back[labels]
+        labels[self.faces] = self.old
+
+
+class History:
+    """
+    What was done and undone.
+
+    Parameters
+    ----------
+    limit : int, optional
+        How many steps are kept; all when left out.
+    """
+
+    def __init__(self, limit: int | None = None) -> None:
+        self._done: deque[Step] = deque(maxlen=limit)
+        self._undone: list[Step] = []
+
+    def push(self, step: Step) -> None:
+        """Remember a step that was just done; what was undone before it is forgotten."""
+        self._done.append(step)
+        self._undone.clear()
+
+    def back(self) -> Step | None:
+        """Return the step to undo, if there is one."""
+        if not self._done:
+            return None
+        self._undone.append(self._done.pop())
+        return self._undone[-1]
+
+    def forward(self) -> Step | None:
+        """Return the step to redo, if there is one."""
+        if not self._undone:
+            return None
+        self._done.append(self._undone.pop())
+        return self._done[-1]
+
+    @property
+    def undo_text(self) -> str | None:
+        """What would be undone, or None."""
+        return self._done[-1].text if self._done else None
+
+    @property
+    def redo_text(self) -> str | None:
+        """What would be redone, or None."""
+        return self._undone[-1].text if self._undone else None

@@ -1,0 +1,333 @@
+"""Regions that are being edited: every edit is one step that can be undone, and views are told what changed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.mesh.regions.errors import RegionError
+from pipeline.mesh.regions.history import History, Step
+from pipeline.mesh.regions.region import Region, RegionSet, check_list, find_rank, free_colour, free_name
+from pipeline.mesh.regions.stroke import Stroke
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    import numpy.typing as npt
+
+    from pipeline.mesh.regions.facet_graph import FacetGraph
+    from pipeline.mesh.regions.stroke import Brush
+
+    Ints = npt.NDArray[np.int32]
+
+_NO_FACES = np.empty(0, dtype=np.int32)
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """
+    What a view has to draw again.
+
+    Attributes
+    ----------
+    faces : (c,) int32 or None
+        Facets whose label changed; None: any may have.
+    listed : bool
+        Names, colours or order changed.
+    """
+
+    faces: npt.NDArray[np.int32] | None
+    listed: bool
+
+
+class RegionModel:
+    """
+    The regions of one mesh and their history.
+
+    Regions are named by rank: 1 is the first priority. Methods that edit make one step, or none when
+    nothing changes, and raise RegionError, changing nothing, for a rank, facet, name or colour that is not
+    possible, and while a stroke is being drawn.
+
+    Parameters
+    ----------
+    initial : RegionSet
+        What there is; undoing everything leads back to it.
+    undo_limit : int, optional
+        How many steps can be undone; all when left out.
+    """
+
+    def __init__(self, initial: RegionSet, *, undo_limit: int | None = None) -> None:
+        self._regions = initial.regions
+        self._labels = initial.labels.copy()
+        self._history = History(undo_limit)
+        self._stroke: Stroke | None = None
+        self._listeners: list[Callable[[Change], None]] = []
+
+    # ---- what there is -----------------------------------------------------------------------
+
+    @property
+    def regions(self) -> tuple[Region, ...]:
+        """In the order of their priority."""
+        return self._regions
+
+    @property
+    def labels(self) -> Ints:
+        """Rank per facet, 0 for none, (m,): a read-only view that follows the edits."""
+        view = self._labels.view()
+        view.flags.writeable = False
+        return view
+
+    def snapshot(self) -> RegionSet:
+        """Return the regions as they are now, as a value of their own."""
+        return RegionSet(self._regions, self._labels)
+
+    def rank_of(self, name: str) -> int:
+        """Return the rank of the region of this name; RegionError if there is none."""
+        return find_rank(self._regions, name)
+
+    def subscribe(self, listener: Callable[[Change], None]) -> Callable[[], None]:
+        """Have `listener` called after every change; returns what ends that."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    # ---- the list ----------------------------------------------------------------------------
+
+    def add(self, name: str | None = None, colour: str | None = None) -> int:
+        """Add a region with the last priority, by default with the next free name and colour; returns its rank."""
+        name = free_name(self._regions) if name is None else name
+        region = Region(name, free_colour(self._regions) if colour is None else colour)
+        self._relist(f"add {region.name}", (*self._regions, region))
+        return len(self._regions)
+
+    def rename(self, rank: int, name: str) -> None:
+        """Give a region another name."""
+        region = replace(self._region(rank), name=name)
+        self._relist(f"rename {self._region(rank).name}", self._with(rank, region))
+
+    def recolour(self, rank: int, colour: str) -> None:
+        """Give a region another colour, ``#rrggbb``."""
+        region = replace(self._region(rank), colour=colour)
+        self._relist(f"colour {region.name}", self._with(rank, region))
+
+    def remove(self, rank: int) -> None:
+        """Remove a region; its facets belong to none, and the ranks behind it move up."""
+        name = self._region(rank).name
+        ranks = np.arange(len(self._regions) + 1, dtype=np.int32)
+        table = np.where(ranks < rank, ranks, ranks - 1).astype(np.int32)
+        table[rank] = 0
+        faces = np.flatnonzero(self._labels == rank).astype(np.int32)
+        regions = (*self._regions[: rank - 1], *self._regions[rank:])
+        self._do(self._step(f"remove {name}", regions, table, faces, np.zeros_like(faces)))
+
+    def reorder(self, order: Sequence[int]) -> None:
+        """Put the regions in another order: `order` lists all present ranks, first priority first."""
+        if sorted(order) != list(range(1, len(self._regions) + 1)):
+            raise RegionError(
+                f"{list(order)} is not an order of {len(self._regions)} regions: name every rank once."
+            )
+        table = np.zeros(len(order) + 1, dtype=np.int32)
+        table[list(order)] = np.arange(1, len(order) + 1)
+        if list(order) == sorted(order):
+            return
+        regions = tuple(self._regions[rank - 1] for rank in order)
+        self._do(self._step("reorder regions", regions, table, _NO_FACES, _NO_FACES))
+
+    def move(self, rank: int, to: int) -> None:
+        """Give a region another rank; those between move by one."""
+        self._region(rank)
+        order = [other for other in range(1, len(self._regions) + 1) if other != rank]
+        order.insert(min(max(to, 1), len(self._regions)) - 1, rank)
+        self.reorder(order)
+
+    # ---- facets ------------------------------------------------------------------------------
+
+    def assign(
+        self, faces: npt.ArrayLike, rank: int, *, protect: bool = False, text: str | None = None
+    ) -> Ints:
+        """
+        Give facets to a region.
+
+        Parameters
+        ----------
+        faces : (c,) array_like of integers, or (m,) bool
+            Which ones; several times is once.
+        rank : int
+            The region, or 0 to take them out of theirs.
+        protect : bool
+            Facets of other regions stay theirs. With rank 0 nothing changes then.
+        text : str, optional
+            What the step is called.
+
+        Returns
+        -------
+        (d,) int32
+            Those that changed, ascending.
+        """
+        name = self._region(rank).name if rank else "none"
+        chosen = self._faces(faces)
+        old = self._labels[chosen]
+        changed: Ints = chosen[(old != rank) & ((old == 0) | (not protect))]
+        new = np.full(len(changed), rank, dtype=np.int32)
+        self._do(self._step(text or f"assign to {name}", self._regions, None, changed, new))
+        return changed
+
+    def set_region(
+        self, rank: int, mask: npt.ArrayLike, *, protect: bool = True, text: str | None = None
+    ) -> Ints:
+        """
+        Make a region consist of exactly the facets of a mask, as growing, shrinking or smoothing gives it.
+
+        Parameters
+        ----------
+        rank : int
+        mask : (m,) bool
+        protect : bool
+            Facets of other regions stay theirs.
+        text : str, optional
+            What the step is called.
+
+        Returns
+        -------
+        (d,) int32
+            Facets that changed, ascending.
+        """
+        name = self._region(rank).name
+        wanted = np.zeros(len(self._labels), dtype=bool)
+        wanted[self._faces(mask)] = True
+        own = self._labels == rank
+        gained = wanted & ~own & ((self._labels == 0) | (not protect))
+        changed = np.flatnonzero(gained | (own & ~wanted)).astype(np.int32)
+        new = np.where(wanted[changed], rank, 0).astype(np.int32)
+        self._do(self._step(text or f"change {name}", self._regions, None, changed, new))
+        return changed
+
+    def invert(self, rank: int) -> Ints:
+        """Give a region the facets of no region, and none its own; returns (d,) those that changed, ascending."""
+        name = self._region(rank).name
+        return self.set_region(rank, self._labels == 0, text=f"invert {name}")
+
+    def replace_all(self, other: RegionSet, *, text: str = "import regions") -> None:
+        """Take over other regions of the same mesh, as one step."""
+        if len(other.labels) != len(self._labels):
+            raise RegionError(
+                f"these regions are for a mesh of {len(other.labels)} facets, this one has {len(self._labels)}:"
+                " transfer them from their mesh instead."
+            )
+        table = np.zeros(len(self._regions) + 1, dtype=np.int32)
+        faces = np.flatnonzero(self._labels | other.labels).astype(np.int32)
+        self._do(self._step(text, other.regions, table, faces, other.labels[faces]))
+
+    def stroke(self, graph: FacetGraph, brush: Brush, rank: int) -> Stroke:
+        """Begin a stroke with a brush; it is one step, made when it is finished."""
+        self._refuse_during_stroke()
+        self._region(rank)
+        if graph.facet_count != len(self._labels):
+            raise RegionError(
+                f"the mesh has {graph.facet_count} facets, but the regions {len(self._labels)}: load both again."
+            )
+        self._stroke = Stroke(graph, brush, rank, self._labels, self._emit_faces, self._end_stroke)
+        return self._stroke
+
+    # ---- history -----------------------------------------------------------------------------
+
+    @property
+    def undo_text(self) -> str | None:
+        """What `undo` would undo, or None."""
+        return self._history.undo_text
+
+    @property
+    def redo_text(self) -> str | None:
+        """What `redo` would do again, or None."""
+        return self._history.redo_text
+
+    def undo(self) -> bool:
+        """Undo the last step; returns whether there was one."""
+        self._refuse_during_stroke()
+        step = self._history.back()
+        if step is None:
+            return False
+        step.undo(self._labels)
+        self._regions = step.before
+        self._emit(step)
+        return True
+
+    def redo(self) -> bool:
+        """Do the step again that was undone last; returns whether there was one."""
+        self._refuse_during_stroke()
+        step = self._history.forward()
+        if step is None:
+            return False
+        self._apply(step)
+        return True
+
+    # ---- how ---------------------------------------------------------------------------------
+
+    def _region(self, rank: int) -> Region:
+        if not 1 <= rank <= len(self._regions):
+            raise RegionError(
+                f"there is no region of rank {rank}: there are {len(self._regions)}, numbered from 1."
+            )
+        return self._regions[rank - 1]
+
+    def _with(self, rank: int, region: Region) -> tuple[Region, ...]:
+        return (*self._regions[: rank - 1], region, *self._regions[rank:])
+
+    def _faces(self, faces: npt.ArrayLike) -> Ints:
+        array = np.asarray(faces)
+        count = len(self._labels)
+        if array.dtype == np.bool_ and array.shape == (count,):
+            return np.flatnonzero(array).astype(np.int32)
+        if array.size == 0:
+            return _NO_FACES
+        if array.ndim != 1 or array.dtype.kind not in "iu":
+            raise RegionError(
+                f"facets are {array.dtype} of shape {array.shape}: give their numbers, or one bool per facet."
+            )
+        if array.min() < 0 or array.max() >= count:
+            bad = int(array.min() if array.min() < 0 else array.max())
+            raise RegionError(f"facet {bad} does not exist: they run from 0 to {count - 1}.")
+        return np.unique(array).astype(np.int32)
+
+    def _step(self, text: str, after: tuple[Region, ...], table: Ints | None, faces: Ints, new: Ints) -> Step:
+        return Step(text, self._regions, after, table, faces, self._labels[faces], new)
+
+    def _relist(self, text: str, regions: tuple[Region, ...]) -> None:
+        check_list(regions)
+        self._do(self._step(text, regions, None, _NO_FACES, _NO_FACES))
+
+    def _do(self, step: Step) -> None:
+        self._refuse_during_stroke()
+        if step.before == step.after and np.array_equal(step.old, step.new):
+            return
+        self._history.push(step)
+        self._apply(step)
+
+    def _apply(self, step: Step) -> None:
+        step.redo(self._labels)
+        self._regions = step.after
+        self._emit(step)
+
+    def _end_stroke(self, faces: Ints, old: Ints) -> None:
+        stroke, self._stroke = self._stroke, None
+        if stroke is None or len(faces) == 0:
+            return
+        name = self._regions[stroke.rank - 1].name
+        text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
+        self._history.push(Step(text, self._regions, self._regions, None, faces, old, self._labels[faces]))
+
+    def _emit(self, step: Step) -> None:
+        faces = step.faces if step.table is None else None
+        self._tell(Change(faces, listed=step.before != step.after))
+
+    def _emit_faces(self, faces: Ints) -> None:
+        self._tell(Change(faces, listed=False))
+
+    def _tell(self, change: Change) -> None:
+        for listener in tuple(self._listeners):
+            listener(change)
+
+    def _refuse_during_stroke(self) -> None:
+        if self._stroke is not None:
+            raise RegionError("a stroke is being drawn: finish or abort it first.")

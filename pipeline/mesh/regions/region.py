@@ -1,0 +1,199 @@
+"""Regions as values: names and colours in the order of their priority, and the facets that belong to each."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.mesh.probe import check_region
+from pipeline.mesh.regions.errors import RegionError
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    import numpy.typing as npt
+
+MOST_REGIONS = 255
+LONGEST_NAME = 64
+
+# Okabe & Ito's colours, told apart with every kind of colour vision; black is left out, it hides the shading.
+PALETTE = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
+
+_COLOUR = re.compile(r"#[0-9a-f]{6}")
+
+
+@dataclass(frozen=True)
+class Region:
+    """
+    What people see of a region.
+
+    Attributes
+    ----------
+    name : str
+        1 to 64 printable characters; normalised to NFC, without spaces around it.
+    colour : str
+        ``#rrggbb``; normalised to lower case.
+
+    Raises
+    ------
+    RegionError
+        A name or colour that is not like that.
+    """
+
+    name: str
+    colour: str
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "name", _checked_name(self.name))
+        colour = self.colour.lower()
+        if not _COLOUR.fullmatch(colour):
+            raise RegionError(
+                f"region {self.name!r}: {self.colour[:40]!r} is not a colour: write it as #rrggbb."
+            )
+        object.__setattr__(self, "colour", colour)
+
+
+def _checked_name(name: str) -> str:
+    text = unicodedata.normalize("NFC", name).strip()
+    if not text or len(text) > LONGEST_NAME:
+        raise RegionError(
+            f"a region is called {name[:LONGEST_NAME]!r} ({len(text)} characters): give it a name of 1 to"
+            f" {LONGEST_NAME} characters."
+        )
+    if not text.isprintable():
+        raise RegionError(f"the region name {text!r} holds characters that cannot be shown: leave them out.")
+    return text
+
+
+@dataclass(frozen=True, eq=False)
+class RegionSet:
+    """
+    The regions of one mesh: every facet belongs to at most one.
+
+    Attributes
+    ----------
+    regions : tuple of Region
+        In the order of their priority; the first has rank 1.
+    labels : (m,) int32
+        Per facet the rank of its region, 0 for none; read-only. This is what `Probe.region` holds.
+
+    Raises
+    ------
+    RegionError
+        Two regions of the same name, more than 255, or a label that is the rank of no region.
+    MeshError
+        Labels that are not one integer from 0 per facet.
+    """
+
+    regions: tuple[Region, ...]
+    labels: npt.NDArray[np.int32]
+
+    def __post_init__(self) -> None:
+        check_list(self.regions)
+        labels = check_region(self.labels, len(self.labels))
+        highest = int(labels.max(initial=0))
+        if highest > len(self.regions):
+            face = int(np.argmax(labels > len(self.regions)))
+            raise RegionError(
+                f"facet {face} has the region {labels[face]}, but there are {len(self.regions)} regions: add"
+                " the missing ones, or use ranks from 0."
+            )
+        labels.flags.writeable = False
+        object.__setattr__(self, "labels", labels)
+
+    @classmethod
+    def empty(cls, facet_count: int) -> RegionSet:
+        """No regions on a mesh of so many facets."""
+        return cls((), np.zeros(facet_count, dtype=np.int32))
+
+    @classmethod
+    def from_labels(cls, labels: npt.ArrayLike, regions: Sequence[Region] = ()) -> RegionSet:
+        """
+        Make a set of labels alone; ranks without a region get one with the next free name and colour.
+
+        Parameters
+        ----------
+        labels : (m,) array_like of integers
+            Ranks, 0 for none, such as `Probe.region`.
+        regions : sequence of Region
+            The first of them, as far as they are known.
+
+        Raises
+        ------
+        RegionError, MeshError
+            As for the class.
+        """
+        ranks = check_region(labels, len(np.atleast_1d(np.asarray(labels))))
+        highest = int(ranks.max(initial=0))
+        if highest > MOST_REGIONS:
+            raise RegionError(
+                f"a facet has the region {highest}, but there may be at most {MOST_REGIONS}: number them from 1."
+            )
+        known = list(regions)
+        while len(known) < highest:
+            known.append(Region(free_name(known), free_colour(known)))
+        return cls(tuple(known), ranks)
+
+    def rank_of(self, name: str) -> int:
+        """Return the rank of the region of this name; RegionError if there is none."""
+        return find_rank(self.regions, name)
+
+    def faces_of(self, rank: int) -> npt.NDArray[np.int64]:
+        """Return the facets of one rank, ascending."""
+        return np.flatnonzero(self.labels == rank)
+
+    def areas(self, facet_areas: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Return the area per region, (k,), given the area per facet (m,), in the same unit."""
+        count = len(self.regions) + 1
+        sums = np.bincount(self.labels, weights=facet_areas, minlength=count)
+        return sums[1:count].astype(np.float64)
+
+    def with_regions(self, regions: Sequence[Region]) -> RegionSet:
+        """Return the same facets with other names or colours."""
+        return replace(self, regions=tuple(regions))
+
+
+def check_list(regions: Sequence[Region]) -> None:
+    """
+    Check that regions can stand in one list.
+
+    Raises
+    ------
+    RegionError
+        More than 255, or a name that occurs twice.
+    """
+    if len(regions) > MOST_REGIONS:
+        raise RegionError(f"{len(regions)} regions, more than {MOST_REGIONS}: merge or remove some.")
+    names = [region.name for region in regions]
+    if len(set(names)) < len(names):
+        twice = next(name for name in names if names.count(name) > 1)
+        raise RegionError(f"two regions are called {twice!r}: rename one.")
+
+
+def find_rank(regions: Sequence[Region], name: str) -> int:
+    """Return the rank of the region of this name; RegionError if there is none."""
+    wanted = unicodedata.normalize("NFC", name).strip()
+    for rank, region in enumerate(regions, 1):
+        if region.name == wanted:
+            return rank
+    known = ", ".join(region.name for region in regions) or "none yet"
+    raise RegionError(f"there is no region {name[:LONGEST_NAME]!r}: choose one of: {known}.")
+
+
+def free_name(regions: Collection[Region]) -> str:
+    """Return the first of "Region 1", "Region 2", ... from the next rank on that is not taken."""
+    taken = {region.name for region in regions}
+    number = len(regions) + 1
+    while f"Region {number}" in taken:
+        number += 1
+    return f"Region {number}"
+
+
+def free_colour(regions: Collection[Region]) -> str:
+    """Return the first colour of the palette that is used least."""
+    used = [region.colour for region in regions]
+    return min(PALETTE, key=used.count)

@@ -1,0 +1,171 @@
+"""How well a shell fits what can be seen of the original."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh.shell.exposure import exposure
+from pipeline.mesh.shell.wrap import PLUG, SURFACE
+from pipeline.mesh.triangles import cross_products, directions, join
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from pipeline.mesh.probe import Probe
+    from pipeline.mesh.shell.wrap import Wrapped
+
+# What sees less of the sky than this lies in a groove that no finger enters.
+_VISIBLE = 0.2
+_LOOKS = 128
+_SAMPLES = 60_000
+_LINES = 60_000
+
+
+@dataclass(frozen=True)
+class ShellFit:
+    """
+    Distances between a shell and the original, metres.
+
+    Attributes
+    ----------
+    visible_median, visible_p95, visible_max : float
+        From points of the original that can be seen from outside to the shell.
+    shell_p95, shell_max : float
+        From the shell, but for its invented facets, to the original.
+    inner_hits : int
+        Of `lines` half-lines from all round outside, those that land on what was an inner wall. 0 on a good shell.
+    lines : int
+    held_back : int
+        Vertices that stayed a little outside, because a facet would have folded.
+    bridged_area : float
+        Of facets over gaps too narrow to enter, m².
+    """
+
+    visible_median: float
+    visible_p95: float
+    visible_max: float
+    shell_p95: float
+    shell_max: float
+    inner_hits: int
+    lines: int
+    held_back: int
+    bridged_area: float
+
+    @property
+    def sentence(self) -> str:
+        """The fit in words."""
+        return (
+            f"From the visible outside of the original to the shell: {1e3 * self.visible_median:.3f} mm in the"
+            f" median, {1e3 * self.visible_p95:.3f} mm for 95 %, {1e3 * self.visible_max:.2f} mm at most."
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the figures as plain values, millimetres."""
+        lengths = ("visible_median", "visible_p95", "visible_max", "shell_p95", "shell_max")
+        return {
+            **{f"{name}_mm": round(1e3 * getattr(self, name), 5) for name in lengths},
+            "inner_hits": self.inner_hits,
+            "lines": self.lines,
+            "held_back": self.held_back,
+            "bridged_mm2": round(1e6 * self.bridged_area, 3),
+        }
+
+
+def measure_fit(
+    original: Probe,
+    patches: list[tuple[NDArray[np.float64], NDArray[np.int32]]],
+    wrapped: Wrapped,
+    alpha: float,
+    tick: Callable[[float], None] | None = None,
+) -> ShellFit:
+    """
+    Measure a shell against the original.
+
+    Parameters
+    ----------
+    original : Probe
+    patches : list of (vertices, faces)
+        What closes its openings: they hide the inside.
+    wrapped : Wrapped
+    alpha : float
+        Size of its facets, metres.
+    tick : callable, optional
+        Told the share that is done.
+    """
+    vertices, faces = join([(original.vertices, original.faces), *patches])
+    closed = SurfaceIndex(vertices, faces)
+    seen = _seen(original, closed, tick)
+    shell = SurfaceIndex(wrapped.vertices, wrapped.faces)
+    rng = np.random.default_rng(0)
+    visible = seen > _VISIBLE if (seen > _VISIBLE).any() else np.ones(len(seen), dtype=bool)
+    there, _, _ = shell.closest(sample_surface(vertices, original.faces[visible], _SAMPLES, rng))
+    real = wrapped.faces[wrapped.rests_on == SURFACE]
+    back, _, _ = closed.closest(sample_surface(wrapped.vertices, real, _SAMPLES, rng))
+    areas = np.linalg.norm(cross_products(wrapped.vertices, wrapped.faces), axis=1) / 2
+    hidden = np.zeros(len(faces), dtype=bool)
+    hidden[: len(seen)] = seen == 0
+    median, p95, most = np.percentile(there, [50, 95, 100]).tolist()
+    inner_hits, lines = _inner_hits(wrapped, shell, (vertices, faces), hidden, alpha, rng)
+    return ShellFit(
+        visible_median=median,
+        visible_p95=p95,
+        visible_max=most,
+        shell_p95=float(np.percentile(back, 95)),
+        shell_max=float(back.max()),
+        inner_hits=inner_hits,
+        lines=lines,
+        held_back=wrapped.held_back,
+        bridged_area=float(areas[wrapped.rests_on == PLUG].sum()),
+    )
+
+
+def sample_surface(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], count: int, rng: np.random.Generator
+) -> NDArray[np.float64]:
+    """Draw `count` points evenly over the facets, (count, 3)."""
+    areas = np.linalg.norm(cross_products(vertices, faces), axis=1)
+    pick = faces[rng.choice(len(faces), count, p=areas / areas.sum())]
+    u, v = rng.random((2, count, 1))
+    over = u + v > 1
+    u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
+    a, b, c = (vertices[pick[:, corner]] for corner in range(3))
+    return np.asarray(a + u * (b - a) + v * (c - a))
+
+
+def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None] | None) -> NDArray[np.float64]:
+    """How much of the sky each facet sees from its better side, whatever its winding, (m,)."""
+    seen = np.zeros(len(original.faces))
+    for side, faces in enumerate((original.faces, np.ascontiguousarray(original.faces[:, ::-1]))):
+        half = None if tick is None else lambda share, side=side: tick((side + share) / 2)
+        seen = np.maximum(seen, exposure(original.vertices, faces, closed, count=_LOOKS, tick=half))
+    return seen
+
+
+def _inner_hits(
+    wrapped: Wrapped,
+    shell: SurfaceIndex,
+    closed: tuple[NDArray[np.float64], NDArray[np.int32]],
+    hidden: NDArray[np.bool_],
+    alpha: float,
+    rng: np.random.Generator,
+) -> tuple[int, int]:
+    """Shoot lines at the shell from all round; count where they land on an inner wall of the original."""
+    vertices, faces = closed
+    size = float(np.ptp(wrapped.vertices, axis=0).max())
+    targets = sample_surface(wrapped.vertices, wrapped.faces, _LINES, rng)
+    towards = directions(_LINES)[rng.permutation(_LINES)]
+    origins = targets - 3 * size * towards
+    t, face = shell.first_hit(origins, towards)
+    met = np.flatnonzero(face >= 0)
+    landed = origins[met] + t[met, None] * towards[met]
+    _, nearest, _ = SurfaceIndex(vertices, faces).closest(landed)
+    # At a lip the nearest facet may be a hidden one although the outside is as near: what counts is that
+    # nothing visible is.
+    outside, _, _ = SurfaceIndex(vertices, np.ascontiguousarray(faces[~hidden])).closest(landed)
+    return int(np.count_nonzero(hidden[nearest] & (outside > alpha))), len(met)

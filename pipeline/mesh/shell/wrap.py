@@ -1,0 +1,130 @@
+"""
+Wrap a broken, hollow surface in a closed one that follows its outside.
+
+One wrap is not enough: a fine one creeps through every seam and lines the inside, a coarse one loses the
+shape. So a coarse wrap, drawn in by more than its own thickness, is put inside as a plug, and the fine wrap is
+made of surface, patches and plug together: what leaks through a seam ends at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh.engines import alpha_wrap, self_intersections
+from pipeline.mesh.shell.settle import settle
+from pipeline.mesh.triangles import cross_products, join
+
+if TYPE_CHECKING:
+    from typing import Unpack
+
+    from numpy.typing import NDArray
+
+    from pipeline.mesh.engines import Control
+
+    Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
+
+# CGAL's wrap advises an offset well below alpha.
+OFFSET = 0.1
+# How deep the plug lies under the coarse wrap, in its alphas: the offset, and more than the wrap's sag.
+_DRAWN_IN = OFFSET + 0.3
+
+SURFACE, PATCH, PLUG = 0, 1, 2
+
+
+@dataclass(frozen=True, eq=False)
+class Wrapped:
+    """
+    A closed surface, and what each of its facets rests on.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+        Metres.
+    faces : (m, 3) int32
+        Outward.
+    rests_on : (m,) int8
+        SURFACE, PATCH or PLUG.
+    held_back : int
+        Vertices that kept a part of the offset, because a facet would have folded.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    rests_on: NDArray[np.int8]
+    held_back: int
+
+
+def wrap_soup(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], alpha: float, **control: Unpack[Control]
+) -> Surface:
+    """
+    Wrap a surface; gaps narrower than `alpha` (metres) are bridged.
+
+    Each facet gets corners of its own: pymeshlab hands CGAL a connected surface, and silently leaves out
+    facets that are turned over or are the third at an edge (test_a_wrap_sees_every_facet).
+    """
+    soup = vertices[faces].reshape(-1, 3)
+    alone = np.arange(len(soup), dtype=np.int32).reshape(-1, 3)
+    return alpha_wrap(soup, alone, alpha, OFFSET * alpha, **control)
+
+
+def draw_in(wrap: Surface, alpha: float) -> Surface:
+    """Move a coarse wrap inwards, to where it hides under the surface that it was wrapped round."""
+    vertices, faces = wrap
+    cross = cross_products(vertices, faces)
+    normals = np.zeros_like(vertices)
+    for corner in range(3):
+        np.add.at(normals, faces[:, corner], cross)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    return vertices - _DRAWN_IN * alpha * normals, faces
+
+
+def fine_wrap(
+    surface: Surface, patches: list[Surface], plug: Surface, alpha: float, **control: Unpack[Control]
+) -> Wrapped:
+    """
+    Wrap surface, patches and plug, and lay the result on them.
+
+    Parameters
+    ----------
+    surface, plug : (vertices, faces)
+        Metres.
+    patches : list of (vertices, faces)
+    alpha : float
+        Metres; the facets of the result are of about this size.
+    **control
+        Progress, cancelling and time limit of `engines.run`.
+    """
+    layers = [surface, *patches, plug]
+    vertices, faces = join(layers)
+    kind = np.repeat(
+        np.array([SURFACE, *[PATCH] * len(patches), PLUG], dtype=np.int8), [len(each[1]) for each in layers]
+    )
+    wrap, wrap_faces = wrap_soup(vertices, faces, alpha, **control)
+    index = SurfaceIndex(vertices, faces)
+    settled, share = settle(wrap, wrap_faces, index.closest(wrap)[2])
+    settled, share = _uncross(wrap, settled, wrap_faces, share)
+    _, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
+    return Wrapped(settled, wrap_faces, kind[nearest], int(np.count_nonzero(share < 1)))
+
+
+def _uncross(
+    wrap: NDArray[np.float64],
+    settled: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    share: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Put back the corners of facets that cut through others: the wrap itself never does."""
+    for _ in range(6):
+        crossing = self_intersections(settled, faces)
+        if not crossing.any():
+            break
+        corners = np.unique(faces[crossing])
+        # Where both partners are put back they are as the wrap had them.
+        settled[corners] = wrap[corners]
+        share[corners] = 0.0
+    return settled, share

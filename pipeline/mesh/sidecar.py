@@ -1,0 +1,265 @@
+"""
+A probe on disk: PLY for the surface, and beside it JSON with the names of its regions and its history.
+
+The history says from which file, by which steps and with which parameters the surface was made, and what each
+step achieved. It holds no time and no path: the same steps give the same bytes.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import warnings
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, get_args
+
+from pipeline import __version__
+from pipeline.durable import write_durably
+from pipeline.mesh.errors import MeshError, MeshWarning
+from pipeline.mesh.load import load_probe
+from pipeline.mesh.regions.errors import RegionError
+from pipeline.mesh.regions.exchange import SIZE_LIMIT, mesh_hash, parse_json, read_limited, read_region
+from pipeline.mesh.regions.region import RegionSet, check_list
+from pipeline.mesh.save import encode_probe
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+
+    from pipeline.mesh.probe import Probe
+    from pipeline.mesh.regions.region import Region
+
+SCHEMA, VERSION = "contactbench.probe", 1
+Frame = Literal["P", "S"]
+_MOST_STEPS = 10_000
+
+
+@dataclass(frozen=True, eq=False)
+class ProbeFile:
+    """
+    A probe with what belongs to it.
+
+    Attributes
+    ----------
+    probe : Probe
+        In the frame `frame`, metres.
+    regions : RegionSet
+        Names and colours of its regions; their ranks are ``probe.region``.
+    frame : {"P", "S"}
+        P: as the file has it. S: aligned with the sensor.
+    history : tuple of mapping
+        One JSON object per step, oldest first.
+    notes : tuple of str
+        What was noticed when it was read, in sentences.
+    """
+
+    probe: Probe
+    regions: RegionSet
+    frame: Frame = "P"
+    history: tuple[Mapping[str, Any], ...] = ()
+    notes: tuple[str, ...] = field(default=())
+
+    def after(
+        self,
+        step: str,
+        probe: Probe,
+        parameters: Mapping[str, Any],
+        result: Mapping[str, Any],
+        *,
+        regions: RegionSet | None = None,
+        frame: Frame | None = None,
+    ) -> ProbeFile:
+        """
+        Return what a step made of it, with the step written down.
+
+        Parameters
+        ----------
+        step : str
+            Its name.
+        probe : Probe
+            Its result.
+        parameters, result : mapping
+            What it was asked for and what it achieved: JSON values, lengths in mm with ``_mm`` in the name.
+        regions : RegionSet, optional
+            Left out: the names stay, the ranks are those of `probe`.
+        frame : {"P", "S"}, optional
+            Left out: it stays.
+        """
+        entry = {
+            "step": step,
+            "tool": f"contactbench {__version__}",
+            "parameters": dict(parameters),
+            "result": dict(result),
+            "input": _brief(self.probe),
+            "output": _brief(probe),
+        }
+        if regions is None:
+            regions = RegionSet.from_labels(probe.region, self.regions.regions)
+        return replace(
+            self,
+            probe=probe.with_region(regions.labels),
+            regions=regions,
+            frame=self.frame if frame is None else frame,
+            history=(*self.history, entry),
+        )
+
+
+def sidecar_of(mesh: Path) -> Path:
+    """Return the JSON file that belongs to a probe's PLY file."""
+    return mesh.with_suffix(".json")
+
+
+def load_probe_file(path: str | os.PathLike[str]) -> ProbeFile:
+    """
+    Read a probe (PLY, metres) and what stands beside it.
+
+    Ranks that the JSON file does not name, or all without one, get names and colours of their own. Defects of the
+    mesh are not warned of: they are in ``probe.health``.
+
+    Raises
+    ------
+    MeshError
+        The mesh is not a usable PLY file.
+    RegionError
+        The JSON file is not one, or parts of it are not what they should be.
+    """
+    mesh = Path(path)
+    if mesh.suffix.lower() != ".ply":
+        raise RegionError(
+            f"{mesh}: regions are kept in a probe's PLY file: load the mesh and save it as .ply."
+        )
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)
+        probe = load_probe(mesh, units="m")
+    file = sidecar_of(mesh)
+    try:
+        document = read_document(file)
+        regions = RegionSet.from_labels(probe.region, read_list(document))
+        return ProbeFile(probe, regions, _frame(document), _history(document), _notes(document, mesh))
+    except RegionError as error:
+        raise RegionError(f"{file}: {error}") from error
+
+
+def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
+    """
+    Write a probe as PLY and what belongs to it as JSON beside it; keys of an older JSON file that are not its own stay.
+
+    The mesh goes first: a power cut between the two leaves names for ranks that may have moved, and is noticed when
+    they are read, never names without a mesh.
+
+    Raises
+    ------
+    MeshError
+        One of the files cannot be written, or there is a JSON file that holds no object.
+    """
+    mesh = Path(path)
+    file = sidecar_of(mesh)
+    document = check_target(mesh)
+    surface = encode_probe(content.probe.with_region(content.regions.labels))
+    document |= {
+        "schema": SCHEMA,
+        "version": VERSION,
+        "mesh": {
+            "sha256": hashlib.sha256(surface).hexdigest(),
+            "facets": len(content.probe.faces),
+            "unit": "m",
+            "frame": content.frame,
+        },
+        "regions": [{"name": region.name, "colour": region.colour} for region in content.regions.regions],
+        "history": [dict(step) for step in content.history],
+    }
+    data = (json.dumps(document, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode()
+    if len(data) > SIZE_LIMIT:
+        raise RegionError(f"{file}: the file is larger than {SIZE_LIMIT // 2**20} MiB: move it away.")
+    for target, bytes_ in ((mesh, surface), (file, data)):
+        try:
+            write_durably(target, bytes_)
+        except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+            raise MeshError(
+                f"{target}: the probe cannot be written ({error}): choose a folder that exists, is writable and"
+                " has space."
+            ) from error
+
+
+def check_target(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """
+    Refuse a place where a probe cannot be saved, before the work is done; give what the JSON file there holds.
+
+    Raises
+    ------
+    MeshError
+        Another suffix, no such folder, or a JSON file that is not a probe's.
+    """
+    mesh = Path(path)
+    if mesh.suffix.lower() != ".ply":
+        raise MeshError(f"{mesh}: a probe is saved as PLY, which keeps its regions: end the name in .ply.")
+    if not mesh.parent.is_dir():
+        raise MeshError(
+            f"{mesh}: the probe cannot be written, there is no folder {mesh.parent}: make it first."
+        )
+    file = sidecar_of(mesh)
+    try:
+        return read_document(file)
+    except RegionError as error:
+        raise RegionError(f"{file}: {error}") from error
+
+
+def read_list(document: Mapping[str, Any]) -> tuple[Region, ...]:
+    """Return the regions that a JSON object names; RegionError if they are not such a list."""
+    entries = document.get("regions", [])
+    if not isinstance(entries, list):
+        raise RegionError("'regions' is not a list of names and colours: correct it, or remove the key.")
+    regions = tuple(read_region(entry, rank) for rank, entry in enumerate(entries, 1))
+    check_list(regions)
+    return regions
+
+
+def read_document(file: Path) -> dict[str, Any]:
+    """Return the JSON object in a file, an empty one without a file; RegionError for anything else."""
+    document = parse_json(read_limited(file)) if file.exists() else {}
+    version = document.get("version", VERSION)
+    if document.get("schema", SCHEMA) != SCHEMA or not isinstance(version, int):
+        raise RegionError("the JSON file beside the mesh is not a probe's: move it away, or rename the mesh.")
+    if version > VERSION:
+        raise RegionError(
+            f"the file has the version {version}, newer than {VERSION}: use a newer contactbench."
+        )
+    return document
+
+
+def _frame(document: Mapping[str, Any]) -> Frame:
+    mesh = document.get("mesh", {})
+    frame = mesh.get("frame", "P") if isinstance(mesh, dict) else None
+    if frame not in get_args(Frame):
+        raise RegionError("'mesh' does not say whether the frame is P or S: correct it, or remove the key.")
+    return "S" if frame == "S" else "P"
+
+
+def _history(document: Mapping[str, Any]) -> tuple[Mapping[str, Any], ...]:
+    history = document.get("history", [])
+    if not isinstance(history, list) or len(history) > _MOST_STEPS:
+        raise RegionError(
+            f"'history' is not a list of at most {_MOST_STEPS} steps: correct it, or remove the key."
+        )
+    for number, step in enumerate(history, 1):
+        if not isinstance(step, dict) or not isinstance(step.get("step"), str):
+            raise RegionError(
+                f"step {number} of 'history' is not an object with a name: correct it, or remove it."
+            )
+    return tuple(history)
+
+
+def _notes(document: Mapping[str, Any], mesh: Path) -> tuple[str, ...]:
+    known = document.get("mesh", {}).get("sha256")
+    if known is None or known == hashlib.sha256(mesh.read_bytes()).hexdigest():
+        return ()
+    changed = (
+        f"{mesh} was changed since contactbench wrote it: the history beside it tells of another surface. Prepare"
+        " the mesh again, if it is not known who changed it."
+    )
+    return (changed,)
+
+
+def _brief(probe: Probe) -> dict[str, Any]:
+    return {"sha256": mesh_hash(probe), "facets": len(probe.faces)}

@@ -1,0 +1,1 @@
+"""From a mesh file to a probe ready for contact sensing: shell, alignment, simplification, regions."""

@@ -1,0 +1,29 @@
+"""Quality against speed: what fewer facets cost in contact error, what they save in time, and how many to take."""
+
+from pipeline.preparation.ladder.compare import ContactReference, Difference, PartErrors
+from pipeline.preparation.ladder.criterion import FewestFacets, contact_error_criterion, fewest_facets
+from pipeline.preparation.ladder.errors import LadderError
+from pipeline.preparation.ladder.files import save_ladder
+from pipeline.preparation.ladder.ladder import Ladder, Rung
+from pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
+from pipeline.preparation.ladder.recommend import Goal, Recommendation, recommend
+from pipeline.preparation.ladder.touches import ExpectedTouches
+
+__all__ = [
+    "DEFAULT_FACETS",
+    "ContactReference",
+    "Difference",
+    "ExpectedTouches",
+    "FewestFacets",
+    "Goal",
+    "Ladder",
+    "LadderError",
+    "PartErrors",
+    "Recommendation",
+    "Rung",
+    "contact_error_criterion",
+    "fewest_facets",
+    "measure_ladder",
+    "recommend",
+    "save_ladder",
+]

@@ -1,0 +1,241 @@
+"""What simplification costs: the same wrenches located on the full mesh and on a simplified one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from pipeline.contact import ContactSolver, Reason
+from pipeline.preparation.ladder.errors import LadderError
+from pipeline.preparation.ladder.touches import FEWEST, DrawnTouches, ExpectedTouches, Part, draw_parts
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from pipeline.contact import Batch
+    from pipeline.mesh import Probe
+
+Statistic = Literal["mean", "p95", "max"]
+
+_FOUR_SIGMA = 4.0
+
+
+@dataclass(frozen=True)
+class Difference:
+    """
+    How the answers on a simplified mesh differ from those on the full one.
+
+    An answer is settled when it is given without doubt: ``ok`` or ``vertex``. Distances are taken over the
+    touches that both meshes settle, and the others are counted.
+
+    Attributes
+    ----------
+    settled : int
+        Touches that the full mesh settles.
+    compared : int
+        Touches that both settle.
+    mean, p95, largest : float or None
+        Distance between the two points, m; None when nothing can be compared.
+    lost : int
+        Settled on the full mesh, without a point on the simplified one.
+    doubtful : int
+        Settled on the full mesh, a point with a warning on the simplified one.
+    gained : int
+        Settled on the simplified mesh only.
+    changed : int
+        Touches with another reason; ``ok`` and ``vertex`` are taken as one.
+    jumped : int
+        Settled by both, yet further apart than what counts as ambiguous: wrong without a warning.
+    """
+
+    settled: int
+    compared: int
+    mean: float | None
+    p95: float | None
+    largest: float | None
+    lost: int
+    doubtful: int
+    gained: int
+    changed: int
+    jumped: int
+
+    @property
+    def failed_share(self) -> float:
+        """Share of what the full mesh settles that is lost, doubtful or jumped on the simplified one."""
+        return (self.lost + self.doubtful + self.jumped) / max(self.settled, 1)
+
+    def statistic(self, name: Statistic) -> float | None:
+        """Return the mean, the 95th percentile or the largest distance, m."""
+        return {"mean": self.mean, "p95": self.p95, "max": self.largest}[name]
+
+
+@dataclass(frozen=True)
+class PartErrors:
+    """
+    The added contact error on one part of the probe.
+
+    Attributes
+    ----------
+    part : {"region", "rest", "all"}
+        The priority regions, what is outside them, or the whole probe when it has none.
+    touches : int
+        How many were located.
+    noisy : Difference
+        With the sensor's noise: what a user will see.
+    noise_free : Difference
+        Without: what the shape alone does.
+    bound : float
+        Noise bound: root mean square error that the noise alone gives on the full mesh, as its solver
+        predicts, m.
+    growth : float or None
+        How much larger the root mean square error against the true points is than on the full mesh: 0.05 is
+        5 % more. Over the touches that both settle alike, without jumps, and that the full mesh places within
+        four sigma of the truth; None when there are none.
+    """
+
+    part: Part
+    touches: int
+    noisy: Difference
+    noise_free: Difference
+    bound: float
+    growth: float | None
+
+    def over_bound(self, statistic: Statistic) -> float | None:
+        """Return a statistic of the noisy touches over the noise bound; None when either is not there."""
+        value = self.noisy.statistic(statistic)
+        return None if value is None or self.bound == 0 else value / self.bound
+
+
+@dataclass(frozen=True, eq=False)
+class _Located:
+    """The full mesh's answers to the touches of one part."""
+
+    drawn: DrawnTouches
+    noisy: Batch
+    noise_free: Batch
+    bound: float
+
+
+class ContactReference:
+    """
+    The touches, and where the full mesh locates them.
+
+    Parameters
+    ----------
+    full : Probe
+        The full mesh.
+    expected : ExpectedTouches
+        What it will feel.
+
+    Raises
+    ------
+    LadderError
+        The full mesh settles too few touches to compare anything.
+    """
+
+    def __init__(self, full: Probe, expected: ExpectedTouches) -> None:
+        self.expected = expected
+        solver = self._solver(full)
+        self._located = tuple(_locate(solver, drawn) for drawn in draw_parts(full, expected))
+        self._refuse_unsettled()
+
+    @property
+    def wrenches(self) -> npt.NDArray[np.float64]:
+        """Noisy wrenches of the part that is judged: the regions, or all, (n, 6) in S, N and N·m."""
+        return self._located[0].drawn.noisy
+
+    def compare(self, probe: Probe) -> tuple[PartErrors, ...]:
+        """
+        Locate the same touches on another mesh.
+
+        Parameters
+        ----------
+        probe : Probe
+            A simplified mesh, with its regions, in the same frame S.
+
+        Returns
+        -------
+        tuple of PartErrors
+            The part that is judged first: the regions, or the whole probe.
+        """
+        solver = self._solver(probe)
+        return tuple(self._compare_part(located, solver) for located in self._located)
+
+    def _compare_part(self, full: _Located, solver: ContactSolver) -> PartErrors:
+        noisy = solver.locate_batch(full.drawn.noisy)
+        noise_free = solver.locate_batch(full.drawn.truth.wrenches)
+        jump = self.expected.gates.ambiguity_distance
+        return PartErrors(
+            full.drawn.part,
+            len(full.drawn.truth),
+            _difference(full.noisy, noisy, jump),
+            _difference(full.noise_free, noise_free, jump),
+            full.bound,
+            _growth(full.noisy, noisy, full.drawn.truth.points, jump),
+        )
+
+    def _solver(self, probe: Probe) -> ContactSolver:
+        return ContactSolver(probe, self.expected.noise, self.expected.gates)
+
+    def _refuse_unsettled(self) -> None:
+        judged = self._located[0]
+        settled = int(np.count_nonzero(_settled(judged.noisy)))
+        if settled < FEWEST / 2:
+            raise LadderError(
+                f"the full mesh settles only {settled} of {len(judged.noisy)} touches ({_reasons(judged.noisy)}), so"
+                " there is nothing to compare with: check that the surface is a closed shell in the sensor's frame,"
+                " and that the forces are those expected."
+            )
+
+
+def _locate(solver: ContactSolver, drawn: DrawnTouches) -> _Located:
+    noisy = solver.locate_batch(drawn.noisy)
+    covariances = noisy.covariances[_settled(noisy)]
+    bound = sqrt(float(np.trace(covariances, axis1=1, axis2=2).mean())) if len(covariances) else 0.0
+    return _Located(drawn, noisy, solver.locate_batch(drawn.truth.wrenches), bound)
+
+
+def _settled(batch: Batch) -> npt.NDArray[np.bool_]:
+    return np.isin(batch.reasons, (Reason.OK, Reason.VERTEX))
+
+
+def _reasons(batch: Batch) -> str:
+    values, counts = np.unique(batch.reasons, return_counts=True)
+    return ", ".join(
+        f"{Reason(value).name.lower()} {count}" for value, count in zip(values, counts, strict=True)
+    )
+
+
+def _difference(full: Batch, other: Batch, jump: float) -> Difference:
+    before, after = _settled(full), _settled(other)
+    both = before & after
+    apart = np.linalg.norm(full.points[both] - other.points[both], axis=1)
+    pointless = before & ~after & np.isnan(other.points[:, 0])
+    # Whether a facet or a vertex answers is a matter of the mesh, not of the touch.
+    reasons = [np.where(batch.reasons == Reason.VERTEX, Reason.OK, batch.reasons) for batch in (full, other)]
+    some = len(apart) > 0
+    return Difference(
+        settled=int(np.count_nonzero(before)),
+        compared=len(apart),
+        mean=float(apart.mean()) if some else None,
+        p95=float(np.percentile(apart, 95)) if some else None,
+        largest=float(apart.max()) if some else None,
+        lost=int(np.count_nonzero(pointless)),
+        doubtful=int(np.count_nonzero(before & ~after & ~pointless)),
+        gained=int(np.count_nonzero(after & ~before)),
+        changed=int(np.count_nonzero(reasons[0] != reasons[1])),
+        jumped=int(np.count_nonzero(apart > jump)),
+    )
+
+
+def _growth(full: Batch, other: Batch, truth: npt.NDArray[np.float64], jump: float) -> float | None:
+    before, after = (np.linalg.norm(batch.points - truth, axis=1) for batch in (full, other))
+    # A touch that is put on another part of the probe is tens of millimetres off: one of them, on either mesh,
+    # would hide what the others do. Jumps are counted instead.
+    chosen = _settled(full) & _settled(other) & (before <= _FOUR_SIGMA * full.sigma_max)
+    chosen &= np.linalg.norm(full.points - other.points, axis=1) <= jump
+    squares = float(np.sum(before[chosen] ** 2))
+    return sqrt(float(np.sum(after[chosen] ** 2)) / squares) - 1 if squares > 0 else None

@@ -1,0 +1,189 @@
+"""Measure a ladder: simplify to each count, compare the contacts, and time the solvers side by side."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from pipeline.contact import ContactSolver
+from pipeline.kernel import Algorithm1
+from pipeline.mesh import MeshError, save_probe
+from pipeline.mesh.engines import Cancelled
+from pipeline.mesh.simplify import Count, simplify
+from pipeline.preparation.ladder.compare import ContactReference
+from pipeline.preparation.ladder.errors import LadderError
+from pipeline.preparation.ladder.ladder import Ladder, Rung, Speed
+from pipeline.preparation.ladder.recommend import Goal, recommend
+from pipeline.preparation.ladder.touches import ExpectedTouches
+from pipeline.timing import time_batches
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from pipeline.mesh import Probe
+    from pipeline.mesh.simplify import Engine
+
+DEFAULT_FACETS = (250, 500, 1_000, 2_000, 5_000, 10_000, 20_000)
+
+_ROUNDS, _OURS = 20, 200
+
+# The literal loop takes some 50 ns a facet: 20 solves a round up to 20,000 facets, fewer beyond.
+_LOOP, _LOOP_FACETS, _LOOP_FEWEST = 20, 400_000, 4
+
+# A rung nearer to the full mesh than this says nothing new.
+_DISTINCT = 1.05
+
+# Of the progress: the rest is timing.
+_SIMPLIFYING = 0.6
+
+
+def measure_ladder(
+    probe: Probe,
+    expected: ExpectedTouches | None = None,
+    facets: Sequence[int] = DEFAULT_FACETS,
+    *,
+    goal: Goal | None = None,
+    engine: Engine = "auto",
+    region_ratio: float = 1.0,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Ladder:
+    """
+    Measure what fewer facets cost and save.
+
+    Parameters
+    ----------
+    probe : Probe
+        The full mesh, in S; its priority regions are what is judged, and the whole of it when it has none.
+    expected : ExpectedTouches, optional
+        The noise, forces and friction that it will feel.
+    facets : sequence of int
+        Counts to try, at least 4 each. Those above the probe's, or within 5 % of it, are left out; the full mesh is
+        always the last rung.
+    goal : Goal, optional
+        What simplification may cost, for the recommendation.
+    engine : str
+        As for `simplify`.
+    region_ratio : float
+        As for `simplify`.
+    progress : callable, optional
+        Takes the fraction done, 0 to 1, never falling; in the calling thread.
+    cancelled : callable, optional
+        Asked often.
+
+    Returns
+    -------
+    Ladder
+
+    Raises
+    ------
+    LadderError
+        No counts, or the full mesh settles too few touches.
+    MeshError
+        A count under 4, or a bad ratio.
+    Cancelled
+        `cancelled` answered True.
+    """
+    expected, goal = expected or ExpectedTouches(), goal or Goal()
+    counts = _counts(facets, len(probe.faces))
+    follow = _Follow(progress, cancelled)
+    reference = ContactReference(probe, expected)
+    rungs: list[Rung] = []
+    notes: list[str] = []
+    for number, count in enumerate(counts):
+        start, share = _SIMPLIFYING * number / (len(counts) + 1), _SIMPLIFYING / (len(counts) + 1)
+        try:
+            made = simplify(
+                probe,
+                Count(count),
+                engine=engine,
+                region_ratio=region_ratio,
+                progress=lambda done, start=start, share=share: follow(start + share * done),  # type: ignore[misc]
+                cancelled=cancelled,
+            )
+        except MeshError as error:
+            notes.append(f"The rung of {count:,} facets is missing: {error}")
+            continue
+        deviation = made.deviation
+        rungs.append(_rung(made.probe, reference, count, deviation.hausdorff, deviation.rms, made.engine))
+    rungs.append(_rung(probe, reference, len(probe.faces), 0.0, 0.0, "none"))
+    follow(_SIMPLIFYING)
+    rungs = _timed(_without_twins(rungs), reference, follow)
+    follow(1.0)
+    return Ladder(probe.name, expected, goal, tuple(rungs), recommend(rungs, goal), tuple(notes))
+
+
+class _Follow:
+    """Progress that stops the work when it is cancelled."""
+
+    def __init__(
+        self, progress: Callable[[float], None] | None, cancelled: Callable[[], bool] | None
+    ) -> None:
+        self._progress = progress
+        self._cancelled = cancelled
+
+    def __call__(self, done: float) -> None:
+        if self._cancelled is not None and self._cancelled():
+            raise Cancelled
+        if self._progress is not None:
+            self._progress(done)
+
+
+def _counts(facets: Sequence[int], full: int) -> list[int]:
+    if not facets:
+        raise LadderError("a ladder needs rungs: give at least one number of facets.")
+    for count in facets:
+        Count(count)  # refuses one that is too small before anything is done
+    return sorted({count for count in facets if count * _DISTINCT <= full})
+
+
+def _without_twins(rungs: Sequence[Rung]) -> list[Rung]:
+    """Drop a rung whose engine stopped at the same count as another's: the first was asked for less."""
+    found: dict[int, Rung] = {}
+    for rung in rungs:
+        found.setdefault(rung.facets, rung)
+    return sorted(found.values(), key=lambda rung: rung.facets)
+
+
+def _rung(
+    probe: Probe, reference: ContactReference, asked: int, hausdorff: float, rms: float, engine: str
+) -> Rung:
+    return Rung(
+        probe=probe,
+        asked=asked,
+        engine=engine,
+        hausdorff=hausdorff,
+        rms=rms,
+        file_bytes=_file_bytes(probe),
+        errors=reference.compare(probe),
+        speed=None,
+    )
+
+
+def _file_bytes(probe: Probe) -> int:
+    with TemporaryDirectory() as folder:
+        file = Path(folder) / "probe.ply"
+        save_probe(probe, file)
+        return file.stat().st_size
+
+
+def _timed(rungs: Sequence[Rung], reference: ContactReference, follow: _Follow) -> list[Rung]:
+    """Time all rungs in one run, so that what slows the machine slows them all."""
+    expected, wrenches = reference.expected, reference.wrenches
+    timers = {}
+    for number, rung in enumerate(rungs):
+        solver = ContactSolver(rung.probe, expected.noise, expected.gates)
+        loop = min(_LOOP, max(_LOOP_FEWEST, _LOOP_FACETS // rung.facets))
+        timers[number, "algorithm1"] = (Algorithm1(solver).time_each, wrenches, loop)
+        timers[number, "contactbench"] = (solver.time_each, wrenches, _OURS)
+    taken = time_batches(
+        timers,
+        rounds=_ROUNDS,
+        after_round=lambda done: follow(_SIMPLIFYING + (1 - _SIMPLIFYING) * done / _ROUNDS),
+    )
+    return [
+        replace(rung, speed=Speed(taken[number, "algorithm1"], taken[number, "contactbench"]))
+        for number, rung in enumerate(rungs)
+    ]

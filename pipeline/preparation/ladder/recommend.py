@@ -1,0 +1,198 @@
+"""Which rung to take, and why, in a sentence or two."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pipeline.preparation.ladder.errors import LadderError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pipeline.preparation.ladder.compare import PartErrors, Statistic
+    from pipeline.preparation.ladder.ladder import Rung
+
+_WORDS = {"mean": "mean", "p95": "95th percentile", "max": "largest"}
+
+
+@dataclass(frozen=True)
+class Goal:
+    """
+    What simplification may cost.
+
+    Attributes
+    ----------
+    limit_m : float or None
+        Largest added contact error, m. None: as much as lets the total error grow by `growth`.
+    statistic : {"mean", "p95", "max"}
+        Which added error is held against the limit.
+    growth : float
+        How much the total error may grow, 0.05 for 5 %; used when there is no limit in metres.
+    failed : float
+        Share of the touches settled on the full mesh that may be lost, doubtful or jump. Default 2 %: touches near
+        the edge of doubt tip over whatever the mesh.
+
+    Raises
+    ------
+    LadderError
+        A value is out of its range.
+    """
+
+    limit_m: float | None = None
+    statistic: Statistic = "p95"
+    growth: float = 0.05
+    failed: float = 0.02
+
+    def __post_init__(self) -> None:
+        if self.limit_m is not None and not 0 < self.limit_m < math.inf:
+            raise LadderError(f"the largest added error is {self.limit_m:g} m: give a length above 0.")
+        if self.statistic not in _WORDS:
+            raise LadderError(f"there is no statistic {self.statistic!r}: choose one of {', '.join(_WORDS)}.")
+        if not 0 < self.growth < math.inf:
+            raise LadderError(
+                f"the total error may grow by {self.growth:g}: give a number above 0, such as 0.05."
+            )
+        if not 0 <= self.failed <= 1:
+            raise LadderError(f"the share of failed touches is {self.failed:g}: give a number from 0 to 1.")
+
+    def limit(self, bound: float) -> float:
+        """
+        Return the largest added error that will do, m.
+
+        Added error e and noise s are independent, so the total is ``sqrt(s² + e²)``; it is `growth` above s at
+        ``e = s sqrt((1 + growth)² - 1)``, which is 0.32 s for 5 %.
+
+        Parameters
+        ----------
+        bound : float
+            Noise bound of the full mesh, m.
+        """
+        return self.limit_m if self.limit_m is not None else bound * math.sqrt((1 + self.growth) ** 2 - 1)
+
+    def keeps(self, errors: PartErrors) -> bool:
+        """Tell whether a mesh with these errors on the part that is judged will do."""
+        value = errors.noisy.statistic(self.statistic)
+        if value is None or value > self.limit(errors.bound):
+            return False
+        # The formula takes the statistic for the root mean square; a few large errors would break that.
+        too_much = self.limit_m is None and errors.growth is not None and errors.growth > self.growth
+        return not too_much and errors.noisy.failed_share <= self.failed
+
+
+@dataclass(frozen=True)
+class Recommendation:
+    """
+    The rung to take.
+
+    Attributes
+    ----------
+    facets : int or None
+        Of that rung; None when no simplified mesh will do.
+    limit : float
+        Largest added error that would do, m.
+    reason : str
+        Why, in sentences.
+    """
+
+    facets: int | None
+    limit: float
+    reason: str
+
+
+def recommend(rungs: Sequence[Rung], goal: Goal) -> Recommendation:
+    """
+    Choose the fewest facets that keep the goal.
+
+    Speed does not choose, because a clock never says the same twice: the reason states it.
+
+    Parameters
+    ----------
+    rungs : sequence of Rung
+        By facets, ascending; the last is the full mesh.
+    goal : Goal
+        What to keep.
+
+    Returns
+    -------
+    Recommendation
+    """
+    *simplified, full = rungs
+    limit = goal.limit(full.judged.bound)
+    keeping = next((i for i, rung in enumerate(simplified) if goal.keeps(rung.judged)), None)
+    if keeping is None:
+        return Recommendation(None, limit, _none_keeps(simplified, full, goal, limit))
+    rung = simplified[keeping]
+    sentences = [
+        f"Take {rung.facets:,} facets, the fewest measured that will do: {_errors(rung, goal, limit)}."
+    ]
+    if keeping:
+        coarser = simplified[keeping - 1]
+        sentences.append(f"With {coarser.facets:,} {_shortfall(coarser.judged, goal, limit)}.")
+    sentences += [_elsewhere(errors, goal) for errors in rung.errors[1:]]
+    sentences += _speed(rung, full)
+    return Recommendation(rung.facets, limit, " ".join(sentences))
+
+
+def _none_keeps(simplified: Sequence[Rung], full: Rung, goal: Goal, limit: float) -> str:
+    keep = f"Keep the full mesh of {full.facets:,} facets"
+    if not simplified:
+        return f"{keep}: no simplified one was measured."
+    if limit == 0:
+        return f"{keep}: the sensor is said to be without noise, so nothing may be added. Give a limit as a length."
+    finest = simplified[-1]
+    return f"{keep}: no simplified one will do. Even with {finest.facets:,} {_shortfall(finest.judged, goal, limit)}."
+
+
+def _errors(rung: Rung, goal: Goal, limit: float) -> str:
+    errors = rung.judged
+    value = errors.noisy.statistic(goal.statistic)
+    told = f"the {_WORDS[goal.statistic]} of the added contact error is {_mm(value)} mm"
+    over = errors.over_bound(goal.statistic)
+    if over is not None:
+        told += f", {over:.2g} of the noise's {_mm(errors.bound)} mm"
+    if errors.growth is not None:
+        told += f", and the total error changes by {100 * errors.growth:+.1f} %"
+    if goal.limit_m is not None:
+        return f"{told} (allowed: {_mm(limit)} mm)"
+    return f"{told} (allowed: {100 * goal.growth:+.2g} %)"
+
+
+def _shortfall(errors: PartErrors, goal: Goal, limit: float) -> str:
+    """Say what a rung does wrong, the worst first."""
+    value = errors.noisy.statistic(goal.statistic)
+    if value is None:
+        return "no touch is settled"
+    if value > limit:
+        return f"the {_WORDS[goal.statistic]} is {_mm(value)} mm, over the limit of {_mm(limit)} mm"
+    if errors.noisy.failed_share > goal.failed:
+        return (
+            f"{100 * errors.noisy.failed_share:.2g} % of the settled touches are lost, doubtful or jump, more than"
+            f" {100 * goal.failed:.2g} %"
+        )
+    return f"the total error grows by {100 * (errors.growth or 0):.1f} %, more than {100 * goal.growth:.2g} %"
+
+
+def _elsewhere(errors: PartErrors, goal: Goal) -> str:
+    """Say what the part that does not decide pays."""
+    return (
+        f"Outside the regions, which does not decide, the {_WORDS[goal.statistic]} is"
+        f" {_mm(errors.noisy.statistic(goal.statistic))} mm, where noise gives {_mm(errors.bound)} mm."
+    )
+
+
+def _speed(rung: Rung, full: Rung) -> list[str]:
+    if rung.speed is None or full.speed is None:
+        return []
+    ours, loop = rung.speed.contactbench.median, rung.speed.algorithm1.median
+    before, loop_before = full.speed.contactbench.median, full.speed.algorithm1.median
+    sentence = (
+        f"Contactbench takes {ours / 1e3:.3g} µs a solve ({before / 1e3:.3g} on the full mesh), the paper's loop"
+        f" {loop / 1e3:.3g} µs ({loop_before / 1e3:.3g})."
+    )
+    return [sentence]
+
+
+def _mm(metres: float | None) -> str:
+    return "-" if metres is None else f"{1e3 * metres:.3g}"

@@ -1,0 +1,154 @@
+"""All steps in one go: from the file to a probe that a sensor can be used with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from pipeline.mesh.engines import Cancelled
+from pipeline.mesh.shell import Closing
+from pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Mapping, Sequence
+
+    from pipeline.mesh.shell import Shell
+    from pipeline.mesh.sidecar import ProbeFile
+    from pipeline.mesh.simplify import Engine, Simplified, Target
+    from pipeline.mesh.units import Units
+    from pipeline.preparation.alignment import Alignment
+
+    Chosen = tuple[Target, Mapping[str, Any] | None]
+
+# Shares of the work: reading, wrapping, simplifying.
+_READ, _WRAPPED = 0.02, 0.7
+
+
+@dataclass(frozen=True, eq=False)
+class Preparation:
+    """
+    A prepared probe, and what was done.
+
+    Attributes
+    ----------
+    content : ProbeFile
+        The probe, its regions and its history: for `save_probe_file`.
+    shell : Shell
+    simplified : Simplified
+    """
+
+    content: ProbeFile
+    shell: Shell
+    simplified: Simplified
+
+    @property
+    def ready(self) -> bool:
+        """Whether the result is one closed surface that faces outwards."""
+        return not self.content.probe.health.sentences
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What was done and what to know about it, in words."""
+        frame = (
+            ()
+            if self.content.frame == "S"
+            else ("The mesh is in its own frame: align it with the sensor before it is used.",)
+        )
+        wrong = () if self.ready else ("NOT READY: " + " ".join(self.content.probe.health.sentences),)
+        return (
+            *self.content.notes,
+            *self.shell.sentences,
+            *self.simplified.sentences,
+            *frame,
+            *wrong,
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the whole history and the sentences as plain values."""
+        return {
+            "frame": self.content.frame,
+            "facets": len(self.content.probe.faces),
+            "history": [dict(step) for step in self.content.history],
+            "sentences": list(self.sentences),
+        }
+
+
+def prepare(
+    path: str | os.PathLike[str],
+    units: Units | Literal["auto"] = "auto",
+    closings: Closing | Sequence[Closing] = Closing.AUTO,
+    *,
+    alpha: float | None = None,
+    gap: float | None = None,
+    alignment: Alignment | None = None,
+    target: Callable[[ProbeFile], Chosen],
+    engine: Engine = "auto",
+    region_ratio: float = 1.0,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Preparation:
+    """
+    Read a mesh file, close it, align it, and give it as few facets as the target allows.
+
+    Parameters
+    ----------
+    path : str or path
+    units : {"auto", "mm", "m", "cm", "in"}
+    closings : Closing or sequence of Closing
+        See `make_shell`.
+    alpha, gap : float, optional
+        Metres; see `make_shell`.
+    alignment : Alignment, optional
+        Left out, the mesh stays in its own frame P.
+    target : callable
+        Takes the aligned shell and gives the target, and how to write it down; see `simplify_step`.
+    engine, region_ratio
+        See `simplify`.
+    progress, cancelled : callable, optional
+        As everywhere: the share that is done, and whether to stop.
+
+    Returns
+    -------
+    Preparation
+
+    Raises
+    ------
+    MeshError, AlignmentError, EngineError, Cancelled
+        See the steps.
+    """
+
+    def part(low: float, high: float) -> Callable[[float], None] | None:
+        if progress is None:
+            return None
+        return lambda share: progress(low + share * (high - low))
+
+    content = import_mesh(path, units)
+    notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
+    if progress is not None:
+        progress(_READ)
+    content, shell = shell_step(
+        content, closings, alpha=alpha, gap=gap, progress=part(_READ, _WRAPPED), cancelled=cancelled
+    )
+    if alignment is not None:
+        content = align_step(content, alignment)
+    if cancelled is not None and cancelled():
+        raise Cancelled("the preparation was cancelled: nothing was written.")
+    wanted, stated = target(content)
+    content, simplified = simplify_step(
+        content,
+        wanted,
+        stated=stated,
+        engine=engine,
+        region_ratio=region_ratio,
+        progress=part(_WRAPPED, 1.0),
+        cancelled=cancelled,
+    )
+    # What was wrong with the file is mended by now, and said by the shell; how its unit was found is not.
+    return Preparation(_with_notes(content, notes), shell, simplified)
+
+
+def _with_notes(content: ProbeFile, notes: tuple[str, ...]) -> ProbeFile:
+    from dataclasses import replace
+
+    return replace(content, notes=notes)

@@ -1,0 +1,187 @@
+"""From a hollow, open, doubled mesh to its outside."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from contact_cases import bundled
+from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
+
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
+from pipeline.mesh.engines import Cancelled, self_intersections
+from pipeline.mesh.shell import Closing, make_shell
+
+pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
+
+ALPHA, GAP = 0.002, 0.004
+
+
+@pytest.fixture(scope="module")
+def closed():
+    return make_shell(housing(), alpha=ALPHA, coarse=GAP)
+
+
+# ---- a hollow housing ------------------------------------------------------------------------------
+
+
+def test_a_hollow_housing_becomes_its_outside(closed):
+    health = closed.probe.health
+    assert health.sentences == ()
+    assert closed.how == "wrapped"
+    vertices, faces = closed.probe.vertices, closed.probe.faces
+    corners = vertices[faces]
+    volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    assert volume == pytest.approx(LENGTH * WIDTH * HEIGHT, rel=0.02)
+    outside = SurfaceIndex(*box([-LENGTH / 2, -WIDTH / 2, 0], [LENGTH / 2, WIDTH / 2, HEIGHT]))
+    distance, _, _ = outside.closest(vertices)
+    assert np.percentile(distance, 95) < 1e-4
+    assert not self_intersections(vertices, faces).any()
+
+
+def test_the_lid_is_invented_and_nothing_else(closed):
+    probe = closed.probe
+    centres = probe.vertices[probe.faces].mean(axis=1)
+    lid = (centres[:, 2] > HEIGHT - 1e-4) & (np.abs(centres[:, 0]) < LENGTH / 2 - WALL - ALPHA)
+    lid &= np.abs(centres[:, 1]) < WIDTH / 2 - WALL - ALPHA
+    assert probe.invented[lid].all()
+    assert not probe.invented[centres[:, 2] < HEIGHT - ALPHA].any()
+    assert closed.invented_area == pytest.approx(MOUTH, rel=0.1)
+    assert any("is invented: a touch there rests on a guess" in sentence for sentence in closed.sentences)
+
+
+def test_the_opening_is_measured_at_its_lip(closed):
+    (only,) = closed.openings
+    opening = only.opening
+    assert opening.length == pytest.approx(LENGTH - 2 * WALL, abs=5e-4)
+    assert opening.width == pytest.approx(WIDTH - 2 * WALL, abs=5e-4)
+    assert opening.depth == pytest.approx(HEIGHT - WALL, abs=1e-3)
+    assert opening.axes[2] == pytest.approx([0, 0, 1], abs=0.01)
+    assert opening.centre[2] == pytest.approx(HEIGHT, abs=2e-4)
+    assert only.closing is Closing.RULED  # twice as long as wide
+
+
+def test_no_line_from_outside_ends_on_an_inner_wall(closed):
+    assert closed.fit.inner_hits == 0
+    assert closed.fit.lines > 50_000
+    assert closed.fit.visible_p95 < 1e-4
+
+
+@pytest.mark.parametrize("closing", [Closing.FAIR, Closing.RULED, Closing.HULL])
+def test_an_arched_mouth_keeps_its_arch(closing):
+    arch = 0.006
+    shell = make_shell(housing(arch), closing, alpha=ALPHA, coarse=GAP)
+    centres = shell.probe.vertices[shell.probe.faces].mean(axis=1)
+    middle = shell.probe.invented & (np.abs(centres[:, :2]) < 0.004).all(axis=1)
+    height = centres[middle, 2].mean() - HEIGHT
+    # A thin plate bends both ways and so rises a little above the straight lines across.
+    assert height == pytest.approx(arch, abs=1.2e-3 if closing is Closing.FAIR else 3e-4)
+
+
+def test_an_opening_left_open_is_lined():
+    shell = make_shell(housing(), [Closing.OPEN], alpha=ALPHA, coarse=GAP)
+    assert shell.probe.health.sentences == ()
+    assert shell.openings[0].closing is Closing.OPEN
+    distance, _, _ = SurfaceIndex(shell.probe.vertices, shell.probe.faces).closest(
+        np.array([[0.0, 0.0, WALL], [0.0, WIDTH / 2 - WALL, HEIGHT / 2]])
+    )
+    assert distance.max() < 5e-4  # the inner floor and an inner wall are still there
+    assert shell.invented_area < 0.01 * MOUTH
+
+
+def test_regions_of_the_original_are_carried_over():
+    probe = housing()
+    faces = np.flatnonzero(probe.normals[:, 1] < -0.9)  # the outer front wall, and the inner back one
+    region = np.zeros(len(probe.faces), dtype=int)
+    region[faces] = 1
+    shell = make_shell(probe.with_region(region), alpha=ALPHA, coarse=GAP)
+    area = shell.probe.areas[shell.probe.region == 1].sum()
+    assert area == pytest.approx(LENGTH * HEIGHT, rel=0.05)
+    assert (shell.probe.normals[shell.probe.region == 1, 1] < -0.5).mean() > 0.95
+
+
+# ---- meshes that need less -------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["linear", "convex", "t-shape"])
+def test_a_mesh_that_needs_nothing_is_given_back(name):
+    probe = bundled(name, 2000)
+    shell = make_shell(probe)
+    assert shell.probe is probe
+    assert shell.how == "unchanged"
+    assert shell.openings == ()
+
+
+def test_facets_turned_over_are_turned_back():
+    probe = bundled("t-shape", 2000)
+    faces = probe.faces.copy()
+    faces[::3] = faces[::3, ::-1].copy()
+    shell = make_shell(Probe.from_arrays(probe.vertices, faces))
+    assert shell.how == "repaired"
+    assert shell.turned == len(faces[::3])
+    assert np.array_equal(shell.probe.vertices, probe.vertices)
+    assert shell.probe.normals == pytest.approx(probe.normals, abs=1e-12)
+
+
+def test_an_inside_out_mesh_with_a_part_within_and_repeats():
+    outer, faces = box([0, 0, 0], [0.05, 0.05, 0.1])
+    inner, inner_faces = box([0.02, 0.02, 0.02], [0.03, 0.03, 0.03])
+    vertices = np.concatenate((outer, inner))
+    all_faces = np.concatenate((faces[:, ::-1], faces[:2], inner_faces + 8)).astype(np.int32)
+    shell = make_shell(Probe.from_arrays(vertices, all_faces))
+    assert shell.how == "repaired"
+    assert shell.dropped == 2 + len(inner_faces)
+    assert shell.probe.health.sentences == ()
+    assert "left out: 14" in shell.sentences[0]
+
+
+def test_a_wrap_sees_every_facet():
+    """Facets turned over, and a third one at an edge, are facets all the same."""
+    probe = housing(arch=0.001)
+    faces = probe.faces.copy()
+    faces[::3] = faces[::3, ::-1].copy()
+    # A fin that stands off the lower front edge, 135 degrees from both walls: it throws next to no shadow.
+    fin = np.array([[0, 1, len(probe.vertices)]], dtype=np.int32)
+    vertices = np.concatenate((probe.vertices, [[0.0, -WIDTH / 2 - 0.003, -0.003]]))
+    shell = make_shell(Probe.from_arrays(vertices, np.concatenate((faces, fin))), alpha=ALPHA, coarse=GAP)
+    assert len(shell.openings) == 1
+    assert shell.fit.visible_p95 < 2e-4
+
+
+# ---- asked for nonsense, or stopped ----------------------------------------------------------------
+
+
+def test_lengths_that_make_no_sense_are_refused():
+    with pytest.raises(MeshError, match="alpha must be at least"):
+        make_shell(housing(), alpha=1e-6)
+    with pytest.raises(MeshError, match="at most 25 mm"):
+        make_shell(housing(), coarse=0.05)
+
+
+def test_more_closings_than_openings_are_refused():
+    with pytest.raises(MeshError, match="2 closings were given, but the mesh has 1 opening"):
+        make_shell(housing(), [Closing.HULL, Closing.HULL], alpha=ALPHA, coarse=GAP)
+
+
+def test_it_can_be_stopped_and_tells_how_far_it_is():
+    told = []
+    with pytest.raises(Cancelled):
+        make_shell(housing(), alpha=ALPHA, coarse=GAP, cancelled=lambda: len(told) > 5, progress=told.append)
+    assert told == sorted(told)
+    assert 0 <= told[0] <= told[-1] < 1
+
+
+# ---- real probes -----------------------------------------------------------------------------------
+
+
+def test_a_real_probe(real_file):
+    with pytest.warns(MeshWarning):
+        probe = load_probe(real_file)
+    shell = make_shell(probe, alpha=probe.size / 100)
+    assert shell.probe.health.sentences == ()
+    assert shell.fit.visible_p95 < 3e-4
+    assert shell.fit.inner_hits == 0
+    lens = shell.openings[0]
+    assert lens.opening.axes[2] == pytest.approx([0, 1, 0], abs=0.02)
+    assert lens.closing is Closing.RULED
+    assert not self_intersections(shell.probe.vertices, shell.probe.faces).any()

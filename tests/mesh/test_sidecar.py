@@ -1,0 +1,122 @@
+"""A probe on disk: the surface, and beside it names and history."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from contact_cases import bundled
+
+from pipeline.mesh import MeshError, load_probe, save_probe
+from pipeline.mesh.regions import Region, RegionError, RegionSet
+from pipeline.mesh.sidecar import ProbeFile, load_probe_file, save_probe_file
+
+
+@pytest.fixture
+def content():
+    probe = bundled("linear", 500)
+    labels = np.zeros(len(probe.faces), dtype=np.int32)
+    labels[:40], labels[40:60] = 1, 2
+    regions = RegionSet.from_labels(labels, (Region("lens", "#112233"), Region("edge", "#445566")))
+    invented = np.arange(len(labels)) % 7 == 0
+    start = ProbeFile(probe.with_invented(invented).with_region(labels), regions)
+    return start.after("paint", start.probe, {"by": "hand"}, {"changed": 60}, frame="S")
+
+
+def test_everything_comes_back(content, tmp_path):
+    save_probe_file(content, tmp_path / "probe.ply")
+    back = load_probe_file(tmp_path / "probe.ply")
+    assert np.array_equal(back.probe.vertices, content.probe.vertices)
+    assert np.array_equal(back.probe.faces, content.probe.faces)
+    assert np.array_equal(back.probe.region, content.regions.labels)
+    assert np.array_equal(back.probe.invented, content.probe.invented)
+    assert [region.name for region in back.regions.regions] == ["lens", "edge"]
+    assert (back.frame, back.history, back.notes) == ("S", content.history, ())
+
+
+def test_the_same_content_gives_the_same_bytes(content, tmp_path):
+    for name in ("a", "b"):
+        save_probe_file(content, tmp_path / f"{name}.ply")
+    save_probe_file(load_probe_file(tmp_path / "a.ply"), tmp_path / "c.ply")
+    for suffix in (".ply", ".json"):
+        assert len({(tmp_path / f"{name}{suffix}").read_bytes() for name in "abc"}) == 1
+
+
+def test_a_step_knows_what_went_in_and_what_came_out(content):
+    smaller = bundled("linear", 100)
+    after = content.after("simplify", smaller, {"facets": 100}, {"facets": len(smaller.faces)})
+    before, step = after.history
+    assert step["step"] == "simplify"
+    assert step["input"]["sha256"] == before["output"]["sha256"] != step["output"]["sha256"]
+    assert step["output"]["facets"] == len(smaller.faces)
+    assert step["tool"].startswith("contactbench ")
+    assert after.frame == "S"
+    assert [region.name for region in after.regions.regions] == ["lens", "edge"]
+
+
+def test_a_file_changed_by_another_program_is_noticed(content, tmp_path):
+    file = tmp_path / "probe.ply"
+    save_probe_file(content, file)
+    save_probe(content.probe.with_region(np.zeros(len(content.probe.faces), dtype=int)), file)
+    back = load_probe_file(file)
+    assert len(back.notes) == 1
+    assert "was changed since contactbench wrote it" in back.notes[0]
+
+
+def test_colours_are_for_viewers(content, tmp_path):
+    import trimesh
+
+    save_probe_file(content, tmp_path / "probe.ply")
+    seen = trimesh.load_mesh(tmp_path / "probe.ply", process=False)
+    raw = seen.metadata["_ply_raw"]["face"]["data"]
+    colours = np.column_stack([np.ravel(raw[name]) for name in ("red", "green", "blue")])
+    plain = (content.probe.region == 0) & ~content.probe.invented
+    assert (colours[plain] == 200).all()
+    assert (colours[(content.probe.region == 0) & content.probe.invented] == (230, 159, 0)).all()
+    assert len(np.unique(colours, axis=0)) == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("[]", "does not hold one object"),
+        ("{", "not a JSON file"),
+        ('{"schema": "other"}', "not a probe's"),
+        ('{"version": 2}', "use a newer contactbench"),
+        ('{"version": "1"}', "not a probe's"),
+        ('{"regions": {}}', "not a list of names"),
+        ('{"history": {}}', "not a list of at most"),
+        ('{"history": [{"step": 1}]}', "step 1 of 'history'"),
+        ('{"mesh": {"frame": "Q"}}', "frame is P or S"),
+        ('{"mesh": 1}', "frame is P or S"),
+    ],
+)
+def test_a_broken_history_is_refused_by_name(content, tmp_path, text, match):
+    save_probe_file(content, tmp_path / "probe.ply")
+    (tmp_path / "probe.json").write_text(text)
+    with pytest.raises(RegionError, match=match) as caught:
+        load_probe_file(tmp_path / "probe.ply")
+    assert str(tmp_path / "probe.json") in str(caught.value)
+
+
+def test_what_else_the_json_holds_stays(content, tmp_path):
+    (tmp_path / "probe.json").write_text('{"serial": 7}')
+    save_probe_file(content, tmp_path / "probe.ply")
+    document = json.loads((tmp_path / "probe.json").read_text())
+    assert document["serial"] == 7
+    assert document["mesh"]["frame"] == "S"
+
+
+def test_only_ply_in_a_folder_that_exists(content, tmp_path):
+    with pytest.raises(MeshError, match=r"end the name in \.ply"):
+        save_probe_file(content, tmp_path / "probe.stl")
+    with pytest.raises(MeshError, match="cannot be written"):
+        save_probe_file(content, tmp_path / "no" / "probe.ply")
+    with pytest.raises(RegionError, match="kept in a probe's PLY"):
+        load_probe_file(tmp_path / "probe.stl")
+
+
+def test_invented_facets_are_read_by_load_probe_too(content, tmp_path):
+    save_probe(content.probe, tmp_path / "probe.ply")
+    assert np.array_equal(load_probe(tmp_path / "probe.ply", "m").invented, content.probe.invented)

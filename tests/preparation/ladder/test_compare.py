@@ -1,0 +1,172 @@
+"""The added contact error: exact where it can be worked out, and nothing that went wrong is left out."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from contact_cases import ball, bundled
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pipeline.contact import Reason, WrenchNoise
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh import Probe
+from pipeline.preparation.ladder import ContactReference, ExpectedTouches, LadderError
+from pipeline.preparation.ladder.compare import _difference, _growth
+from pipeline.preparation.ladder.touches import draw_parts
+
+SQUARE = ExpectedTouches(friction_angle=(0.0, 0.0), torsion_arm=0.0, count=300)
+
+
+def _inflated(probe: Probe, factor: float) -> Probe:
+    centre = probe.bounds.mean(axis=0)
+    return Probe.from_arrays(centre + factor * (probe.vertices - centre), probe.faces)
+
+
+def test_the_same_mesh_adds_nothing() -> None:
+    probe = bundled("t-shape", 2_000, regions=True)
+    for errors in ContactReference(probe, ExpectedTouches(count=500)).compare(probe):
+        for difference in (errors.noisy, errors.noise_free):
+            assert difference.compared == difference.settled > 400
+            assert difference.mean == difference.p95 == difference.largest == 0
+            assert difference.lost == difference.doubtful == difference.gained == difference.changed == 0
+        assert errors.growth == 0
+
+
+def test_a_larger_ball_moves_a_perpendicular_touch_by_the_difference_of_the_radii() -> None:
+    small = ball(5120)
+    [errors] = ContactReference(small, SQUARE).compare(_inflated(small, 1.01))
+    # A facet's plane is up to 0.05 % nearer than the radius of 30 mm.
+    assert errors.part == "all"
+    assert errors.noise_free.mean == pytest.approx(0.3e-3, rel=2e-3)
+    assert errors.noise_free.largest == pytest.approx(0.3e-3, rel=2e-3)
+    assert errors.noise_free.compared == errors.touches == 300
+
+
+def test_the_bound_is_what_the_noise_does_and_the_growth_what_the_shape_adds() -> None:
+    small = ball(5120)
+    # Torque noise alone on a perpendicular touch: each direction across the force errs by sigma / |F|.
+    expected = ExpectedTouches(
+        WrenchNoise(0.0, 0.002), (10.0, 10.0), (0.0, 0.0), torsion_arm=0.0, count=4_000
+    )
+    [errors] = ContactReference(small, expected).compare(_inflated(small, 1.01))
+    assert errors.bound == pytest.approx(np.sqrt(2) * 0.002 / 10, rel=0.01)
+    # The added error stands along the force, the noise across it: the squares add up.
+    grown = np.sqrt(errors.bound**2 + 0.3e-3**2) / errors.bound - 1
+    assert errors.growth == pytest.approx(grown, rel=0.05)
+
+
+def test_a_mesh_elsewhere_loses_every_touch_and_says_so() -> None:
+    probe = ball(1280)
+    away = Probe.from_arrays(probe.vertices + [0.5, 0, 0], probe.faces)
+    [errors] = ContactReference(probe, SQUARE).compare(away)
+    noisy = errors.noisy
+    assert (noisy.compared, noisy.lost, noisy.changed) == (0, noisy.settled, 300)
+    assert noisy.mean is noisy.p95 is noisy.largest is errors.growth is None
+    assert errors.over_bound("p95") is None
+    assert noisy.failed_share == 1
+
+
+def test_touches_are_spread_over_the_regions_and_over_the_rest() -> None:
+    probe = bundled("convex", 2_000, regions=True)
+    index = SurfaceIndex(probe.vertices, probe.faces)
+    parts = draw_parts(probe, ExpectedTouches(count=2_000))
+    assert [drawn.part for drawn in parts] == ["region", "rest"]
+    for drawn, inside in zip(parts, (True, False), strict=True):
+        distance, facet, _ = index.closest(drawn.truth.points)
+        assert distance.max() < 1e-9
+        # A point near an edge may be told to be on either facet.
+        assert np.mean((probe.region[facet] > 0) == inside) > 0.995
+        # By area: as many on the larger half of the facets as their area says.
+        mask = (probe.region > 0) == inside
+        large = mask & (probe.areas > np.median(probe.areas[mask]))
+        share = probe.areas[large].sum() / probe.areas[mask].sum()
+        assert np.mean(large[facet]) == pytest.approx(share, abs=0.04)
+
+
+def test_forces_and_angles_are_those_asked_for() -> None:
+    expected = ExpectedTouches(force=(2.0, 3.0), friction_angle=(10.0, 20.0), count=1_000)
+    [drawn] = draw_parts(ball(), expected)
+    force = np.linalg.norm(drawn.truth.wrenches[:, :3], axis=1)
+    assert 2 <= force.min() < 2.02
+    assert 2.98 < force.max() <= 3
+    cosine = -np.sum(drawn.truth.wrenches[:, :3] * drawn.truth.normals, axis=1) / force
+    angle = np.degrees(np.arccos(cosine))
+    assert angle.min() + 1e-9 >= 10
+    assert angle.max() <= 20 + 1e-9
+
+
+def test_a_seed_is_a_set_of_touches() -> None:
+    first, again, other = (
+        draw_parts(ball(), ExpectedTouches(count=100, seed=seed))[0].noisy for seed in (1, 1, 2)
+    )
+    np.testing.assert_array_equal(first, again)
+    assert not np.isclose(first, other).all(axis=1).any()
+
+
+def _batch(reasons: list[Reason], offsets: list[float]) -> SimpleNamespace:
+    points = np.zeros((len(reasons), 3))
+    points[:, 0] = offsets
+    return SimpleNamespace(
+        reasons=np.array(reasons, dtype=np.uint8), points=points, sigma_max=np.full(len(reasons), 1e-3)
+    )
+
+
+def test_every_way_to_differ_is_counted() -> None:
+    nan = np.nan
+    ok, vertex, doubt, off = Reason.OK, Reason.VERTEX, Reason.AMBIGUOUS, Reason.OFF_SURFACE
+    full = _batch([ok, ok, ok, ok, ok, off, doubt, off], [0, 0, 0, 0, 0, nan, 0, nan])
+    other = _batch([ok, vertex, doubt, off, ok, ok, ok, doubt], [1e-3, 2e-3, 0.04, nan, 0.03, 0, 0, 0])
+    found = _difference(full, other, 0.005)  # type: ignore[arg-type]
+    assert (found.settled, found.compared) == (5, 3)
+    assert (found.lost, found.doubtful, found.gained, found.jumped) == (1, 1, 2, 1)
+    # Rows 2, 3, 5, 6 and 7; a vertex for a facet is no change.
+    assert found.changed == 5
+    assert found.largest == pytest.approx(0.03)
+    assert found.mean == pytest.approx(0.011)
+    assert found.failed_share == pytest.approx(3 / 5)
+
+
+@given(st.lists(st.tuples(*[st.sampled_from([r for r in Reason if r < 6])] * 2), min_size=1, max_size=40))
+def test_the_counts_add_up(pairs: list[tuple[Reason, Reason]]) -> None:
+    def offsets(reasons: list[Reason]) -> list[float]:
+        return [0.0 if reason <= Reason.AMBIGUOUS else np.nan for reason in reasons]
+
+    before, after = ([pair[side] for pair in pairs] for side in (0, 1))
+    found = _difference(_batch(before, offsets(before)), _batch(after, offsets(after)), 0.005)  # type: ignore[arg-type]
+    assert found.compared + found.lost + found.doubtful == found.settled
+    assert found.changed >= found.lost + found.doubtful + found.gained
+    assert sum(reason <= Reason.VERTEX for reason in after) == found.compared + found.gained
+
+
+def test_a_jump_or_a_touch_that_the_noise_misplaced_does_not_hide_the_growth() -> None:
+    ok = [Reason.OK] * 4
+    full = _batch(ok, [1e-3, 1e-3, 0.05, 1e-3])
+    other = _batch(ok, [2e-3, 2e-3, 0.05, 0.09])
+    growth = _growth(full, other, np.zeros((4, 3)), 0.005)  # type: ignore[arg-type]
+    assert growth == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"force": (0.0, 5.0)}, "above 0"),
+        ({"force": (5.0, 2.0)}, "smaller one first"),
+        ({"force": (1.0, np.nan)}, "force range"),
+        ({"friction_angle": (0.0, 90.0)}, "under 90"),
+        ({"friction_angle": (20.0, 10.0)}, "smaller one first"),
+        ({"torsion_arm": -1e-3}, "0 or more"),
+        ({"count": 99}, "at least 100"),
+        ({"seed": -1}, "at least 0"),
+    ],
+)
+def test_wrong_expectations_are_named(arguments: dict[str, object], said: str) -> None:
+    with pytest.raises(LadderError, match=said):
+        ExpectedTouches(**arguments)  # type: ignore[arg-type]
+
+
+def test_a_mesh_that_settles_nothing_is_refused_with_the_reasons() -> None:
+    with pytest.raises(LadderError, match=r"only 0 of 100 touches \(low_force 100\)"):
+        ContactReference(ball(), ExpectedTouches(WrenchNoise(1e-4, 1e-5), (0.1, 0.2), (0.0, 0.0), count=100))

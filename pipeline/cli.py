@@ -22,6 +22,7 @@ from pipeline.commands.gravity import gravity_app
 from pipeline.commands.options import numbers
 from pipeline.commands.poses import poses_app
 from pipeline.commands.probe import probe_app
+from pipeline.commands.region import region_app
 from pipeline.console import Bar, JsonOption, print_json, report_error, say, wants_json
 from pipeline.errors import InputError
 from pipeline.study.commands import study_app
@@ -386,6 +387,7 @@ def demo(
 app.add_typer(gravity_app)
 app.add_typer(poses_app)
 app.add_typer(probe_app, name="probe")
+app.add_typer(region_app, name="region")
 app.add_typer(study_app, name="study")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -17,8 +18,12 @@ _JSON = "contactbench.json"
 _PATIENCE_S = 0.5
 
 
+_running: ContextVar[typer.Context] = ContextVar("running")
+
+
 def _remember(ctx: typer.Context, value: bool) -> bool:
     ctx.meta[_JSON] = value  # shared by all levels of commands
+    _running.set(ctx)
     return value
 
 
@@ -33,6 +38,12 @@ JsonOption = Annotated[
 def wants_json(ctx: Any) -> bool:
     """Tell whether the command that runs was given ``--json``."""
     return bool(ctx.meta.get(_JSON))
+
+
+def running_command() -> tuple[str, Mapping[str, Any]]:
+    """Return the name of the command that runs, and its parameters; only for commands with ``--json``."""
+    context = _running.get()
+    return context.info_name or "", context.params
 
 
 def print_json(value: Mapping[str, Any]) -> None:

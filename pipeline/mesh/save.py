@@ -6,20 +6,15 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from pipeline.durable import write_durably
+from pipeline.mesh.colours import facet_colours
 from pipeline.mesh.errors import MeshError
 from pipeline.mesh.ply import encode_ply
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
+    from collections.abc import Sequence
 
     from pipeline.mesh.probe import Probe
-
-# Okabe and Ito's colours, told apart by everybody; their orange is kept for what is invented.
-PALETTE = ((86, 180, 233), (0, 158, 115), (240, 228, 66), (0, 114, 178), (213, 94, 0), (204, 121, 167))
-_PLAIN, _INVENTED = (200, 200, 200), (230, 159, 0)
 
 
 def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
@@ -53,15 +48,15 @@ def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
         ) from error
 
 
-def encode_probe(probe: Probe) -> bytes:
-    """Give the bytes that `save_probe` writes; the same probe gives the same bytes."""
-    return encode_ply(probe.vertices, probe.faces, probe.region, probe.invented, _colours(probe))
+def encode_probe(probe: Probe, colours: Sequence[str] = ()) -> bytes:
+    """
+    Give the bytes of a probe's file; the same probe and colours give the same bytes.
 
-
-def _colours(probe: Probe) -> npt.NDArray[np.uint8]:
-    """Red, green, blue per facet, (m, 3); an invented facet in a region is half of each."""
-    colours = np.array([_PLAIN, *PALETTE], dtype=np.uint16)
-    colours = colours[np.where(probe.region > 0, 1 + (probe.region - 1) % len(PALETTE), 0)]
-    guessed = probe.invented[:, None]
-    mixed = np.where((probe.region > 0)[:, None], (colours + _INVENTED) // 2, _INVENTED)
-    return np.where(guessed, mixed, colours).astype(np.uint8)
+    Parameters
+    ----------
+    probe : Probe
+    colours : sequence of str
+        ``#rrggbb`` per priority; the palette's where they are left out.
+    """
+    shown = facet_colours(probe.region, probe.invented, colours)
+    return encode_ply(probe.vertices, probe.faces, probe.region, probe.invented, shown)

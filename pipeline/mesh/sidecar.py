@@ -156,7 +156,8 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
     mesh = Path(path)
     file = sidecar_of(mesh)
     document = check_target(mesh)
-    surface = encode_probe(content.probe.with_region(content.regions.labels))
+    colours = [region.colour for region in content.regions.regions]
+    surface = encode_probe(content.probe.with_region(content.regions.labels), colours)
     document |= {
         "schema": SCHEMA,
         "version": VERSION,

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "facet_checks.hpp"
+#include "geodesic_checks.hpp"
 #include "search_checks.hpp"
 #include "solver_checks.hpp"
 
@@ -36,6 +37,7 @@ int main() {
     testing::check_facets();
     testing::check_search();
     testing::check_solver();
+    testing::check_geodesic();
     const testing::Counts& counts = testing::counts();
     if (counts.failed > 0) {
         std::printf("%ld checks failed, %ld passed\n", counts.failed, counts.passed);

@@ -73,7 +73,8 @@ def test_colours_are_for_viewers(content, tmp_path):
     colours = np.column_stack([np.ravel(raw[name]) for name in ("red", "green", "blue")])
     plain = (content.probe.region == 0) & ~content.probe.invented
     assert (colours[plain] == 200).all()
-    assert (colours[(content.probe.region == 0) & content.probe.invented] == (230, 159, 0)).all()
+    assert (colours[(content.probe.region == 0) & content.probe.invented] == (70, 70, 70)).all()
+    assert (colours[(content.probe.region == 1) & ~content.probe.invented] == (0x11, 0x22, 0x33)).all()
     assert len(np.unique(colours, axis=0)) == 6
 
 
@@ -86,6 +87,8 @@ def test_colours_are_for_viewers(content, tmp_path):
         ('{"version": 2}', "use a newer contactbench"),
         ('{"version": "1"}', "not a probe's"),
         ('{"regions": {}}', "not a list of names"),
+        ('{"regions": [{"name": "a"}]}', "colour"),
+        ('{"regions": [1]}', "region 1 of the file is not an object"),
         ('{"history": {}}', "not a list of at most"),
         ('{"history": [{"step": 1}]}', "step 1 of 'history'"),
         ('{"mesh": {"frame": "Q"}}', "frame is P or S"),

@@ -10,7 +10,7 @@ namespace {
 
 // The stroke has scratch of its own: a distance asked for in between does not disturb it.
 struct Geodesic {
-    Mesh mesh;
+    SurfaceMesh mesh;
     DistanceField field;
     PathFinder paths;
     Brush brush;
@@ -67,9 +67,9 @@ nb::tuple around(Geodesic& g, std::int64_t face, Vector3 point, double limit) {
     {
         const nb::gil_scoped_release release;
         const std::lock_guard lock(g.busy);
-        g.field.start();
+        g.field.start(limit);
         g.field.seed(source.face, source.point, 0);
-        g.field.run(limit);
+        g.field.run();
         std::vector<std::int32_t> touched = g.field.touched();
         std::sort(touched.begin(), touched.end());
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
@@ -92,10 +92,10 @@ nb::tuple spread(Geodesic& g, Ints sources, double limit) {
     {
         const nb::gil_scoped_release release;
         const std::lock_guard lock(g.busy);
-        g.field.start(true);
+        g.field.start(limit, true);
         for (std::size_t i = 0; i < sources.shape(0); ++i)
             g.field.seed_vertex(sources.data()[i], std::int32_t(i));
-        g.field.run(limit);
+        g.field.run();
         g.field.each_touched_facet([&](std::int32_t f) {
             if (g.field.centroid_distance(f) <= limit) faces.push_back(f);
         });
@@ -149,7 +149,8 @@ void bind_geodesic(nb::module_& m) {
         .def("around", &around, nb::arg("face"), nb::arg("point"), nb::arg("limit"),
              "Vertices (k,) int32 within `limit` metres, along the surface, of a point of a facet; distances (k,).")
         .def("spread", &spread, nb::arg("vertices").noconvert(), nb::arg("limit"),
-             "Facets (k,) int32 whose centroid lies within `limit` metres of vertices and lines between them; distances (k,).")
+             "Facets (k,) int32 whose centroid lies within `limit` metres of vertices and of the lines between them; "
+             "distances (k,).")
         .def("path", &path, nb::arg("from_face"), nb::arg("from_point"), nb::arg("to_face"), nb::arg("to_point"),
              "Corners (k, 3) of a way along the surface, as straight as seen from above; (0, 3) if there is none.")
         .def("begin", [](Geodesic& g, double radius, bool geodesic) {

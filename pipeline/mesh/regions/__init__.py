@@ -5,6 +5,7 @@ A `RegionSet` is a value: names and colours in the order of priority, and a rank
 `Probe.region` holds. A `RegionModel` edits one; a `FacetGraph` knows the mesh. Nothing here draws anything.
 """
 
+from pipeline.mesh.colours import PALETTE
 from pipeline.mesh.regions.closest import carry_labels
 from pipeline.mesh.regions.errors import RegionError
 from pipeline.mesh.regions.exchange import load_regions, save_regions
@@ -12,9 +13,8 @@ from pipeline.mesh.regions.facet_graph import FacetGraph
 from pipeline.mesh.regions.mirror import Mirrored, mirror
 from pipeline.mesh.regions.model import Change, RegionModel
 from pipeline.mesh.regions.morphology import grow, shrink, smooth
-from pipeline.mesh.regions.region import PALETTE, Region, RegionSet
+from pipeline.mesh.regions.region import Region, RegionSet
 from pipeline.mesh.regions.selections import component, facing, flood, half_space, in_box
-from pipeline.mesh.regions.sidecar import load_with_regions, save_with_regions
 from pipeline.mesh.regions.stroke import Brush, Stroke
 from pipeline.mesh.regions.transfer import RegionReport, Transferred, transfer
 
@@ -39,10 +39,8 @@ __all__ = [
     "half_space",
     "in_box",
     "load_regions",
-    "load_with_regions",
     "mirror",
     "save_regions",
-    "save_with_regions",
     "shrink",
     "smooth",
     "transfer",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.mesh.colours import PALETTE
 from pipeline.mesh.probe import check_region
 from pipeline.mesh.regions.errors import RegionError
 
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 
 MOST_REGIONS = 255
 LONGEST_NAME = 64
-
-# Okabe & Ito's colours, told apart with every kind of colour vision; black is left out, it hides the shading.
-PALETTE = ("#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7")
 
 _COLOUR = re.compile(r"#[0-9a-f]{6}")
 

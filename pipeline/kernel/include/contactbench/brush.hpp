@@ -14,7 +14,7 @@ namespace contactbench {
 
 class Brush {
 public:
-    explicit Brush(const Mesh& mesh)
+    explicit Brush(const SurfaceMesh& mesh)
         : mesh_(&mesh), field_(mesh), paths_(mesh), covered_(mesh.faces.size(), 0), visited_(mesh.faces.size(), 0) {}
 
     void begin(double radius, bool geodesic) {
@@ -23,7 +23,7 @@ public:
         ++stroke_;
         sources_ = 0;
         last_.face = -1;
-        field_.start();
+        field_.start(radius);
     }
 
     // Go on to a point inside a facet; returns the facets that this covers anew. `joined`: the way from the
@@ -42,8 +42,9 @@ public:
     }
 
 private:
-    // Stops this share of the radius apart leave scallops of 0.8 % of it.
-    static constexpr double stop_spacing = 0.25;
+    // Stops this share of the radius apart leave scallops of 0.8 % of it. Their number is bounded: a brush much
+    // finer than the way is long covers little but the facets on the way, and they are covered in any case.
+    static constexpr double stop_spacing = 0.25, most_stops = 4096.0;
 
     void cover(std::int32_t f) {
         if (covered_[std::size_t(f)] == stroke_) return;
@@ -52,13 +53,15 @@ private:
     }
 
     void place_stops(const std::vector<SurfacePoint>& way) {
-        const double spacing = stop_spacing * radius_;
+        double total = 0.0;
+        for (std::size_t i = 0; i + 1 < way.size(); ++i) total += norm(way[i + 1].point - way[i].point);
+        const double spacing = std::max(stop_spacing * radius_, total / most_stops);
         stops_ = {way.front()};
         double left = spacing;  // until the next stop
         for (std::size_t i = 0; i + 1 < way.size(); ++i) {
             const Vec3 step = way[i + 1].point - way[i].point;
             const double length = norm(step);
-            for (; left <= length; left += spacing)
+            for (; left < length; left += spacing)
                 stops_.push_back({way[i].face, way[i].point + left / length * step});
             left -= length;
         }
@@ -68,7 +71,7 @@ private:
     void cover_along() {
         field_.forget_touched();
         for (const SurfacePoint& stop : stops_) field_.seed(stop.face, stop.point, sources_++);
-        field_.run(radius_);
+        field_.run();
         field_.each_touched_facet([&](std::int32_t f) {
             if (covered_[std::size_t(f)] != stroke_ && field_.centroid_within(f, radius_)) cover(f);
         });
@@ -117,7 +120,7 @@ private:
         return norm2(ap - t * ab);
     }
 
-    const Mesh* mesh_;
+    const SurfaceMesh* mesh_;
     DistanceField field_;
     PathFinder paths_;
     std::vector<std::uint64_t> covered_, visited_;

@@ -1,28 +1,27 @@
 // Distances along a surface from points on it, as far as a limit and no further.
 //
-// Method: labels at vertices, spread through facets from a heap as in fast marching (Kimmel & Sethian, PNAS 95,
-// 1998), with the circular wave of Novotni & Klein (WSCG 2002): the distances of two corners place the source
-// in the facet's plane, unfolded, and the third corner's distance is measured from there. That is exact where
-// the surface unfolds (planes, cylinders, cones), also next to the source. A label keeps the way to its source,
-// for edges whose corners were reached from different ones. A label that improves is spread again; so obtuse
-// facets, where the front arrives in the wrong order, need no special edges.
+// Method: labels at vertices, spread through facets in the order of distance as in fast marching (Kimmel &
+// Sethian, PNAS 95, 1998), though only to within a 256th of the limit, which spares a heap; with the circular
+// wave of Novotni & Klein (WSCG 2002): the distances of two corners place the source in the facet's plane,
+// unfolded, and the third corner's distance is measured from there. That is exact where the surface unfolds
+// (planes, cylinders, cones), also next to the source. A label keeps the way to its source, for edges whose
+// corners were reached from different ones. A label that improves is spread again; so obtuse facets, where the
+// front arrives in the wrong order, need no special edges.
 //
 // Contract: triangles pass `check_triangles`. Setting up is O(n + m); a run touches the facets within the limit
 // and a rim of one facet around them, and allocates only while its lists grow. Not for two threads at once.
 #pragma once
 
-#include <functional>
-
 #include "adjacency.hpp"
 
 namespace contactbench {
 
-struct Mesh {
+struct SurfaceMesh {
     std::vector<Vec3> vertices;
     std::vector<Triangle> faces;
     Adjacency adjacency;
 
-    Mesh(std::vector<Vec3> points, std::vector<Triangle> triangles)
+    SurfaceMesh(std::vector<Vec3> points, std::vector<Triangle> triangles)
         : vertices(std::move(points)),
           faces((check_triangles(triangles, vertices.size()), std::move(triangles))),
           adjacency(faces, vertices.size()) {}
@@ -37,15 +36,24 @@ class DistanceField {
 public:
     static constexpr double unreached = std::numeric_limits<double>::infinity();
 
-    explicit DistanceField(const Mesh& mesh)
-        : mesh_(&mesh), labels_(mesh.vertices.size()), seen_(mesh.faces.size(), 0) {}
+    explicit DistanceField(const SurfaceMesh& mesh)
+        : mesh_(&mesh), labels_(mesh.vertices.size()), seen_(mesh.faces.size(), 0), narrow_(3 * mesh.faces.size()),
+          queue_(beyond_limit + 1) {
+        for (std::size_t h = 0; h < narrow_.size(); ++h) {
+            const std::int32_t f = std::int32_t(h / 3);
+            const Vec3 at = mesh.corner(f, h % 3);
+            const Vec3 u = mesh.corner(f, h % 3 + 1) - at, v = mesh.corner(f, h % 3 + 2) - at;
+            narrow_[h] = dot(u, v) > narrow_cosine * std::sqrt(norm2(u) * norm2(v));
+        }
+    }
 
-    // Forget every label, in O(1). `line`: the sources are the corners of a line, which is a source as well.
-    void start(bool line = false) {
+    // Forget every label, in O(1). Runs go as far as `limit`. `line`: the sources are the corners of a line,
+    // which is a source as well.
+    void start(double limit, bool line = false) {
         ++run_;
+        limit_ = limit;
         line_ = line;
         touched_.clear();
-        heap_.clear();
     }
 
     // A source inside a facet; `source` tells it from others.
@@ -56,15 +64,19 @@ public:
     void seed_vertex(std::int32_t vertex, std::int32_t source) { lower(vertex, {0.0, source, {}}); }
 
     // Spread what was seeded since the last run, through every facet that comes within the limit.
-    void run(double limit) {
-        while (!heap_.empty()) {
-            const auto [distance, vertex] = heap_.front();
-            std::pop_heap(heap_.begin(), heap_.end(), std::greater<>{});
-            heap_.pop_back();
+    void run() {
+        for (lowest_ = 0; lowest_ < queue_.size();) {
+            if (queue_[lowest_].empty()) {
+                ++lowest_;
+                continue;
+            }
+            const std::int32_t vertex = queue_[lowest_].back();
+            queue_[lowest_].pop_back();
             Label& label = labels_[std::size_t(vertex)];
-            if (distance > label.distance || label.turns >= most_turns) continue;
+            if (!label.waiting || label.turns >= most_turns) continue;
+            label.waiting = false;
             ++label.turns;
-            for (std::int32_t f : mesh_->adjacency.around(vertex)) spread(f, vertex, limit);
+            for (std::int32_t f : mesh_->adjacency.around(vertex)) spread(f, vertex, limit_);
         }
     }
 
@@ -115,7 +127,9 @@ private:
     // Improvements below this share of the distance are rounding. A vertex takes its turn about twice on a
     // bad mesh; the bound on turns ends what labels that contradict each other could start.
     static constexpr double rounding = 1e-9;
-    static constexpr std::uint32_t most_turns = 64;
+    static constexpr std::uint16_t most_turns = 64;
+    static constexpr std::size_t beyond_limit = 256;
+    static constexpr double narrow_cosine = 0.17365;
 
     // Among sources that are closer together than corners, a corner's own may label no corner around it. The
     // line to it then passes beside the edge, over a neighbour: let it, as far as so many edges.
@@ -124,7 +138,8 @@ private:
     struct Label {
         double distance = unreached;
         std::int32_t source = 0;
-        std::uint32_t turns = 0;
+        std::uint16_t turns = 0;
+        bool waiting = false;  // in the queue; entries for higher distances may be there as well
         std::uint64_t run = 0;
         Vec3 way;  // to the source, as if the surface went on flat from here
     };
@@ -151,53 +166,59 @@ private:
 
     void lower(std::int32_t vertex, const Arrival& arrival) {
         Label& label = labels_[std::size_t(vertex)];
-        if (label.run != run_) label = {unreached, 0, 0, run_, {}};
+        if (label.run != run_) label = {unreached, 0, 0, false, run_, {}};
         if (!(arrival.distance < label.distance)) return;
         if (label.distance != unreached && label.distance - arrival.distance <= rounding * label.distance) return;
         label.distance = arrival.distance;
         label.source = arrival.source;
         label.way = arrival.way;
+        label.waiting = true;
         touched_.push_back(vertex);
-        heap_.emplace_back(arrival.distance, vertex);
-        std::push_heap(heap_.begin(), heap_.end(), std::greater<>{});
+        const double share = arrival.distance / limit_;
+        const std::size_t place = share < 1.0 ? std::size_t(share * double(beyond_limit)) : beyond_limit;
+        queue_[place].push_back(vertex);
+        lowest_ = std::min(lowest_, place);
     }
 
     void spread(std::int32_t f, std::int32_t from, double limit) {
         const Triangle& t = mesh_->face(f);
         const std::size_t c = t[0] == from ? 0 : t[1] == from ? 1 : 2;
-        const std::int32_t b = t[(c + 1) % 3], d = t[(c + 2) % 3];
-        reach(d, from, b, limit);
-        reach(b, from, d, limit);
+        const std::size_t next = (c + 1) % 3, last = (c + 2) % 3;
+        if (!settled(f, last, from)) reach(t[last], from, t[next], limit);
+        if (!settled(f, next, from)) reach(t[next], from, t[last], limit);
+    }
+
+    // Whether nothing that comes over the edge opposite a corner can lower it any more, `from` being one of the
+    // edge's ends. A straight line through a narrow corner makes less than 80 degrees with both of its sides; if
+    // its source is further than the sides are long times 1 / (2 cos 80), both ends are nearer than the corner.
+    bool settled(std::int32_t f, std::size_t corner, std::int32_t from) const {
+        const std::int32_t v = mesh_->face(f)[corner];
+        const double reached = distance(v);
+        return reached <= label(from).distance && narrow_[3 * std::size_t(f) + corner] &&
+               reached * reached > 9.0 * norm2(mesh_->at(from) - mesh_->at(v));
     }
 
     // Lower `target` by what comes over the edge from `a`, which has a label, to `b`, which may.
     void reach(std::int32_t target, std::int32_t a, std::int32_t b, double limit) {
-        Arrival best{distance(target), 0, {}};
-        bool better = false;
-        // What is at least as near as the nearest point of the edge cannot gain.
-        if (const Label& from = label(a); from.distance <= limit && from.distance < best.distance) {
-            const Vec3 step = mesh_->at(a) - mesh_->at(target);
-            if (const double end = from.distance + norm(step); end < best.distance) {
-                best = {end, from.source, end / norm(step) * step};
-                better = true;
-            }
-        }
+        const double known = distance(target);
         if (distance(b) != unreached) {
-            const Arrival arrival = across(a, b, mesh_->at(target), best.distance, limit);
-            if (arrival.distance < best.distance) {
-                best = arrival;
-                better = true;
-            }
+            const Arrival arrival = across(a, b, mesh_->at(target), known, limit);
+            if (arrival.distance < known) return lower(target, arrival);
         }
-        if (better) lower(target, best);
+        const Label& from = label(a);
+        const Vec3 step = mesh_->at(a) - mesh_->at(target);
+        const double gain = known - from.distance, step2 = norm2(step);
+        if (!(from.distance <= limit && gain > 0.0 && step2 < gain * gain)) return;
+        const double length = std::sqrt(step2), end = from.distance + length;
+        lower(target, {end, from.source, end / length * step});
     }
 
     // What arrives at `target` over the edge a-b: too late (unreached) where the straight line misses the
     // edge, where the edge is beyond the limit, and where it comes after `known`.
     Arrival across(std::int32_t a, std::int32_t b, Vec3 target, double known, double limit = unreached) const {
         const Label &la = label(a), &lb = label(b);
+        if (la.source == lb.source) return circular_wave(la, lb, mesh_->at(a), mesh_->at(b), target, known, limit);
         const Plane plane(mesh_->at(a), mesh_->at(b), target);
-        if (la.source == lb.source) return circular_wave(plane, la, lb, known, limit);
         Arrival best = from_one(plane, la, 0.0, known, limit);
         if (const Arrival other = from_one(plane, lb, 1.0, known, limit); other.distance < best.distance) best = other;
         if (line_)
@@ -205,13 +226,13 @@ private:
         return best;
     }
 
-    static Arrival circular_wave(const Plane& p, const Label& a, const Label& b, double known, double limit) {
-        const double da2 = a.distance * a.distance, db2 = b.distance * b.distance;
-        const double sx = 0.5 * ((da2 - db2) / p.length2 + 1.0);
-        const double sy2 = std::max(0.0, da2 - sx * sx * p.length2);
+    static Arrival circular_wave(const Label& a, const Label& b, Vec3 at_a, Vec3 at_b, Vec3 target, double known,
+                                 double limit) {
+        const double da2 = a.distance * a.distance, db2 = b.distance * b.distance, length2 = norm2(at_b - at_a);
+        const double sx = 0.5 * ((da2 - db2) / length2 + 1.0), sy2 = std::max(0.0, da2 - sx * sx * length2);
         const double nearest2 = 0.0 <= sx && sx <= 1.0 ? sy2 : std::min(da2, db2);
         if (!(nearest2 <= limit * limit) || nearest2 >= known * known) return {unreached, a.source, {}};
-        return from_source(p, sx, sy2, known, a.source, 0.0);
+        return from_source({at_a, at_b, target}, sx, sy2, known, a.source, 0.0);
     }
 
     // The same where only one end's label is of this source: from its way, turned into the plane.
@@ -263,12 +284,15 @@ private:
         return {d, 2.0 * foot < e ? a.source : b.source, way};
     }
 
-    const Mesh* mesh_;
+    const SurfaceMesh* mesh_;
     std::vector<Label> labels_;
-    std::vector<std::pair<double, std::int32_t>> heap_;
     std::vector<std::int32_t> touched_;
     std::vector<std::uint64_t> seen_;
+    std::vector<std::uint8_t> narrow_;
+    std::vector<std::vector<std::int32_t>> queue_;  // by distance, in even steps up to the limit
     std::uint64_t run_ = 0, sweep_ = 0;
+    std::size_t lowest_ = 0;
+    double limit_ = 0.0;
     bool line_ = false;
 };
 

@@ -8,6 +8,8 @@
 // Contract: O(facets on the way) for the cut. Setting up is O(m). Not for two threads at once.
 #pragma once
 
+#include <functional>
+
 #include "geodesic.hpp"
 
 namespace contactbench {
@@ -21,7 +23,7 @@ class PathFinder {
 public:
     static constexpr double longest = 4.0;
 
-    explicit PathFinder(const Mesh& mesh) : mesh_(&mesh), nodes_(mesh.faces.size()) {}
+    explicit PathFinder(const SurfaceMesh& mesh) : mesh_(&mesh), nodes_(mesh.faces.size()) {}
 
     // Corners of the way, both ends included; between two of them it stays in the first one's facet as far as
     // it is a cut. Empty when there is no way.
@@ -143,7 +145,7 @@ private:
         return true;
     }
 
-    const Mesh* mesh_;
+    const SurfaceMesh* mesh_;
     std::vector<Node> nodes_;
     std::vector<std::pair<double, std::int32_t>> heap_;
     std::uint64_t run_ = 0;

@@ -1,0 +1,147 @@
+"""What the ``region`` commands share: their arguments, loading, saving, and saying what became of the regions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import numbers
+from pipeline.console import print_json, running_command, say
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pipeline.mesh import Probe
+    from pipeline.mesh.regions import FacetGraph, RegionModel, RegionSet
+
+MeshArgument = Annotated[
+    Path, typer.Argument(metavar="MESH", help="Probe, .ply in metres in S; names are in the .json beside it.")
+]
+RegionArgument = Annotated[str, typer.Argument(metavar="REGION", help="Name of a region, or its priority.")]
+
+
+class Session:
+    """
+    The regions of one probe on disk, while a command edits them.
+
+    Attributes
+    ----------
+    mesh : Path
+    probe : Probe
+    model : RegionModel
+    """
+
+    def __init__(self, mesh: Path) -> None:
+        from pipeline.mesh.regions import RegionModel
+        from pipeline.mesh.sidecar import load_probe_file
+
+        self.mesh = mesh
+        self._content = load_probe_file(mesh)
+        for note in self._content.notes:
+            say(f"warning: {note}", "yellow")
+        self.probe = self._content.probe
+        self.model: RegionModel = RegionModel(self._content.regions)
+        self._graph: FacetGraph | None = None
+
+    @property
+    def graph(self) -> FacetGraph:
+        """The probe's facets and their neighbours."""
+        from pipeline.mesh.regions import FacetGraph
+
+        if self._graph is None:
+            self._graph = FacetGraph(self.probe)
+        return self._graph
+
+    def rank(self, region: str) -> int:
+        """Return the rank of a region given by name or, where none has that name, by rank; InputError if neither."""
+        names = [known.name for known in self.model.regions]
+        if (
+            region not in names
+            and region.isascii()
+            and region.isdigit()
+            and 0 < int(region[:9]) <= len(names)
+        ):
+            return int(region[:9])
+        return self.model.rank_of(region)
+
+    def mask(self, rank: int) -> NDArray[np.bool_]:
+        """Return the facets of one rank, (m,)."""
+        mask: NDArray[np.bool_] = self.model.labels == rank
+        return mask
+
+    def finish(self, changed: int | None, as_json: bool, **facts: Any) -> None:
+        """Save, and say how many facets changed and what there is now."""
+        self.save(self.model.snapshot(), {} if changed is None else {"changed": changed})
+        if changed is not None:
+            say(f"{changed:,} of {len(self.probe.faces):,} facets changed.")
+            facts = {"changed": changed, **facts}
+        show(self.mesh, self.probe, self.model, as_json, **facts)
+
+    def save(self, regions: RegionSet, result: dict[str, Any]) -> None:
+        """Write the probe with these regions, and the command that made them into its history."""
+        from pipeline.mesh.sidecar import save_probe_file
+
+        areas = (1e6 * regions.areas(self.probe.areas)).round(3).tolist()
+        content = self._content.after(
+            "region",
+            self.probe.with_region(regions.labels),
+            _command(),
+            {**result, "areas_mm2": areas},
+            regions=regions,
+        )
+        save_probe_file(content, self.mesh)
+
+
+def _command() -> dict[str, Any]:
+    """Return the command that runs and its parameters, as JSON values; of files the name only."""
+    command, parameters = running_command()
+    given = {
+        name: value.name if isinstance(value, Path) else value
+        for name, value in parameters.items()
+        if name not in ("mesh", "old", "new", "as_json") and value not in (None, False, [], ())
+    }
+    return {"command": command, **given}
+
+
+def show(mesh: Path, probe: Probe, model: RegionModel, as_json: bool, **facts: Any) -> None:
+    """Print the regions: as a table for people, or as one JSON object."""
+    snapshot = model.snapshot()
+    areas = 1e6 * snapshot.areas(probe.areas)
+    counts = [len(snapshot.faces_of(rank)) for rank in range(1, len(snapshot.regions) + 1)]
+    if as_json:
+        rows = [
+            {
+                "priority": rank,
+                "name": region.name,
+                "colour": region.colour,
+                "facets": count,
+                "area_mm2": float(area),
+            }
+            for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1)
+        ]
+        print_json({"mesh": str(mesh), "facets": len(probe.faces), **facts, "regions": rows})
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None)
+    for title, justify in (("", "right"), ("region", "left"), ("colour", "left")):
+        table.add_column(title, justify="right" if justify == "right" else "left")
+    table.add_column("facets", justify="right")
+    table.add_column("mm²", justify="right")
+    table.add_column("%", justify="right")
+    whole = 1e6 * float(probe.areas.sum())
+    for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1):
+        share = f"{100 * area / whole:.1f}"
+        table.add_row(str(rank), region.name, region.colour, f"{count:,}", f"{area:.1f}", share)
+    Console(markup=False).print(table)
+
+
+def metres(text: str, option: str) -> NDArray[np.float64]:
+    """Return x,y,z (3,) in metres from millimetres on the command line; typer.BadParameter if it is not that."""
+    import numpy as np
+
+    return np.array(numbers(text, 3, option)) / 1000

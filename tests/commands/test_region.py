@@ -1,0 +1,232 @@
+"""contactbench region ..."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+import typer
+from typer.testing import CliRunner
+
+from pipeline import cli
+from pipeline.commands.region import region_app
+from pipeline.mesh import Probe, load_probe, save_probe
+
+app = typer.Typer(cls=cli._Commands, rich_markup_mode=None)
+app.add_typer(region_app, name="region")
+
+
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(app, ["region", *map(str, arguments)])
+
+
+def done(*arguments: object) -> dict[str, Any]:
+    result = invoke(*arguments, "--json")
+    assert result.exit_code == 0, result.stderr
+    found: dict[str, Any] = json.loads(result.stdout)
+    return found
+
+
+def said(result: Any) -> str:
+    return " ".join(result.stderr.split())
+
+
+def labels(mesh: Path) -> np.ndarray:
+    return load_probe(mesh, units="m").region
+
+
+@pytest.fixture
+def mesh(tmp_path: Path) -> Path:
+    """A cube of 40 mm with 768 facets, and the regions Top and Side."""
+    box = trimesh.creation.box(extents=(0.04, 0.04, 0.04)).subdivide().subdivide().subdivide()
+    save_probe(Probe.from_arrays(box.vertices, box.faces), tmp_path / "probe.ply")
+    done("add", tmp_path / "probe.ply", "Top")
+    done("add", tmp_path / "probe.ply", "Side", "--colour", "#123456")
+    return tmp_path / "probe.ply"
+
+
+def test_the_list(mesh: Path) -> None:
+    found = done("list", mesh)
+    assert found["facets"] == 768
+    assert found["regions"] == [
+        {"priority": 1, "name": "Top", "colour": "#e69f00", "facets": 0, "area_mm2": 0.0},
+        {"priority": 2, "name": "Side", "colour": "#123456", "facets": 0, "area_mm2": 0.0},
+    ]
+    shown = invoke("list", mesh)
+    assert "Top" in shown.stdout
+    assert "#123456" in shown.stdout
+
+
+def test_names_colours_and_order(mesh: Path) -> None:
+    done("plane", mesh, "Top", "--point", "0,0,19.9", "--normal", "0,0,1")
+    done("rename", mesh, "Top", "Lens")
+    done("colour", mesh, "2", "#ffffff")
+    found = done("reorder", mesh, "Side", "Lens")
+    assert [(row["name"], row["colour"], row["facets"]) for row in found["regions"]] == [
+        ("Side", "#ffffff", 0),
+        ("Lens", "#e69f00", 128),
+    ]
+    assert np.count_nonzero(labels(mesh) == 2) == 128
+    found = done("remove", mesh, "1")
+    assert [row["name"] for row in found["regions"]] == ["Lens"]
+    assert np.count_nonzero(labels(mesh) == 1) == 128
+    assert done("clear", mesh, "Lens")["changed"] == 128
+    assert not labels(mesh).any()
+
+
+def test_every_command_is_in_the_history(mesh: Path) -> None:
+    done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
+    history = json.loads(mesh.with_suffix(".json").read_text())["history"]
+    assert [step["parameters"]["command"] for step in history] == ["add", "add", "box"]
+    assert history[1]["parameters"] == {"command": "add", "name": "Side", "colour": "#123456"}
+    assert history[2]["parameters"]["low"] == "-100,-100,19.9"
+    assert history[2]["result"] == {"changed": 128, "areas_mm2": [1600.0, 0.0]}
+    assert history[2]["input"] == history[2]["output"]  # the surface itself stays
+
+
+def test_what_else_the_sidecar_holds_stays(mesh: Path) -> None:
+    sidecar = mesh.with_suffix(".json")
+    document = json.loads(sidecar.read_text())
+    sidecar.write_text(json.dumps({"source": "part.stl", **document}))
+    done("rename", mesh, "Top", "Lens")
+    kept = json.loads(sidecar.read_text())
+    assert kept["source"] == "part.stl"
+    assert kept["regions"][0] == {"name": "Lens", "colour": "#e69f00"}
+
+
+def test_boxes_planes_and_floods(mesh: Path) -> None:
+    found = done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
+    assert found["changed"] == 128
+    assert found["regions"][0]["area_mm2"] == pytest.approx(1600)
+    again = done("flood", mesh, "Top", "--at", "0,0,30", "--crease", 45)
+    assert again["changed"] == 0
+    assert done("flood", mesh, "Side", "--at", "30,0,0")["changed"] == 128
+    # The axes of the box are turned by a quarter: its x is y of S.
+    turned = done(
+        "box", mesh, "Side", "--low", "0,-999,-999", "--high", "999,999,999", "--frame", "0,0,0,0,0,90"
+    )
+    assert (labels(mesh) == 2)[load_probe(mesh, units="m").normals[:, 1] > 0.9].all()
+    assert turned["changed"] > 128
+    protected = done("plane", mesh, "Top", "--point", "0,0,0", "--normal", "0,0,1", "--protect")
+    assert protected["regions"][1]["facets"] == turned["regions"][1]["facets"]
+    erased = done("plane", mesh, "Top", "--point", "0,0,0", "--normal", "0,0,1", "--erase")
+    assert erased["regions"][0]["facets"] == 0
+    assert erased["regions"][1]["facets"] == turned["regions"][1]["facets"]
+
+
+def test_brush_grow_shrink_and_smooth(mesh: Path) -> None:
+    stroke = ("--at=-10,0,20", "--at=10,0,20", "--radius", 6)
+    painted = done("brush", mesh, "Top", *stroke)["changed"]
+    assert 20 < painted < 36  # 353 mm² of facets of 12.5 mm²
+    grown = done("grow", mesh, "Top", "--distance", 3)["regions"][0]["facets"]
+    assert grown > painted
+    assert done("shrink", mesh, "Top", "--rings", 1)["regions"][0]["facets"] < grown
+    done("smooth", mesh, "Top", "--rings", 1)
+    done("brush", mesh, "Top", *stroke, "--straight")
+    assert done("brush", mesh, "Side", *stroke, "--erase")["changed"] == 0
+    assert done("brush", mesh, "Top", *stroke, "--straight", "--erase")["changed"] == painted
+
+
+def test_mirror(mesh: Path) -> None:
+    done("box", mesh, "Top", "--low", "5,-10,19", "--high", "15,10,21")
+    found = done("mirror", mesh, "Top", "--normal", "1,0,0")
+    assert found["unmatched"] == 0
+    assert found["regions"][0]["facets"] == 2 * found["changed"] > 0
+    result = invoke("mirror", mesh, "Top", "--normal", "1,0,0", "--point", "19,0,0", "--json")
+    assert result.exit_code == 1
+    assert json.loads(result.stdout)["unmatched"] > 0
+    assert "no counterpart" in said(result)
+
+
+def test_export_and_import(mesh: Path, tmp_path: Path) -> None:
+    done("flood", mesh, "Side", "--at", "30,0,0")
+    before = labels(mesh)
+    for name in ("r.json", "r.csv"):
+        assert done("export", mesh, "--out", tmp_path / name)["out"] == str(tmp_path / name)
+    for name in ("r.json", "r.csv"):
+        done("clear", mesh, "Side")
+        assert done("import", mesh, tmp_path / name)["changed"] == 128
+        assert labels(mesh).tolist() == before.tolist()
+        assert [row["name"] for row in done("list", mesh)["regions"]] == ["Top", "Side"]
+    refused = invoke("export", mesh, "--out", mesh.with_suffix(".json"))
+    assert refused.exit_code == 2
+    assert "choose another --out" in said(refused)
+
+
+def test_transfer(mesh: Path, tmp_path: Path) -> None:
+    done("flood", mesh, "Top", "--at", "0,0,30")
+    coarse = trimesh.creation.box(extents=(0.04, 0.04, 0.04)).subdivide()
+    new = tmp_path / "coarse.ply"
+    save_probe(Probe.from_arrays(coarse.vertices, coarse.faces), new)
+    regions = invoke("export", mesh, "--out", tmp_path / "r.json")
+    assert regions.exit_code == 0
+    refused = invoke("import", new, tmp_path / "r.json")
+    assert refused.exit_code == 2
+    assert "contactbench region transfer" in said(refused)
+    found = done("transfer", mesh, new)
+    assert found["unmatched"] == 0
+    assert found["regions"][0]["after_mm2"] == pytest.approx(1600)
+    assert [row["name"] for row in done("list", new)["regions"]] == ["Top", "Side"]
+    assert np.count_nonzero(labels(new) == 1) == 8
+
+
+def test_a_region_that_vanishes_is_exit_code_1(mesh: Path, tmp_path: Path) -> None:
+    done("brush", mesh, "Side", "--at", "1,0,20", "--radius", 0.1)
+    done("brush", mesh, "Top", "--at", "-20,-20,20", "--radius", 0.1)
+    coarse = trimesh.creation.box(extents=(0.04, 0.04, 0.04))
+    save_probe(Probe.from_arrays(coarse.vertices, coarse.faces), tmp_path / "coarse.ply")
+    result = invoke("transfer", mesh, tmp_path / "coarse.ply", "--json")
+    assert result.exit_code == 1
+    assert "vanished" in said(result)
+    assert any(part["vanished"] for part in json.loads(result.stdout)["regions"])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("remove", "{}", "Nose"), "there is no region 'Nose': choose one of: Top, Side"),
+        (("remove", "{}", "3"), "there is no region '3'"),
+        (("remove", "{}", "0"), "there is no region '0'"),
+        (("add", "{}", "Top"), "two regions are called 'Top'"),
+        (("add", "{}", "New", "--colour", "red"), "#rrggbb"),
+        (("reorder", "{}", "Top"), "is not an order of 2 regions"),
+        (("box", "{}", "Top", "--low", "0,0,0", "--high", "0,1,1"), "below the high one"),
+        (("box", "{}", "Top", "--low", "0,0", "--high", "0,1,1"), "--low needs 3"),
+        (("plane", "{}", "Top", "--point", "0,0,0", "--normal", "0,0,0"), "no direction"),
+        (("flood", "{}", "Top", "--at", "0,0,0", "--crease", "200"), "no angle"),
+        (("brush", "{}", "Top", "--at", "0,0,0", "--radius", "0"), "radius"),
+        (("grow", "{}", "Top"), "how far"),
+        (("grow", "{}", "Top", "--rings", "-1"), "not an amount"),
+        (("smooth", "{}", "Top", "--rings", "0"), "how far"),
+        (("import", "{}", "nothing.json"), "cannot be read"),
+        (("export", "{}", "--out", "r.txt"), ".json or .csv"),
+        (("transfer", "{}", "{}"), "is an input too"),
+        (("list", "probe.stl"), "save it as .ply"),
+        (("list", "nowhere.ply"), "no such file"),
+    ],
+)
+def test_wrong_arguments_change_nothing(mesh: Path, arguments: tuple[str, ...], message: str) -> None:
+    before = mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()
+    result = invoke(*(text.format(mesh) for text in arguments), "--json")
+    assert result.exit_code == 2
+    # Typer frames and wraps what it says itself.
+    assert message in " ".join(said(result).replace("│", " ").split())
+    assert (mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()) == before
+
+
+COMMANDS = [
+    *("list", "add", "remove", "rename", "reorder", "colour", "box", "plane", "flood", "brush", "grow"),
+    *("shrink", "smooth", "mirror", "clear", "transfer", "export", "import"),
+]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_has_an_example(command: str) -> None:
+    shown = invoke(command, "--help")
+    assert shown.exit_code == 0
+    assert f"Example: contactbench region {command}" in " ".join(shown.stdout.split())
+    assert command in invoke("--help").stdout

@@ -1,0 +1,44 @@
+"""Surfaces to paint on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+
+from pipeline.mesh import Probe
+from pipeline.mesh.regions import FacetGraph
+
+
+def as_probe(mesh: trimesh.Trimesh) -> Probe:
+    return Probe.from_arrays(mesh.vertices, mesh.faces)
+
+
+@pytest.fixture(scope="session")
+def ball() -> FacetGraph:
+    """A sphere of radius 50 mm and 5,120 facets of about 4 mm."""
+    mesh = trimesh.creation.icosphere(4, radius=0.05)
+    return FacetGraph(as_probe(mesh))
+
+
+@pytest.fixture(scope="session")
+def plate() -> FacetGraph:
+    """A plate of 60 x 40 x 1 mm and 12,288 facets: a thin wall."""
+    mesh = trimesh.creation.box(extents=(0.06, 0.04, 0.001))
+    for _ in range(5):
+        mesh = mesh.subdivide()
+    return FacetGraph(as_probe(mesh))
+
+
+@pytest.fixture(scope="session")
+def cube() -> FacetGraph:
+    """A cube of 40 mm with 12 * 64 facets: six flat sides and sharp edges."""
+    mesh = trimesh.creation.box(extents=(0.04, 0.04, 0.04))
+    for _ in range(3):
+        mesh = mesh.subdivide()
+    return FacetGraph(as_probe(mesh))
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(7)

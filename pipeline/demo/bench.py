@@ -14,11 +14,13 @@ from pipeline.contact.wrench_csv import WrenchReader
 from pipeline.demo.compare import FACE, HEAD, compare_methods
 from pipeline.demo.files import write_bytes, write_csv, write_truth
 from pipeline.demo.gravity import GravityResult, weigh_and_compensate
+from pipeline.demo.housing import FACETS, MeshResult, prepare_probe
 from pipeline.demo.picture import Located, PictureError, draw
 from pipeline.demo.report import DemoReport, ProbeResult
 from pipeline.durable import make_folder
 from pipeline.errors import InputError
-from pipeline.mesh import Probe, load_probe, save_probe
+from pipeline.mesh import Probe, load_probe
+from pipeline.mesh.engines import EngineError
 from pipeline.simulation import Touches, draw_touches
 
 if TYPE_CHECKING:
@@ -29,7 +31,6 @@ if TYPE_CHECKING:
 
     from pipeline.contact import Batch
 
-FACETS = 2_000
 FEWEST_TOUCHES = 10
 
 _FACE_SHARE = 0.7
@@ -46,10 +47,12 @@ class _Bench:
     probe: Probe
     truth: Touches
     where: NDArray[np.str_]
+    mesh: MeshResult | None
     gravity: GravityResult
     noise: WrenchNoise
     wrenches: NDArray[np.float64]
     batch: Batch
+    note: str | None
 
 
 def run(
@@ -61,9 +64,9 @@ def run(
 ) -> DemoReport:
     """Do the main job on bundled probes, and check it against the known truth.
 
-    Writes poses.csv, calibration.json, calibration.html, recording.csv, wrenches.csv, probe.ply, truth.csv
-    and contacts.csv in a folder per probe, and errors.csv, errors.md and, if it can be drawn, contacts.png.
-    Files that are there are replaced, each in one step.
+    Writes housing.stl, probe.ply, probe.json, poses.csv, calibration.json, calibration.html, recording.csv,
+    wrenches.csv, truth.csv and contacts.csv in a folder per probe, and errors.csv, errors.md and, if it can be
+    drawn, contacts.png. Files that are there are replaced, each in one step.
 
     Parameters
     ----------
@@ -93,15 +96,18 @@ def run(
     noise = WrenchNoise()
     results, located, notes = [], [], []
     for name in names:
-        progress(f"{name}: calibrating gravity, simulating and locating {touches:,} touches")
+        progress(
+            f"{name}: preparing the mesh, calibrating gravity, simulating and locating {touches:,} touches"
+        )
         bench = _simulate(out / name, name, touches, seed, noise)
         progress(f"{name}: comparing the methods")
         errors, left_out = compare_methods(bench.probe, bench.noise, bench.wrenches, bench.truth, bench.where)
         region = int(np.count_nonzero(bench.probe.region))
-        result = ProbeResult(name, len(bench.probe.faces), region, tuple(errors), bench.gravity)
+        result = ProbeResult(name, len(bench.probe.faces), region, tuple(errors), bench.gravity, bench.mesh)
         results.append(result)
         located.append(Located(name, bench.batch, bench.truth.points, result.ours.mean_mm))
-        notes += [sentence for sentence in left_out if sentence not in notes]
+        told = left_out if bench.note is None else (bench.note, *left_out)
+        notes += [sentence for sentence in told if sentence not in notes]
     progress("drawing the picture")
     picture = _draw(out / "contacts.png", located, notes)
     sigmas = np.sqrt(np.diagonal(noise.covariance)).tolist()
@@ -138,11 +144,10 @@ def _checked(probes: Sequence[str], touches: int, seed: int) -> list[str]:
 def _simulate(folder: Path, name: str, count: int, seed: int, noise: WrenchNoise) -> _Bench:
     """Write the files of one probe, and locate its touches as ``contactbench locate`` would."""
     make_folder(folder)
-    vertices, faces = assets.make(name, FACETS)
-    region = assets.contact_region(name, vertices, faces)
-    save_probe(Probe.from_arrays(vertices, faces, region, name=name), folder / "probe.ply")
+    mesh, note = _prepared(folder, name)
     rng = np.random.default_rng([seed, assets.PROBE_NAMES.index(name)])
-    truth, where = _touches(name, float(vertices[:, 2].max()), count, rng)
+    tip = float(assets.make(name, FACETS)[0][:, 2].max())
+    truth, where = _touches(name, tip, count, rng)
     write_truth(folder / "truth.csv", truth, where.tolist())
     gravity, left = weigh_and_compensate(folder, truth.wrenches, noise, rng)
     probe = load_probe(folder / "probe.ply", units="m", name=name)
@@ -150,7 +155,16 @@ def _simulate(folder: Path, name: str, count: int, seed: int, noise: WrenchNoise
     solver = ContactSolver(probe, whole)
     locate_file(solver, folder / "wrenches.csv", folder / "contacts.csv")
     wrenches = _read_wrenches(folder / "wrenches.csv")
-    return _Bench(name, probe, truth, where, gravity, whole, wrenches, solver.locate_batch(wrenches))
+    batch = solver.locate_batch(wrenches)
+    return _Bench(name, probe, truth, where, mesh, gravity, whole, wrenches, batch, note)
+
+
+def _prepared(folder: Path, name: str) -> tuple[MeshResult | None, str | None]:
+    """Prepare the probe's mesh; without pymeshlab the design stands in, and a note says so."""
+    try:
+        return prepare_probe(folder, name), None
+    except EngineError as error:
+        return None, f"The probes' meshes were not prepared, their designs were used: {error}"
 
 
 def _touches(name: str, tip: float, count: int, rng: np.random.Generator) -> tuple[Touches, NDArray[np.str_]]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from pipeline.demo.compare import MethodErrors
     from pipeline.demo.gravity import GravityResult
+    from pipeline.demo.housing import MeshResult
 
 # Noise alone gives a mean error of 0.9 times the bound, and the facets add little; a wrong sign, frame or unit
 # gives many times it. The mean, because one rare wrong facet would rule the root mean square of few touches.
@@ -37,6 +38,8 @@ class ProbeResult:
         Every method on every part.
     gravity : GravityResult
         How its gravity calibration did.
+    mesh : MeshResult or None
+        How the preparation of its mesh did; None where it could not be done, and a note says why.
     """
 
     probe: str
@@ -44,6 +47,7 @@ class ProbeResult:
     region_facets: int
     errors: tuple[MethodErrors, ...]
     gravity: GravityResult
+    mesh: MeshResult | None
 
     @property
     def ours(self) -> MethodErrors:
@@ -52,8 +56,9 @@ class ProbeResult:
 
     @property
     def verified(self) -> bool:
-        """Whether gravity is right, and the mean error of contactbench at most 1.3 times the noise bound."""
-        return self.gravity.verified and self.located
+        """Whether mesh and gravity are right, and contactbench's mean error is at most 1.3 times the noise bound."""
+        prepared = self.mesh is None or self.mesh.verified
+        return prepared and self.gravity.verified and self.located
 
     @property
     def located(self) -> bool:
@@ -103,6 +108,8 @@ class DemoReport:
         for entry, result in zip(data["probes"], self.probes, strict=True):
             entry["verified"] = result.verified
             entry["gravity"]["verified"] = result.gravity.verified
+            if result.mesh is not None:
+                entry["mesh"]["verified"] = result.mesh.verified
         return {
             **data,
             "out": str(self.out),
@@ -157,8 +164,16 @@ class DemoReport:
             f"Simulated {self.touches:,} touches of 8 to 10 N on each probe ({names}), with"
             f" {self.force_noise:g} N and {self.torque_noise:g} N·m of sensor noise, and located them."
         )
+        prepared = [result.mesh.sentence(result.probe) for result in self.probes if result.mesh is not None]
         weighed = [result.gravity.sentence(result.probe) for result in self.probes]
-        return [done, *weighed, *map(_verdict, self.probes), *self.notes, f"The files are in {self.out}."]
+        return [
+            done,
+            *prepared,
+            *weighed,
+            *map(_verdict, self.probes),
+            *self.notes,
+            f"The files are in {self.out}.",
+        ]
 
 
 _CAPTION = (

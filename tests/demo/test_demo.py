@@ -2,10 +2,11 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -15,11 +16,15 @@ from pipeline import cli, demo
 from pipeline.calibration.files.calibration_file import load_calibration
 from pipeline.contact import ContactSolver, WrenchNoise
 from pipeline.contact.methods import METHODS
-from pipeline.demo import bench, body, compare, gravity, picture
+from pipeline.demo import bench, body, compare, gravity, housing, picture
 from pipeline.demo.report import LIMIT
 from pipeline.demo.view import View
 from pipeline.errors import InputError
 from pipeline.mesh import load_probe
+from pipeline.mesh.engines import EngineError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 TOUCHES = 40
 CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
@@ -34,6 +39,25 @@ def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Most tests are about numbers: rendering would only take their time."""
     monkeypatch.setattr(picture, "render_bodies", no_picture)
     monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
+
+
+@pytest.fixture(scope="session")
+def meshes(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Path, Any]]:
+    """What preparing makes of each probe: the same every time, and the longest part of a demo."""
+    folders = {name: tmp_path_factory.mktemp(name) for name in demo.PROBE_NAMES}
+    return {name: (folder, housing.prepare_probe(folder, name)) for name, folder in folders.items()}
+
+
+@pytest.fixture(autouse=True, scope="module")
+def prepared(meshes: dict[str, tuple[Path, Any]]) -> Iterator[None]:
+    def copy(folder: Path, name: str) -> Any:
+        source, result = meshes[name]
+        shutil.copytree(source, folder, dirs_exist_ok=True)
+        return result
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bench, "prepare_probe", copy)
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -123,6 +147,52 @@ def test_same_seed_same_bytes(done: demo.DemoReport, tmp_path: Path) -> None:
     assert (tmp_path / "convex" / "wrenches.csv").read_bytes() != (
         done.out / "convex" / "wrenches.csv"
     ).read_bytes()
+
+
+# ---- mesh ----------------------------------------------------------------------------------------
+
+
+def test_the_mesh_is_prepared_from_a_hollow_housing(done: demo.DemoReport) -> None:
+    pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
+    for result in done.probes:
+        assert result.mesh is not None
+        assert result.mesh.verified
+        assert result.mesh.openings == 1
+        assert result.mesh.deviation_mm < 0.2
+        assert 0 < result.mesh.invented_share < 0.06
+        given = load_probe(done.out / result.probe / "housing.stl", "mm")
+        assert len(given.faces) == result.mesh.facets_before
+        made = load_probe(done.out / result.probe / "probe.ply", "m")
+        assert made.health.sentences == ()
+        assert made.bounds[0, 2] < 0.01  # the invented facets lie at the flange, where nothing is touched
+        assert made.vertices[made.faces[made.invented]][:, :, 2].max() < 0.02
+        history = json.loads((done.out / result.probe / "probe.json").read_text())["history"]
+        assert [step["step"] for step in history] == ["import", "shell", "align", "region", "simplify"]
+        assert any(sentence.startswith(f"{result.probe}: a hollow housing") for sentence in done.sentences())
+
+
+def test_without_pymeshlab_the_design_stands_in(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def missing(*_: Any, **__: Any) -> Any:
+        raise EngineError("pymeshlab is not installed: pip install 'contactbench[meshlab]'.")
+
+    monkeypatch.setattr(housing, "shell_step", missing)
+    monkeypatch.setattr(bench, "prepare_probe", housing.prepare_probe)
+    monkeypatch.setattr(picture, "render_bodies", no_picture)
+    monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
+    report = demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert report.verified
+    assert report.probes[0].mesh is None
+    assert "pip install 'contactbench[meshlab]'" in report.notes[0]
+    assert load_probe(tmp_path / "linear" / "probe.ply", "m").region.any()
+
+
+def test_a_mesh_that_is_not_the_design_fails(done: demo.DemoReport) -> None:
+    result = done.probes[0]
+    assert result.mesh is not None
+    for change in ({"deviation_mm": 0.3}, {"closed": False}, {"openings": 0}):
+        mesh = replace(result.mesh, **change)
+        assert not replace(result, mesh=mesh).verified
+        assert mesh.sentence("linear").endswith("FAILED: it is not the design.")
 
 
 # ---- verdict -------------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # What sees less of the sky than this lies in a groove that no finger enters.
 _VISIBLE = 0.2
-_LOOKS = 128
+_LOOKS = 64
 _SAMPLES = 60_000
 _LINES = 60_000
 

@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 # A facet that sees less of its half-space lies in a cavity. The inner edge of a right angle sees 0.5.
 DARK = 0.45
 
+# A dent shallower than this share of its width is part of the shape: what enters it meets the outside.
+_SHALLOW = 0.3
+
 
 @dataclass(frozen=True, eq=False)
 class Opening:
@@ -62,6 +65,11 @@ class Opening:
         return points @ self.axes + self.centre
 
     @property
+    def is_dent(self) -> bool:
+        """Whether it is so shallow that it is part of the shape."""
+        return self.depth < _SHALLOW * self.width
+
+    @property
     def perimeter(self) -> float:
         """Length of the rim, metres."""
         return float(np.linalg.norm(np.roll(self.rim, -1, axis=0) - self.rim, axis=1).sum())
@@ -82,7 +90,7 @@ def find_openings(
     tick: Callable[[float], None] | None = None,
 ) -> tuple[Opening, ...]:
     """
-    Find the mouths of the cavities of a closed, outward surface, widest first.
+    Find the mouths of the cavities of a closed, outward surface, largest first; dents are not cavities.
 
     Parameters
     ----------
@@ -103,7 +111,7 @@ def find_openings(
         bottom = vertices[np.unique(faces[inside])]
         for loop in _loops(faces, inside, twin):
             opening = describe(vertices[loop], bottom)
-            if opening.width >= smallest:
+            if opening.width >= smallest and not opening.is_dent:
                 found.append(opening)
     return tuple(sorted(found, key=lambda opening: -opening.area))
 

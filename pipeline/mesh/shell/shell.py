@@ -229,19 +229,23 @@ def make_shell(
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
     mended = _mended(probe)
-    tick = steps.upto(0.1)
-    wrap = wrap_soup(probe.vertices, probe.faces, coarse, progress=tick, cancelled=cancelled)
-    found = find_openings(*wrap, smallest=_NARROWEST * coarse, tick=steps.upto(0.15))
+    reach = _NARROWEST * coarse
+    wrap = wrap_soup(probe.vertices, probe.faces, coarse, progress=steps.upto(0.1), cancelled=cancelled)
+    found = _at_their_lips(find_openings(*wrap, smallest=reach, tick=steps.upto(0.15)), probe, reach)
     wanted = _wanted(found, closings)
-    if mended is not None and not any(closing is not Closing.OPEN for closing in wanted):
+    if mended is not None and all(closing is Closing.OPEN for closing in wanted):
         left = tuple(ClosedOpening(opening, Closing.OPEN) for opening in found)
         return _as_it_was(probe, *mended, left)
-    reach = _NARROWEST * coarse
-    closed = []
-    for opening, closing in zip(found, wanted, strict=True):
-        lip = opening if closing is Closing.OPEN else find_lip(opening, probe.vertices, probe.faces, reach)
-        closed.append(ClosedOpening(lip, choose(lip) if closing is Closing.AUTO else closing))
+    closed = [
+        ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
+        for opening, closing in zip(found, wanted, strict=True)
+    ]
     return _wrapped(probe, tuple(closed), alpha, coarse, steps)
+
+
+def _at_their_lips(found: Sequence[Opening], probe: Probe, reach: float) -> list[Opening]:
+    lips = [find_lip(opening, probe.vertices, probe.faces, reach) for opening in found]
+    return sorted((lip for lip in lips if not lip.is_dent), key=lambda lip: -lip.area)
 
 
 def _wrapped(

@@ -1,0 +1,181 @@
+"""The mesh file that a technician gets of a bundled probe, a hollow housing in its own frame, and its preparation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import assets
+from pipeline.demo.files import write_bytes
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh.engines import EngineError
+from pipeline.mesh.probe import Probe
+from pipeline.mesh.regions import Region, RegionSet
+from pipeline.mesh.shell import Closing
+from pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from pipeline.mesh.simplify import Count
+from pipeline.preparation.alignment import from_matrix
+from pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+FACETS = 2_000
+_CAD_FACETS = 20_000
+_WALL = 0.002
+_BACK = 0.003  # what lies this near to the flange is open: where the cable leaves
+_ALPHA = 0.0015
+_FAR = 2e-4  # a prepared mesh further from the design than this is not verified
+
+# The mesh's frame: millimetres, the tip at the origin, the handle along -y.
+_R_SP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+
+@dataclass(frozen=True)
+class MeshResult:
+    """How the preparation did.
+
+    Attributes
+    ----------
+    facets_before, facets : int
+        Of the housing's file, and of the probe.
+    openings : int
+        That were closed.
+    invented_share : float
+        Of the probe's area.
+    deviation_mm, true_size_mm : float
+        What 95 % of the probe's head stay within of the design, and the probe's length.
+    closed : bool
+        Whether it is one closed surface that faces outwards.
+    """
+
+    facets_before: int
+    facets: int
+    openings: int
+    invented_share: float
+    deviation_mm: float
+    true_size_mm: float
+    closed: bool
+
+    @property
+    def verified(self) -> bool:
+        """Whether the probe is closed and lies where the design does."""
+        return self.closed and self.openings == 1 and self.deviation_mm <= 1e3 * _FAR
+
+    def sentence(self, probe: str) -> str:
+        """Say it in words."""
+        found = (
+            f"{probe}: a hollow housing of {self.facets_before:,} facets became a closed probe of {self.facets:,}"
+            f" ({100 * self.invented_share:.1f} % of it invented, where the cable leaves); 95 % of its head lie"
+            f" within {self.deviation_mm:.3f} mm of the design"
+        )
+        return f"{found}." if self.verified else f"{found}. FAILED: it is not the design."
+
+
+def prepare_probe(folder: Path, name: str) -> MeshResult:
+    """Write housing.stl, and probe.ply with its history in probe.json: what preparing makes of it.
+
+    Parameters
+    ----------
+    folder : Path
+        Exists.
+    name : str
+        One of assets.PROBE_NAMES.
+
+    Raises
+    ------
+    EngineError
+        pymeshlab is missing; then probe.ply is the design itself, without a history.
+    InputError
+        A file cannot be written.
+    """
+    design, T_SP = _design(name)
+    write_bytes(folder / "housing.stl", _housing(name))
+    try:
+        # From here on only the file counts: what works here works for files from elsewhere.
+        content, openings = _prepare(folder / "housing.stl", name, T_SP)
+    except EngineError:
+        (folder / "probe.json").unlink(missing_ok=True)
+        save_probe_file(
+            _with_region(ProbeFile(design, RegionSet.empty(len(design.faces)), "S"), name),
+            folder / "probe.ply",
+        )
+        raise
+    save_probe_file(content, folder / "probe.ply")
+    return _result(content, openings, name)
+
+
+@cache
+def _design(name: str) -> tuple[Probe, NDArray[np.float64]]:
+    vertices, faces = assets.make(name, FACETS)
+    T_SP = np.eye(4)
+    T_SP[:3, :3], T_SP[2, 3] = _R_SP, vertices[:, 2].max()
+    return Probe.from_arrays(vertices, faces, name=name), T_SP
+
+
+@cache
+def _housing(name: str) -> bytes:
+    """Make a binary STL file: the outside without its back, an inner wall and the edge between; millimetres in P."""
+    vertices, faces = assets.make(name, _CAD_FACETS)
+    outside = Probe.from_arrays(vertices, faces)
+    tip = float(vertices[:, 2].max())
+    front = faces[vertices[faces][:, :, 2].min(axis=1) > _BACK]
+    normals = np.zeros_like(vertices)
+    for corner in range(3):
+        np.add.at(normals, faces[:, corner], outside.normals * outside.areas[:, None])
+    inner = vertices - _WALL * normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    a, b = _edge_of(front).T
+    edge = [
+        np.stack(quad, axis=1)
+        for quad in ((vertices[a], inner[a], vertices[b]), (vertices[b], inner[a], inner[b]))
+    ]
+    corners = np.concatenate((vertices[front], inner[front[:, ::-1]], *edge))
+    corners_P = 1000 * ((corners - [0.0, 0.0, tip]) @ _R_SP)
+    rows = np.zeros(len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("spare", "<u2")])
+    rows["corners"] = corners_P
+    return b"housing, made by contactbench".ljust(80) + np.uint32(len(rows)).tobytes() + rows.tobytes()
+
+
+def _edge_of(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+    """Give the edges (k, 2) of one facet only, as that facet runs along them."""
+    half = np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]).astype(np.int64)
+    count = int(faces.max()) + 1
+    return half[~np.isin(half[:, 0] * count + half[:, 1], half[:, 1] * count + half[:, 0])]
+
+
+def _prepare(file: Path, name: str, T_SP: NDArray[np.float64]) -> tuple[ProbeFile, int]:
+    content, shell = shell_step(import_mesh(file), Closing.AUTO, alpha=_ALPHA)
+    content = align_step(content, from_matrix(1e3 * T_SP[:3, 3], T_SP[:3, :3]))
+    content, _ = simplify_step(_with_region(content, name), Count(FACETS))
+    return content, len(shell.openings)
+
+
+def _with_region(content: ProbeFile, name: str) -> ProbeFile:
+    probe = content.probe
+    labels = assets.contact_region(name, probe.vertices, probe.faces)
+    regions = RegionSet.from_labels(labels, (Region("Acoustic face", "#009e73"),))
+    return content.after(
+        "region", probe, {"command": "acoustic face"}, {"changed": int(labels.sum())}, regions=regions
+    )
+
+
+def _result(content: ProbeFile, openings: int, name: str) -> MeshResult:
+    vertices, faces = assets.make(name, _CAD_FACETS)
+    probe = content.probe
+    head = probe.vertices[~np.isin(np.arange(len(probe.vertices)), probe.faces[probe.invented])]
+    head = head[head[:, 2] > 2 * _BACK]
+    distance, _, _ = SurfaceIndex(vertices, faces).closest(np.ascontiguousarray(head))
+    return MeshResult(
+        facets_before=int(content.history[0]["output"]["facets"]),
+        facets=len(probe.faces),
+        openings=openings,
+        invented_share=float(probe.areas[probe.invented].sum() / probe.areas.sum()),
+        deviation_mm=1e3 * float(np.percentile(distance, 95)),
+        true_size_mm=1e3 * probe.size,
+        closed=not probe.health.sentences,
+    )

@@ -17,11 +17,15 @@ from typer.testing import CliRunner
 
 import pipeline
 from pipeline import cli
+from pipeline.commands.locate import MethodName
 from pipeline.console import Bar
 from pipeline.contact import ContactSolver, Gates
 from pipeline.contact.contact_csv import REASONS
 from pipeline.errors import InputError
 from pipeline.mesh import load_probe
+from pipeline.mesh.sidecar import save_probe_file
+from pipeline.preparation.alignment import from_angles
+from pipeline.preparation.steps import align_step, import_mesh
 
 RUNNER = CliRunner()
 WRENCHES = "t,fx,fy,fz,mx,my,mz\n0.0,0,0,-5,0,0.01,0\n0.1,0,0,-0.1,0,0,0\n0.2,1,0,-5,0,0.1,0\n"
@@ -87,7 +91,7 @@ def test_help_states_the_defaults_of_the_gates():
 
 def test_method_names_are_those_of_the_methods():
     methods = pytest.importorskip("pipeline.contact.methods")
-    assert {name.value for name in cli.MethodName} == set(methods.METHODS)
+    assert {name.value for name in MethodName} == set(methods.METHODS)
 
 
 def test_input_error_anywhere_is_one_line(monkeypatch):
@@ -195,6 +199,20 @@ def test_units_and_mount_move_the_probe(bench):
     np.testing.assert_allclose([float(cell) for cell in contacts[0].split(",")[1:4]], points[0], atol=1e-9)
 
 
+def test_a_probe_of_our_own_is_in_metres_and_says_when_it_was_never_aligned(bench):
+    known = import_mesh(bench / "ball.stl", "mm")
+    save_probe_file(known, bench / "own.ply")
+    result = locate(bench, "--json", probe="own.ply")
+    assert result.exit_code == 0
+    assert "was never aligned with the sensor" in json.loads(result.stdout)["warnings"][0]
+    save_probe_file(align_step(known, from_angles([0, 0, 0], [0, 0, 0])), bench / "own.ply")
+    result = locate(bench, "--json", probe="own.ply")
+    assert json.loads(result.stdout)["warnings"] == []
+    unmoved = (bench / "contacts.csv").read_bytes()
+    assert locate(bench).exit_code == 0
+    assert unmoved == (bench / "contacts.csv").read_bytes()
+
+
 def test_defects_of_the_mesh_are_a_sentence_and_no_dump(bench):
     result = locate(bench, "--json", probe="open.ply")
     assert result.exit_code == 0
@@ -204,7 +222,7 @@ def test_defects_of_the_mesh_are_a_sentence_and_no_dump(bench):
     assert "MeshWarning" not in result.stderr
 
 
-@pytest.mark.parametrize("method", [name.value for name in cli.MethodName])
+@pytest.mark.parametrize("method", [name.value for name in MethodName])
 def test_methods(bench, method):
     if method == "wrench_axis":
         pytest.importorskip("embreex")

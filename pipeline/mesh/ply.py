@@ -7,6 +7,7 @@ refused before anything is allocated for it.
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,8 @@ from pipeline.mesh.ply_body import read_binary, read_text
 from pipeline.mesh.ply_header import SETTLED, read_header
 
 if TYPE_CHECKING:
+    import os
+
     import numpy.typing as npt
 
 
@@ -82,9 +85,19 @@ def encode_ply(
     rows["count"], rows["vertex_indices"], rows["region"] = 3, faces, region
     rows["invented"], rows["colour"] = invented, colours
     header = (
-        f"ply\nformat binary_little_endian 1.0\ncomment {SETTLED}\ncomment metres, sensor frame S\n"
+        f"ply\nformat binary_little_endian 1.0\ncomment {SETTLED}\ncomment metres\n"
         f"element vertex {len(vertices)}\nproperty double x\nproperty double y\nproperty double z\n"
         f"element face {len(faces)}\nproperty list uchar int vertex_indices\nproperty int region\n"
         "property uchar invented\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
     )
     return header.encode("ascii") + vertices.astype("<f8").tobytes() + rows.tobytes()
+
+
+def written_by_contactbench(path: str | os.PathLike[str]) -> bool:
+    """Tell whether a file begins like those of `save_probe`; False also for one that cannot be read."""
+    start = f"ply\nformat binary_little_endian 1.0\ncomment {SETTLED}\n".encode("ascii")
+    try:
+        with Path(path).open("rb") as stream:
+            return stream.read(len(start)) == start
+    except (OSError, ValueError):  # ValueError: a path that no file system can hold
+        return False

@@ -1,0 +1,221 @@
+"""``contactbench locate``: contacts from wrenches in a file."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import numbers
+from pipeline.console import Bar, JsonOption, print_json, say
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy as np
+    import numpy.typing as npt
+
+    from pipeline.contact import Gates, WrenchNoise
+    from pipeline.contact.stream import LocateSummary, Locator
+    from pipeline.mesh import Probe
+
+locate_app = typer.Typer(rich_markup_mode=None)
+
+
+class Units(StrEnum):
+    """What the numbers in a mesh file are."""
+
+    mm = "mm"
+    m = "m"
+    cm = "cm"
+    inch = "in"
+
+
+class MethodName(StrEnum):
+    """Ways to locate a contact, as in pipeline.contact.methods."""
+
+    contactbench = "contactbench"
+    scan = "scan"
+    algorithm1 = "algorithm1"
+    wrench_axis = "wrench_axis"
+    iterative = "iterative"
+
+
+_UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch: 1 / 0.0254}
+
+
+@locate_app.command(
+    help=(
+        "Locate the contact of each wrench in a CSV file.\n\n"
+        "WRENCHES has the columns t,fx,fy,fz,mx,my,mz (s, N, N·m about the sensor origin, sensor frame S) in"
+        " any order; - is standard input. The output has t,x,y,z,k,face,reason,candidates,sigma_max_mm (m,"
+        " N·m, frame S) and is written as a whole or not at all."
+    ),
+    epilog=(
+        "Example: contactbench locate --probe probe.stl --units mm --mount 0,0,45,0,0,90 wrenches.csv"
+        " --out contacts.csv"
+    ),
+)
+def locate(
+    wrenches: Annotated[Path, typer.Argument(metavar="WRENCHES", help="CSV file, or - for standard input.")],
+    probe: Annotated[Path, typer.Option(help="Mesh of the probe: .stl, .ply, .obj, .off or .3mf.")],
+    out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
+    units: Annotated[
+        Units | None,
+        typer.Option(
+            help="Unit of the mesh's numbers [m for a probe that contactbench wrote, otherwise mm]."
+        ),
+    ] = None,
+    mount: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z,RX,RY,RZ",
+            help="Pose of the mesh in S: position in --units, rotations about the fixed axes x, then y, then"
+            " z, degrees. Left out: the mesh is in S.",
+        ),
+    ] = None,
+    method: Annotated[MethodName, typer.Option(help="Who answers.")] = MethodName.contactbench,
+    track: Annotated[bool, typer.Option("--track", help="Follow the contact from row to row.")] = False,
+    noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
+    noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
+    min_force: Annotated[float | None, typer.Option(help="low_force under this, N [0.5].")] = None,
+    friction_angle: Annotated[
+        float | None, typer.Option(help="tangential beyond this angle to the normal, degrees [75].")
+    ] = None,
+    ambiguity_distance: Annotated[
+        float | None, typer.Option(help="ambiguous when a rival is this far, mm [5].")
+    ] = None,
+    follow_distance: Annotated[
+        float | None, typer.Option(help="With --track: prefer candidates this near, mm [10].")
+    ] = None,
+    saturation: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FX,FY,FZ,MX,MY,MZ", help="saturated when a channel reaches this, N, N·m [none]."
+        ),
+    ] = None,
+    region_only: Annotated[
+        bool, typer.Option("--region-only", help="Refuse contacts outside every region of the mesh.")
+    ] = False,
+    allow_nan: Annotated[
+        bool, typer.Option("--allow-nan", help="Answer NaN, infinity and empty cells with not_finite.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Locate the contact of each wrench in a CSV file."""
+    _check_usage(out, method, track, as_json)
+    units = units or _own_units(probe)
+    T_SP = None if mount is None else _mount(mount, units)
+    limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
+    from pipeline.contact import Gates, WrenchNoise
+    from pipeline.contact.stream import locate_file, refuse_overwriting
+
+    refuse_overwriting(out, probe)
+    given = {
+        "min_force": min_force,
+        "friction_angle": friction_angle,
+        "ambiguity_distance": None if ambiguity_distance is None else ambiguity_distance / 1000,
+        "follow_distance": None if follow_distance is None else follow_distance / 1000,
+        "saturation": limits,
+        "region_only": region_only,
+    }
+    chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    gates, noise = Gates(**chosen), WrenchNoise(noise_force, noise_torque)
+    surface, warnings = _load(probe, units, T_SP)
+    for sentence in warnings:
+        say(f"warning: {sentence}", "yellow")
+    locator = _locator(method, surface, noise, gates)
+    dash = Path("-")
+    with Bar("locating") as bar:
+        summary = locate_file(
+            locator,
+            sys.stdin.buffer if wrenches == dash else wrenches,
+            sys.stdout.buffer if out == dash else out,
+            track=track,
+            allow_nan=allow_nan,
+            progress=bar,
+        )
+    for sentence in summary.warnings:
+        say(f"warning: {sentence}", "yellow")
+    _show(summary)
+    if as_json:
+        print_json({"out": str(out), **summary.facts(), "warnings": [*warnings, *summary.warnings]})
+
+
+def _check_usage(out: Path, method: MethodName, track: bool, as_json: bool) -> None:
+    if track and method is not MethodName.contactbench:
+        raise typer.BadParameter(f"--track works with --method contactbench only, not with {method.value}.")
+    if as_json and out == Path("-"):
+        raise typer.BadParameter("--json and --out - both want standard output: name a file.")
+
+
+def _own_units(probe: Path) -> Units:
+    from pipeline.mesh.ply import written_by_contactbench
+
+    return Units.m if written_by_contactbench(probe) else Units.mm
+
+
+def _mount(text: str, units: Units) -> npt.NDArray[np.float64]:
+    """T_SP (4, 4), metres, from x,y,z in units and rx,ry,rz in degrees: R_SP = Rz Ry Rx."""
+    values = numbers(text, 6, "--mount")
+    import numpy as np
+    from scipy.spatial.transform import Rotation
+
+    T_SP = np.eye(4)
+    T_SP[:3, :3] = Rotation.from_euler("xyz", values[3:], degrees=True).as_matrix()  # lower case: fixed axes
+    T_SP[:3, 3] = np.array(values[:3]) / _UNITS_PER_METRE[units]
+    return T_SP
+
+
+def _load(path: Path, units: Units, T_SP: npt.NDArray[np.float64] | None) -> tuple[Probe, Sequence[str]]:
+    import warnings
+
+    from pipeline.mesh import MeshWarning, load_probe
+    from pipeline.mesh.ply import written_by_contactbench
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)  # said below, in the words it would have used
+        probe = load_probe(path, units.value, T_SP)
+    sentences = list(probe.health.sentences)
+    if T_SP is None and written_by_contactbench(path):
+        from pipeline.mesh.sidecar import load_probe_file
+
+        known = load_probe_file(path)
+        sentences += known.notes
+        if known.history and known.frame != "S":
+            sentences.append(
+                "The probe was never aligned with the sensor, so contacts are found in the mesh's own frame: run"
+                " `contactbench probe align`, or give --mount."
+            )
+    return probe, [f"{path}: {sentence}" for sentence in sentences]
+
+
+def _locator(method: MethodName, probe: Probe, noise: WrenchNoise, gates: Gates) -> Locator:
+    if method is MethodName.contactbench:
+        from pipeline.contact import ContactSolver
+
+        return ContactSolver(probe, noise, gates)
+    from pipeline.contact import methods
+
+    return methods.METHODS[method.value](probe, noise, gates)
+
+
+def _show(summary: LocateSummary) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, show_header=False)
+    table.add_column()
+    table.add_column(justify="right")
+    table.add_column(justify="right")
+    table.add_row("rows", f"{summary.rows:,}", "")
+    for reason, count in summary.reasons.items():
+        if count:
+            table.add_row(reason, f"{count:,}", f"{100 * count / summary.rows:.1f} %")
+    if summary.median_sigma_max_mm is not None:
+        table.add_row("median sigma_max", f"{summary.median_sigma_max_mm:.3g} mm", "")
+    table.add_row("speed", f"{summary.rows_per_second:,.0f} rows/s", "")
+    Console(stderr=True).print(table)

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from types import TracebackType
 
+    from rich.table import Table
+
 _JSON = "contactbench.json"
 _PATIENCE_S = 0.5
 
@@ -59,6 +61,18 @@ def say(text: str, style: str = "") -> None:
     # File names need be neither printable nor UTF-8.
     line = " ".join(text.encode("utf-8", "replace").decode().splitlines())
     Console(stderr=True).print(Text(line, style=style), soft_wrap=True)
+
+
+def show_tables(*tables: Table) -> None:
+    """Write tables on standard error, as wide as they are: a number cut short by a narrow terminal is wrong."""
+    from rich.console import Console
+
+    console = Console(stderr=True)
+    for table in tables:
+        needed = console.measure(table, options=console.options.update(width=1000)).maximum
+        console.width = max(console.width, needed)
+    for table in tables:
+        console.print(table)
 
 
 def report_error(message: str, *, as_json: bool) -> None:

@@ -32,7 +32,7 @@ from pipeline.commands.probe_options import (
     share,
     target,
 )
-from pipeline.console import Bar, JsonOption, print_json, say
+from pipeline.console import Bar, JsonOption, print_json, say, show_tables
 from pipeline.durable import make_folder
 
 probe_app = typer.Typer(
@@ -138,7 +138,7 @@ def simplify(
     content = open_mesh(file, units, out)
     wanted, stated = target(content, facets, max_deviation, max_contact_error, forces)
     with Bar("simplifying", counted=True) as bar:
-        done, made = simplify_step(
+        done, made, carried = simplify_step(
             content,
             wanted,
             stated=stated,
@@ -147,10 +147,12 @@ def simplify(
             progress=share(bar),
         )
     save_probe_file(done, out)
-    for sentence in made.sentences:
+    result = dict(done.history[-1]["result"])
+    sentences = [*made.sentences, *(report.sentence for report in carried)]
+    for sentence in sentences:
         say(sentence)
     if as_json:
-        print_json({"out": str(out), **dict(done.history[-1]["result"]), "sentences": list(made.sentences)})
+        print_json({"out": str(out), **result, "sentences": sentences})
 
 
 @probe_app.command(
@@ -178,8 +180,6 @@ def ladder(
     as_json: JsonOption = False,
 ) -> None:
     """Weigh accuracy against speed over a range of facet counts."""
-    from rich.console import Console
-
     from pipeline.contact import WrenchNoise
     from pipeline.preparation.ladder import (
         DEFAULT_FACETS,
@@ -204,9 +204,7 @@ def ladder(
             progress=share(bar),
         )
     files = save_ladder(measured, out)
-    console = Console(stderr=True)
-    for table in measured.tables():
-        console.print(table)
+    show_tables(*measured.tables())
     for note in measured.notes:
         say(note, "yellow")
     say(measured.recommendation.reason)

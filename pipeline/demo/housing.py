@@ -151,7 +151,7 @@ def _edge_of(faces: NDArray[np.int32]) -> NDArray[np.int64]:
 def _prepare(file: Path, name: str, T_SP: NDArray[np.float64]) -> tuple[ProbeFile, int]:
     content, shell = shell_step(import_mesh(file), Closing.AUTO, alpha=_ALPHA)
     content = align_step(content, from_matrix(1e3 * T_SP[:3, 3], T_SP[:3, :3]))
-    content, _ = simplify_step(_with_region(content, name), Count(FACETS))
+    content, *_ = simplify_step(_with_region(content, name), Count(FACETS))
     return content, len(shell.openings)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 from pipeline.mesh.engines import Cancelled
@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping, Sequence
 
+    from pipeline.mesh.regions import RegionReport
     from pipeline.mesh.shell import Shell
     from pipeline.mesh.sidecar import ProbeFile
     from pipeline.mesh.simplify import Engine, Simplified, Target
@@ -36,11 +37,14 @@ class Preparation:
         The probe, its regions and its history: for `save_probe_file`.
     shell : Shell
     simplified : Simplified
+    carried : tuple of RegionReport
+        What simplification did to the area of each region.
     """
 
     content: ProbeFile
     shell: Shell
     simplified: Simplified
+    carried: tuple[RegionReport, ...] = ()
 
     @property
     def ready(self) -> bool:
@@ -60,6 +64,7 @@ class Preparation:
             *self.content.notes,
             *self.shell.sentences,
             *self.simplified.sentences,
+            *(report.sentence for report in self.carried),
             *frame,
             *wrong,
         )
@@ -135,7 +140,7 @@ def prepare(
     if cancelled is not None and cancelled():
         raise Cancelled("the preparation was cancelled: nothing was written.")
     wanted, stated = target(content)
-    content, simplified = simplify_step(
+    content, simplified, carried = simplify_step(
         content,
         wanted,
         stated=stated,
@@ -145,10 +150,4 @@ def prepare(
         cancelled=cancelled,
     )
     # What was wrong with the file is mended by now, and said by the shell; how its unit was found is not.
-    return Preparation(_with_notes(content, notes), shell, simplified)
-
-
-def _with_notes(content: ProbeFile, notes: tuple[str, ...]) -> ProbeFile:
-    from dataclasses import replace
-
-    return replace(content, notes=notes)
+    return Preparation(replace(content, notes=notes), shell, simplified, carried)

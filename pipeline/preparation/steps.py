@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.mesh import MeshWarning
 from pipeline.mesh.load import read_mesh, settle
-from pipeline.mesh.regions import RegionSet
+from pipeline.mesh.regions import RegionSet, transfer
 from pipeline.mesh.shell import make_shell
 from pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
 from pipeline.mesh.simplify import Count, MaxDeviation, simplify
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping, Sequence
 
+    from pipeline.mesh import Probe
+    from pipeline.mesh.regions import RegionReport, Transferred
     from pipeline.mesh.shell import Closing, Shell
     from pipeline.mesh.simplify import Engine, Simplified, Target
     from pipeline.mesh.units import Units
@@ -112,7 +114,7 @@ def simplify_step(
     region_ratio: float = 1.0,
     progress: Progress = None,
     cancelled: Cancel = None,
-) -> tuple[ProbeFile, Simplified]:
+) -> tuple[ProbeFile, Simplified, tuple[RegionReport, ...]]:
     """
     Give the probe fewer facets.
 
@@ -124,6 +126,13 @@ def simplify_step(
         How to write the target down; left out for a `Count` or a `MaxDeviation`.
     engine, region_ratio, progress, cancelled
         See `simplify`, also for what it raises.
+
+    Returns
+    -------
+    ProbeFile
+    Simplified
+    tuple of RegionReport
+        What became of the area of each region.
     """
     done = simplify(
         content.probe,
@@ -138,23 +147,23 @@ def simplify_step(
         "engine": engine,
         "region_ratio": region_ratio,
     }
-    areas = {
-        str(rank): _areas(content.probe, done.probe, rank)
-        for rank in range(1, len(content.regions.regions) + 1)
-    }
+    carried = _carried(content, done.probe)
     result = {
         "facets": done.count,
         "engine": done.engine,
         "deviation": done.deviation.to_json(),
         "regions": {str(rank): part.to_json() for rank, part in done.regions.items()},
-        "region_areas_mm2": areas,
+        "carried": [report.to_json() for report in carried.report],
         "steps": list(done.steps),
     }
-    return content.after("simplify", done.probe, parameters, result), done
+    after = content.after("simplify", done.probe, parameters, result, regions=carried.regions)
+    return after, done, carried.report
 
 
-def _areas(before: Any, after: Any, rank: int) -> list[float]:
-    return [round(1e6 * float(probe.areas[probe.region == rank].sum()), 3) for probe in (before, after)]
+def _carried(content: ProbeFile, probe: Probe) -> Transferred:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)  # a region that vanished is told by its report
+        return transfer(content.regions, content.probe, probe)
 
 
 def _target(target: Target) -> dict[str, Any]:

@@ -95,17 +95,18 @@ def test_a_probe_without_history_gets_one(tmp_path):
 def test_regions_and_names_survive_simplification(tmp_path):
     save_probe(bundled("convex", 2000, regions=True), tmp_path / "probe.ply")
     content = import_mesh(tmp_path / "probe.ply")
-    done, made = simplify_step(content, Count(600), region_ratio=4.0)
+    done, made, _ = simplify_step(content, Count(600), region_ratio=4.0)
     assert done.probe.region.max() == content.probe.region.max() == 1
-    before, after = done.history[-1]["result"]["region_areas_mm2"]["1"]
-    assert after == pytest.approx(before, rel=0.05)
+    (carried,) = done.history[-1]["result"]["carried"]
+    assert carried["after_mm2"] == pytest.approx(carried["before_mm2"], rel=0.05)
+    assert carried["lost_mm2"] < 0.05 * carried["before_mm2"]
     assert set(done.history[-1]["result"]["regions"]) == {"0", "1"}
     assert made.count == len(done.probe.faces)
 
 
 def test_a_deviation_is_kept_and_written_down(tmp_path):
     save_probe(bundled("linear", 2000), tmp_path / "probe.ply")
-    done, made = simplify_step(import_mesh(tmp_path / "probe.ply"), MaxDeviation(3e-4))
+    done, made, _ = simplify_step(import_mesh(tmp_path / "probe.ply"), MaxDeviation(3e-4))
     assert made.deviation.hausdorff <= 3e-4
     step = done.history[-1]
     assert step["parameters"]["max_deviation_mm"] == pytest.approx(0.3)

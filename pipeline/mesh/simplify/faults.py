@@ -8,6 +8,9 @@ if TYPE_CHECKING:
     from pipeline.mesh.deviation import Comparison
     from pipeline.mesh.probe import Probe
 
+# What a count may be exceeded by where no engine reaches it, as when many edges are held.
+OVER = 1.05
+
 # An engine that stops a little short has done its work; closed meshes lose two facets at a time.
 _SHORT, _SPARE = 0.9, 4
 

@@ -13,7 +13,7 @@ from pipeline.mesh import engines
 from pipeline.mesh.errors import MeshError
 from pipeline.mesh.probe import Probe
 from pipeline.mesh.simplify.canonical import make_canonical
-from pipeline.mesh.simplify.faults import find_faults
+from pipeline.mesh.simplify.faults import OVER, find_faults
 from pipeline.mesh.simplify.split import inside_count, simplify_apart
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ class Job:
         self._control = control
         self._mesh = make_canonical(probe)
         self._made: dict[int, Attempt | MeshError] = {}
+        self._over: list[Attempt] = []  # sound, but with a few facets more than asked for
 
     @property
     def reference(self) -> Reference:
@@ -128,6 +129,7 @@ class Job:
     def _reach(self, count: int) -> Attempt:
         made: list[Attempt] = []
         failed: list[str] = []
+        self._over = []
         for recipe in self._recipes:
             attempt = self._try(recipe, count)
             if isinstance(attempt, str):
@@ -141,6 +143,11 @@ class Job:
             )
             if not self._pick_best:
                 break
+        if not made and self._over:
+            made = [min(self._over, key=lambda attempt: len(attempt.probe.faces))]
+            self.steps.append(
+                f"{made[0].engine}: {len(made[0].probe.faces)} facets, the nearest to {count} that is sound."
+            )
         if not made:
             raise MeshError(
                 f"the surface cannot be simplified to {count} facets: {' '.join(failed)} Ask for more facets, or"
@@ -159,7 +166,11 @@ class Job:
             return f"{recipe.name} made a mesh that is none ({error})"
         attempt = self._compared(made, recipe.name)
         faults = find_faults(self.probe, made, count, attempt.comparison)
-        return f"{recipe.name} {' and '.join(faults)} (asked for {count})." if faults else attempt
+        if not faults:
+            return attempt
+        if len(faults) == 1 and count < len(made.faces) <= OVER * count:
+            self._over.append(attempt)
+        return f"{recipe.name} {' and '.join(faults)} (asked for {count})."
 
     def _simplified(self, recipe: Recipe, count: int) -> Mesh:
         mesh = self._mesh

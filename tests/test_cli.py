@@ -22,7 +22,7 @@ from pipeline.console import Bar
 from pipeline.contact import ContactSolver, Gates
 from pipeline.contact.contact_csv import REASONS
 from pipeline.errors import InputError
-from pipeline.mesh import load_probe
+from pipeline.mesh import load_probe, save_probe
 from pipeline.mesh.sidecar import save_probe_file
 from pipeline.preparation.alignment import from_angles
 from pipeline.preparation.steps import align_step, import_mesh
@@ -211,6 +211,17 @@ def test_a_probe_of_our_own_is_in_metres_and_says_when_it_was_never_aligned(benc
     unmoved = (bench / "contacts.csv").read_bytes()
     assert locate(bench).exit_code == 0
     assert unmoved == (bench / "contacts.csv").read_bytes()
+
+
+def test_contacts_on_invented_facets_are_counted(bench):
+    known = import_mesh(bench / "ball.stl", "mm")
+    everything = np.ones(len(known.probe.faces), dtype=bool)
+    save_probe(known.probe.with_invented(everything), bench / "own.ply")
+    facts = json.loads(locate(bench, "--json", probe="own.ply").stdout)
+    points = facts["reasons"]["ok"] + facts["reasons"]["vertex"] + facts["reasons"]["ambiguous"]
+    assert facts["on_invented"] == points > 0
+    assert any("Contacts on invented facets" in warning for warning in facts["warnings"])
+    assert json.loads(locate(bench, "--json").stdout)["on_invented"] == 0
 
 
 def test_defects_of_the_mesh_are_a_sentence_and_no_dump(bench):

@@ -34,6 +34,13 @@ def align(
         Path | None,
         typer.Option(help="CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more."),
     ] = None,
+    frame: Annotated[
+        str | None,
+        typer.Option(
+            metavar="OX,OY,OZ,ZX,ZY,ZZ,PX,PY,PZ",
+            help="Three points of the mesh, mm: the origin of S, one on its +z axis, one in its x-z plane towards +x.",
+        ),
+    ] = None,
     flange_face: Annotated[
         int | None, typer.Option(help="Facet on the plane face that sits on the sensor, counted from 0.")
     ] = None,
@@ -73,11 +80,12 @@ def align(
     refuse_overwriting(out, [file])
     if units not in ("auto", "mm", "m", "cm", "in"):
         raise typer.BadParameter(f"--units {units}: use auto, mm, m, cm or in.")
-    ways = [points is not None, flange_face is not None, axes, touches is not None]
+    ways = [points is not None, frame is not None, flange_face is not None, axes, touches is not None]
     typed = mount is not None or alignment is not None
     if sum(ways) + (typed and touches is None) != 1:
         raise typer.BadParameter(
-            "give one way to align: --mount, --alignment, --points, --flange-face, --axes, or --touches with --mount."
+            "give one way to align: --mount, --alignment, --points, --frame, --flange-face, --axes, or --touches"
+            " with --mount."
         )
     content = import_mesh(file, units)  # type: ignore[arg-type]  # checked above
     for note in content.notes:
@@ -90,7 +98,7 @@ def align(
     elif typed:
         found = chosen_mount(mount, alignment)
     else:
-        found = _by_shape(content, points, flange_face, toward, clock, tip, offset)
+        found = _by_shape(content, points, frame, flange_face, toward, clock, tip, offset)
     assert found is not None  # noqa: S101  (one way was given)
     adopted = by_touch is None or by_touch.advice is Advice.ADOPT
     _tell(found, by_touch)
@@ -159,6 +167,7 @@ def _by_touches(
 def _by_shape(
     content: ProbeFile,
     points: Path | None,
+    frame: str | None,
     flange_face: int | None,
     toward: str | None,
     clock: float,
@@ -167,11 +176,19 @@ def _by_shape(
 ) -> Alignment:
     import numpy as np
 
-    from pipeline.preparation.alignment import align_axes, align_flange, align_points, find_mounting_face
+    from pipeline.preparation.alignment import (
+        align_axes,
+        align_flange,
+        align_frame,
+        align_points,
+        find_mounting_face,
+    )
     from pipeline.preparation.alignment.point_csv import read_points
 
     if points is not None:
         return align_points(*read_points(points))
+    if frame is not None:
+        return align_frame(*(np.array(numbers(frame, 9, "--frame")) / 1000).reshape(3, 3))
     if flange_face is not None:
         picked = None if toward is None else np.array(numbers(toward, 3, "--toward")) / 1000
         face = find_mounting_face(content.probe, flange_face)

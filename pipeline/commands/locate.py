@@ -136,6 +136,7 @@ def locate(
             sys.stdout.buffer if out == dash else out,
             track=track,
             allow_nan=allow_nan,
+            invented=surface.invented,
             progress=bar,
         )
     for sentence in summary.warnings:

@@ -52,6 +52,8 @@ class LocateSummary:
         Who answered.
     median_sigma_max_mm : float or None
         Median of the largest standard deviation of the points, mm, to four digits; None without points.
+    on_invented : int
+        Contacts on facets that were made up.
     seconds : float
         From the first byte read to the last one written.
     warnings : tuple of str
@@ -62,6 +64,7 @@ class LocateSummary:
     reasons: dict[str, int]
     method: str
     median_sigma_max_mm: float | None
+    on_invented: int
     seconds: float
     warnings: tuple[str, ...] = ()
 
@@ -82,6 +85,7 @@ def locate_file(
     *,
     track: bool = False,
     allow_nan: bool = False,
+    invented: npt.NDArray[np.bool_] | None = None,
     progress: Progress | None = None,
     block_bytes: int = BLOCK_BYTES,
 ) -> LocateSummary:
@@ -107,6 +111,8 @@ def locate_file(
         with ``stale``.
     allow_nan : bool
         Answer rows with NaN, infinity or empty cells with ``not_finite`` instead of refusing the file.
+    invented : (m,) bool, optional
+        Facets that were made up (``Probe.invented``): contacts on them are counted.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
     block_bytes : int
@@ -126,7 +132,7 @@ def locate_file(
     answer = _tracked(solver_or_method) if track else _Untracked(solver_or_method)
     refuse_overwriting(out, source)
     begin = time.perf_counter()
-    tally = _Tally()
+    tally = _Tally(invented)
     with open_table(source, WrenchFileError) as (stream, name, size), whole_output(out, "contacts") as write:
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
         write(HEADER)
@@ -134,7 +140,7 @@ def locate_file(
         for rows, answers in _ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
             write(text.encode(rows.times, answers, sigma_mm))
-            tally.add(answers.reasons, sigma_mm)
+            tally.add(answers.reasons, sigma_mm, answers.faces)
             if progress is not None:
                 progress(reader.bytes_read, size)
     return LocateSummary(
@@ -142,6 +148,7 @@ def locate_file(
         reasons=tally.reasons,
         method=str(getattr(solver_or_method, "name", "contactbench")),
         median_sigma_max_mm=tally.median(),
+        on_invented=tally.on_invented,
         seconds=time.perf_counter() - begin,
         warnings=(*answer.warnings(), *tally.warnings()),
     )
@@ -232,13 +239,22 @@ _BINS = (int(np.float64(_LARGEST).view(np.int64)) >> _SHIFT) - _FIRST_BIN + 1
 class _Tally:
     """Counts per reason, and a histogram fine enough for a median of four digits."""
 
-    def __init__(self) -> None:
+    def __init__(self, invented: npt.NDArray[np.bool_] | None = None) -> None:
         self.reasons = dict.fromkeys(REASONS, 0)
+        self.on_invented = 0
+        self._invented = invented
         # A bin per exponent and first bits of the mantissa, 1/4096 wide: keeping all values of a large
         # file would take more memory than the solver.
         self._bins = np.zeros(_BINS, dtype=np.int64)
 
-    def add(self, reasons: npt.NDArray[np.uint8], sigma_mm: npt.NDArray[np.float64]) -> None:
+    def add(
+        self,
+        reasons: npt.NDArray[np.uint8],
+        sigma_mm: npt.NDArray[np.float64],
+        faces: npt.NDArray[np.int32],
+    ) -> None:
+        if self._invented is not None:
+            self.on_invented += int(self._invented[faces[faces >= 0]].sum())
         for name, count in zip(REASONS, np.bincount(reasons, minlength=len(REASONS)), strict=True):
             self.reasons[name] += int(count)
         given = np.clip(sigma_mm[~np.isnan(sigma_mm)], _SMALLEST, _LARGEST)
@@ -258,6 +274,12 @@ class _Tally:
             self.reasons[reason.name.lower()] for reason in (Reason.OK, Reason.VERTEX, Reason.AMBIGUOUS)
         )
         missed = self.reasons["off_surface"] + self.reasons["tangential"]
+        if self.on_invented:
+            guessed = (
+                f"Contacts on invented facets: {self.on_invented} of {points}. Where the mesh file had an opening,"
+                " the surface is a guess, and so are they."
+            )
+            return (guessed,)
         if points or not missed:
             return ()
         sentences = (

@@ -134,6 +134,15 @@ def test_align_by_points(ready, tmp_path):
     assert pytest.approx(np.array(expected), abs=1e-9) == T_SP
 
 
+def test_align_by_a_frame_of_three_points(ready, tmp_path):
+    result = invoke(
+        "align", ready, "--frame", "10,0,0,10,50,0,-40,0,0", "--out", tmp_path / "a.ply", "--json"
+    )
+    assert result.exit_code == 0, result.stderr
+    expected = [[-1, 0, 0, 0.01], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]]
+    assert pytest.approx(np.array(expected), abs=1e-9) == np.array(json.loads(result.stdout)["T_SP_m"])
+
+
 def test_align_by_axes_and_by_the_flange_face(ready, tmp_path):
     assert invoke("align", ready, "--axes", "--tip", "0,0,150", "--out", tmp_path / "a.ply").exit_code == 0
     probe = load_probe(ready, "m")

@@ -30,7 +30,7 @@ _UNPACKED = 100
 # A case that takes longer hangs.
 _HANGS_S = 60.0
 _BATCH = 500
-_WORKER = (sys.executable, "-m", "pipeline.study.mesh_fuzz_worker")
+_WORKER = (sys.executable, "-m", "pipeline.study.mesh_fuzz.worker")
 _LISTED = 20
 
 
@@ -223,10 +223,3 @@ def _count(report: FuzzReport, case: dict[str, Any], said: dict[str, Any]) -> No
             ratio = said["peak"] / size
             if ratio > report.worst_memory_ratio:
                 report.worst_memory_ratio, report.worst_file = ratio, f"{suffix}, {case['kind']}"
-
-
-if __name__ == "__main__":
-    many, first_seed, *_ = (*(int(word) for word in sys.argv[1:3]), *(10_000, 0)[len(sys.argv) - 1 :])
-    found = run(many, first_seed)
-    sys.stdout.write("\n".join(found.sentences) + "\n")
-    raise SystemExit(0 if found.passed else 1)

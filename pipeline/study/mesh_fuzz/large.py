@@ -26,7 +26,7 @@ def swollen(name: str, chance: random.Random) -> tuple[str, bytes]:
     Parameters
     ----------
     name : str
-        A key of `mesh_fuzz_cases.sound_files`.
+        A key of `cases.sound_files`.
     chance : random.Random
         What to draw from.
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.mesh_fuzz_large import archive, swollen
+from pipeline.study.mesh_fuzz.large import archive, swollen
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -1,0 +1,1 @@
+"""Is probe preparation as good as it says? Simplification, regions, alignment, shells."""

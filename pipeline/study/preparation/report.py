@@ -1,0 +1,198 @@
+"""Figures with their targets: what each study of probe preparation gives, as a table and as plain data."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from rich.table import Table
+
+_HEADINGS = ("of", "figure", "target", "measured", "spread", "worst")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """
+    One measured figure, and what it must reach.
+
+    Attributes
+    ----------
+    subject : str
+        What was measured: a shape, a file, a method.
+    name : str
+    measured : float
+        The headline: the median where there are several values.
+    unit : str
+        Written behind the numbers; "" for ratios and counts.
+    least, most : float or None
+        The target; both None where there is none.
+    spread : (float, float) or None
+        5th and 95th percentile; None for a single value.
+    worst : float or None
+        The value furthest towards missing the target.
+    judged : {"measured", "worst"}
+        Which of them the target is for.
+    """
+
+    subject: str
+    name: str
+    measured: float
+    unit: str = ""
+    least: float | None = None
+    most: float | None = None
+    spread: tuple[float, float] | None = None
+    worst: float | None = None
+    judged: Literal["measured", "worst"] = "measured"
+
+    @classmethod
+    def of(
+        cls,
+        subject: str,
+        name: str,
+        values: npt.ArrayLike,
+        unit: str = "",
+        *,
+        least: float | None = None,
+        most: float | None = None,
+        judged: Literal["measured", "worst"] = "measured",
+    ) -> Figure:
+        """
+        Sum up several values of one figure: median, 5th to 95th percentile, worst.
+
+        Parameters
+        ----------
+        subject, name, unit, least, most, judged
+            See the attributes.
+        values : (n,) array_like
+            At least one.
+        """
+        numbers = np.asarray(values, dtype=np.float64)
+        low, middle, high = np.percentile(numbers, [5, 50, 95]).tolist()
+        worst = float(numbers.min() if least is not None else numbers.max())
+        return cls(subject, name, middle, unit, least, most, (low, high), worst, judged)
+
+    @property
+    def passed(self) -> bool:
+        """Whether the target is reached; True where there is none. What is not a number reaches no target."""
+        if self.least is None and self.most is None:
+            return True
+        value = self.worst if self.judged == "worst" and self.worst is not None else self.measured
+        above = self.least is None or value >= self.least
+        return bool(above and (self.most is None or value <= self.most))
+
+    @property
+    def target(self) -> str:
+        """The target in words; empty where there is none."""
+        of = " (worst)" if self.judged == "worst" and self.worst is not None else ""
+        match self.least, self.most:
+            case None, None:
+                return ""
+            case None, most:
+                return f"at most {self._said(most)}{of}"
+            case least, None:
+                return f"at least {self._said(least)}{of}"
+            case least, most if least == most:
+                return f"{self._said(least)}{of}"
+            case least, most:
+                return f"{_number(least)} to {self._said(most)}{of}"
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        """The figure as a row of a table."""
+        spread = "" if self.spread is None else f"{_number(self.spread[0])} to {self._said(self.spread[1])}"
+        worst = "" if self.worst is None else self._said(self.worst)
+        return (self.subject, self.name, self.target, self._said(self.measured), spread, worst)
+
+    def to_json(self) -> dict[str, Any]:
+        """Give the figure as plain values; null for what is not a number."""
+        data = {**asdict(self), "target": self.target, "passed": self.passed}
+        return {name: _plain(value) for name, value in data.items()}
+
+    def _said(self, value: float | None) -> str:
+        text = _number(value)
+        return f"{text} {self.unit}" if self.unit else text
+
+
+@dataclass(frozen=True)
+class Report:
+    """
+    All figures of a study.
+
+    Attributes
+    ----------
+    title : str
+    settings : dict
+        What the figures depend on: counts and seed.
+    figures : tuple of Figure
+    notes : tuple of str
+        What the numbers do not say, in sentences.
+    """
+
+    title: str
+    settings: dict[str, Any]
+    figures: tuple[Figure, ...]
+    notes: tuple[str, ...] = ()
+
+    @property
+    def passed(self) -> bool:
+        """Whether every figure reached its target."""
+        return all(figure.passed for figure in self.figures)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        return {
+            "passed": self.passed,
+            "title": self.title,
+            "settings": self.settings,
+            "figures": [figure.to_json() for figure in self.figures],
+            "notes": list(self.notes),
+        }
+
+    def table(self) -> Table:
+        """Build the table for the terminal; what misses its target is red."""
+        from rich.table import Table
+        from rich.text import Text
+
+        built = Table(title=self._heading, caption=" ".join(self.notes) or None, caption_justify="left")
+        for heading in _HEADINGS:
+            built.add_column(heading)
+        for figure in self.figures:
+            # File names must not be read as markup.
+            built.add_row(*map(Text, figure.cells), style="" if figure.passed else "red")
+        return built
+
+    def markdown(self) -> str:
+        """Write the table as Markdown."""
+        lines = [f"{self._heading}\n", "| " + " | ".join((*_HEADINGS, "")) + " |", "|---" * 7 + "|"]
+        for figure in self.figures:
+            verdict = "" if not figure.target else "ok" if figure.passed else "MISSED"
+            cells = (cell.replace("|", "\\|").replace("\n", " ") for cell in (*figure.cells, verdict))
+            lines.append("| " + " | ".join(cells) + " |")
+        return "\n".join([*lines, "", *self.notes]).rstrip() + "\n"
+
+    @property
+    def _heading(self) -> str:
+        return f"{self.title}: " + ", ".join(f"{name} {value}" for name, value in self.settings.items())
+
+
+def _number(value: float | None) -> str:
+    if value is None or not np.isfinite(value):
+        return "-"
+    if value == round(value):
+        return f"{value:,.0f}"
+    if abs(value) < 1e-3:
+        return f"{value:.1e}"
+    # Three digits also where the last is 0: 1.10 is not 1.1.
+    return f"{value:,.0f}" if abs(value) >= 100 else f"{value:#.3g}"
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_plain(each) for each in value]
+    if isinstance(value, float):
+        return value if np.isfinite(value) else None
+    return value

@@ -8,19 +8,26 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from pipeline.commands.options import numbers, refuse_overwriting
+from pipeline.commands.probe_options import (
+    MeshArgument,
+    OutOption,
+    UnitsOption,
+    UnitsOrAuto,
+    open_mesh,
+)
 from pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from pipeline.mesh.sidecar import ProbeFile
     from pipeline.preparation.alignment import Alignment, TouchAlignment
 
 
 def align(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off or .3mf.")],
-    out: Annotated[Path, typer.Option(help="Probe to write, .ply; its history goes beside it as .json.")],
-    units: Annotated[
-        str, typer.Option(metavar="auto|mm|m|cm|in", help="Unit of the file's numbers.")
-    ] = "auto",
+    file: MeshArgument,
+    out: OutOption,
+    units: UnitsOption = UnitsOrAuto.auto,
     mount: Annotated[
         str | None,
         typer.Option(
@@ -48,7 +55,9 @@ def align(
         str | None,
         typer.Option(metavar="X,Y,Z", help="With --flange-face: point of the mesh that lies towards +x, mm."),
     ] = None,
-    clock: Annotated[float, typer.Option(help="With --toward: turn it by this about z, degrees.")] = 0.0,
+    clock: Annotated[
+        float | None, typer.Option(help="With --toward: turn it by this about z, degrees.")
+    ] = None,
     axes: Annotated[
         bool, typer.Option("--axes", help="By the principal axes: longest along z, widest along x.")
     ] = False,
@@ -56,54 +65,69 @@ def align(
         str | None, typer.Option(metavar="X,Y,Z", help="With --axes: a point of the mesh near the tip, mm.")
     ] = None,
     offset: Annotated[
-        float, typer.Option(help="With --flange-face or --axes: height of the mounting plane in S, mm.")
-    ] = 0.0,
+        float | None,
+        typer.Option(help="With --flange-face or --axes: height of the mounting plane in S, mm [0]."),
+    ] = None,
     touches: Annotated[
         Path | None,
         typer.Option(
             help="CSV of touched markers: px,py,pz (mm, in the mesh) and fx..mz (N, N·m, in S, compensated)."
         ),
     ] = None,
-    noise_force: Annotated[float, typer.Option(help="With --touches: of a force, N.")] = 0.05,
-    noise_torque: Annotated[float, typer.Option(help="With --touches: of a torque, N·m.")] = 0.002,
+    noise_force: Annotated[
+        float | None, typer.Option(help="With --touches: standard deviation of a force, N [0.05].")
+    ] = None,
+    noise_torque: Annotated[float | None, typer.Option(help="The same of a torque, N·m [0.002].")] = None,
     placement: Annotated[
-        float, typer.Option(help="With --touches: how well a marker is hit, mm, one standard deviation.")
-    ] = 0.3,
+        float | None,
+        typer.Option(help="With --touches: how well a marker is hit, mm, one standard deviation [0.3]."),
+    ] = None,
+    again: Annotated[
+        bool, typer.Option("--again", help="The probe is in S already: correct it there.")
+    ] = False,
     save: Annotated[Path | None, typer.Option(help="Write the alignment itself, .json.")] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Move a mesh from its own frame P into the sensor frame S."""
     from pipeline.mesh.sidecar import save_probe_file
     from pipeline.preparation.alignment import Advice
-    from pipeline.preparation.steps import align_step, import_mesh
+    from pipeline.preparation.steps import align_step, refuse_aligned
 
-    refuse_overwriting(out, [file])
-    if units not in ("auto", "mm", "m", "cm", "in"):
-        raise typer.BadParameter(f"--units {units}: use auto, mm, m, cm or in.")
-    ways = [points is not None, frame is not None, flange_face is not None, axes, touches is not None]
-    typed = mount is not None or alignment is not None
-    if sum(ways) + (typed and touches is None) != 1:
-        raise typer.BadParameter(
-            "give one way to align: --mount, --alignment, --points, --frame, --flange-face, --axes, or --touches"
-            " with --mount."
-        )
-    content = import_mesh(file, units)  # type: ignore[arg-type]  # checked above
-    for note in content.notes:
-        say(f"warning: {note}", "yellow")
+    _check_files(file, out, save, (alignment, points, touches))
+    way = _one_way(mount, alignment, points, frame, flange_face, axes, touches)
+    _refuse_strangers(
+        way,
+        {
+            "--toward": (toward, ("--flange-face",)),
+            "--clock": (clock, ("--flange-face",)),
+            "--tip": (tip, ("--axes",)),
+            "--offset": (offset, ("--flange-face", "--axes")),
+            "--noise-force": (noise_force, ("--touches",)),
+            "--noise-torque": (noise_torque, ("--touches",)),
+            "--placement": (placement, ("--touches",)),
+        },
+    )
+    content = open_mesh(file, units, out)
+    refuse_aligned(content, again=again)
     by_touch: TouchAlignment | None = None
     found: Alignment | None
     if touches is not None:
-        by_touch = _by_touches(content, touches, mount, alignment, (noise_force, noise_torque), placement)
+        noise = (
+            0.05 if noise_force is None else noise_force,
+            0.002 if noise_torque is None else noise_torque,
+        )
+        hit = 0.3 if placement is None else placement
+        by_touch = _by_touches(content, touches, mount, alignment, noise, hit)
         found = by_touch.fitted
-    elif typed:
+    elif way == "--mount":
         found = chosen_mount(mount, alignment)
     else:
-        found = _by_shape(content, points, frame, flange_face, toward, clock, tip, offset)
+        found = _by_shape(content, points, frame, flange_face, toward, clock or 0.0, tip, offset or 0.0)
     assert found is not None  # noqa: S101  (one way was given)
     adopted = by_touch is None or by_touch.advice is Advice.ADOPT
     _tell(found, by_touch)
     if adopted:
-        save_probe_file(align_step(content, found), out)
+        save_probe_file(align_step(content, found, again=again), out)
         if save is not None:
             _write(save, found)
         say(f"Wrote {out}.")
@@ -113,6 +137,51 @@ def align(
         print_json(_facts(found, by_touch, out if adopted else None))
     if not adopted:
         raise typer.Exit(1)
+
+
+def _one_way(
+    mount: str | None,
+    alignment: Path | None,
+    points: Path | None,
+    frame: str | None,
+    flange_face: int | None,
+    axes: bool,
+    touches: Path | None,
+) -> str:
+    """Return the option that says how to align; typer.BadParameter unless there is one."""
+    given = {
+        "--points": points is not None,
+        "--frame": frame is not None,
+        "--flange-face": flange_face is not None,
+        "--axes": axes,
+        "--touches": touches is not None,
+    }
+    ways = [option for option, there in given.items() if there]
+    if touches is None and (mount is not None or alignment is not None):
+        ways.append("--mount")
+    if len(ways) != 1:
+        raise typer.BadParameter(
+            "give one way to align: --mount, --alignment, --points, --frame, --flange-face, --axes, or --touches"
+            " with --mount."
+        )
+    return ways[0]
+
+
+def _refuse_strangers(way: str, options: Mapping[str, tuple[object, Sequence[str]]]) -> None:
+    """Refuse options of another way than the chosen one; typer.BadParameter."""
+    for option, (value, belongs) in options.items():
+        if value is not None and way not in belongs:
+            raise typer.BadParameter(f"{option} goes with {' or '.join(belongs)}, not with {way}.")
+
+
+def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path | None]) -> None:
+    """Refuse to write over what is read or written; typer.BadParameter."""
+    inputs = [path for path in (file, *read) if path is not None]
+    refuse_overwriting(out, inputs)
+    if save is not None:
+        refuse_overwriting(save, inputs)
+        if save.resolve() in (out.resolve(), out.with_suffix(".json").resolve()):
+            raise typer.BadParameter(f"--save {save} is where the probe goes: choose another name.")
 
 
 def chosen_mount(mount: str | None, alignment: Path | None) -> Alignment | None:

@@ -24,13 +24,12 @@ from pipeline.commands.probe_options import (
     RatioOption,
     UnitsOption,
     UnitsOrAuto,
-    check_one_target,
     closings,
     counts,
     metres,
     open_mesh,
+    planned,
     share,
-    target,
 )
 from pipeline.console import Bar, JsonOption, print_json, say, show_tables
 from pipeline.durable import make_folder
@@ -135,8 +134,9 @@ def simplify(
     from pipeline.mesh.sidecar import save_probe_file
     from pipeline.preparation.steps import simplify_step
 
+    plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
     content = open_mesh(file, units, out)
-    wanted, stated = target(content, facets, max_deviation, max_contact_error, forces)
+    wanted, stated = plan(content)
     with Bar("simplifying", counted=True) as bar:
         done, made, carried = simplify_step(
             content,
@@ -191,14 +191,16 @@ def ladder(
 
     tried = DEFAULT_FACETS if facets is None else counts(facets)
     low, high = numbers(forces, 2, "--forces")
+    expected = ExpectedTouches(WrenchNoise(noise_force, noise_torque), (low, high), count=touches)
+    goal = Goal(metres(max_contact_error))
     content = open_mesh(file, units)
     make_folder(out)
     with Bar("measuring", counted=True) as bar:
         measured = measure_ladder(
             content.probe,
-            ExpectedTouches(WrenchNoise(noise_force, noise_torque), (low, high), count=touches),
+            expected,
             tried,
-            goal=Goal(metres(max_contact_error)),
+            goal=goal,
             engine=engine.value,
             region_ratio=region_ratio,
             progress=share(bar),
@@ -255,7 +257,7 @@ def prepare(
 
     refuse_overwriting(out, [file])
     check_target(out)
-    check_one_target(facets, max_deviation, max_contact_error)
+    plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
     placed = chosen_mount(mount, alignment)
     with Bar("preparing", counted=True) as bar:
         done = prepare_file(
@@ -265,7 +267,7 @@ def prepare(
             alpha=metres(alpha),
             gap=metres(gap),
             alignment=placed,
-            target=lambda content: target(content, facets, max_deviation, max_contact_error, forces),
+            target=plan,
             engine=engine.value,
             region_ratio=region_ratio,
             progress=share(bar),

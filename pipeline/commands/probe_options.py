@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from pipeline.mesh.sidecar import ProbeFile
     from pipeline.mesh.simplify import Target
 
+    Plan = Callable[[ProbeFile], tuple[Target, dict[str, Any] | None]]
+
 
 class UnitsOrAuto(StrEnum):
     """What the numbers in a mesh file are."""
@@ -130,43 +132,38 @@ def metres(millimetres: float | None) -> float | None:
     return None if millimetres is None else millimetres / 1000
 
 
-def check_one_target(*given: float | None) -> None:
-    """Refuse more than one of the three targets.
-
-    Raises
-    ------
-    typer.BadParameter
-    """
-    if sum(each is not None for each in given) > 1:
-        raise typer.BadParameter("--facets, --max-deviation and --max-contact-error: give one of them.")
-
-
-def target(
-    content: ProbeFile,
+def planned(
     facets: int | None,
     max_deviation: float | None,
     max_contact_error: float | None,
     forces: str,
-) -> tuple[Target, dict[str, Any] | None]:
-    """Return the target, and how it is written down where that is not its own affair.
+    region_ratio: float,
+) -> Plan:
+    """Return what makes the target of a probe; what makes no sense is refused here, before the work.
 
     Raises
     ------
     typer.BadParameter
-        More than one was asked for.
+        More than one target was asked for, or --forces are not two numbers.
+    InputError
+        A number is out of its range.
     """
-    from pipeline.mesh.simplify import Count, MaxDeviation
+    from pipeline.mesh.simplify import Count, MaxDeviation, check_ratio
 
-    check_one_target(facets, max_deviation, max_contact_error)
-    if facets is not None:
-        return Count(facets), None
-    if max_deviation is not None:
-        return MaxDeviation(max_deviation / 1000), None
-    from pipeline.preparation.targets import DEFAULT_LIMIT, contact_target
+    if sum(each is not None for each in (facets, max_deviation, max_contact_error)) > 1:
+        raise typer.BadParameter("--facets, --max-deviation and --max-contact-error: give one of them.")
+    check_ratio(region_ratio)
+    target: Target
+    if facets is not None or max_deviation is not None:
+        target = Count(facets) if facets is not None else MaxDeviation((max_deviation or 0.0) / 1000)
+        return lambda _: (target, None)
+    from pipeline.preparation.ladder import ExpectedTouches
+    from pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
 
     low, high = numbers(forces, 2, "--forces")
     limit = DEFAULT_LIMIT if max_contact_error is None else max_contact_error / 1000
-    return contact_target(content.probe, limit, (low, high))
+    wanted = ContactTarget(limit, ExpectedTouches(force=(low, high)))
+    return lambda content: wanted.of(content.probe)
 
 
 def share(bar: Bar) -> Callable[[float], None]:

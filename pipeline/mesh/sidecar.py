@@ -218,7 +218,13 @@ def read_list(document: Mapping[str, Any]) -> tuple[Region, ...]:
 
 def read_document(file: Path) -> dict[str, Any]:
     """Return the JSON object in a file, an empty one without a file; RegionError for anything else."""
-    document = parse_json(read_limited(file)) if file.exists() else {}
+    data = read_limited(file) if file.exists() else b"{}"
+    if not data:
+        raise RegionError(
+            "the file is empty, and belongs to the mesh beside it: if that is where the output of --json goes, send"
+            " it elsewhere; otherwise delete the file."
+        )
+    document = parse_json(data)
     version = document.get("version", VERSION)
     if document.get("schema", SCHEMA) != SCHEMA or not isinstance(version, int):
         raise RegionError("the JSON file beside the mesh is not a probe's: move it away, or rename the mesh.")

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pipeline.mesh.engines import Cancelled
 from pipeline.mesh.shell import Closing
-from pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+from pipeline.preparation.steps import (
+    align_step,
+    import_mesh,
+    refuse_aligned,
+    shell_step,
+    simplify_step,
+)
 
 if TYPE_CHECKING:
     import os
@@ -129,6 +135,8 @@ def prepare(
         return lambda share: progress(low + share * (high - low))
 
     content = import_mesh(path, units)
+    if alignment is not None:
+        refuse_aligned(content, again=False)
     notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
     if progress is not None:
         progress(_READ)

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pipeline.mesh import MeshWarning
+from pipeline.mesh import MeshError, MeshWarning
 from pipeline.mesh.load import read_mesh, settle
 from pipeline.mesh.regions import RegionSet, transfer
-from pipeline.mesh.shell import make_shell
+from pipeline.mesh.shell import Closing, make_shell
 from pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
 from pipeline.mesh.simplify import Count, MaxDeviation, simplify
+from pipeline.preparation.alignment import AlignmentError
 
 if TYPE_CHECKING:
     import os
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from pipeline.mesh import Probe
     from pipeline.mesh.regions import RegionReport, Transferred
-    from pipeline.mesh.shell import Closing, Shell
+    from pipeline.mesh.shell import Shell
     from pipeline.mesh.simplify import Engine, Simplified, Target
     from pipeline.mesh.units import Units
     from pipeline.preparation.alignment import Alignment
@@ -63,7 +64,10 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
         )
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)
-        probe = settle(read, None, file.stem)
+        try:
+            probe = settle(read, None, file.stem)
+        except MeshError as error:
+            raise MeshError(f"{file}: {error}") from error
     doubt = () if read.guess is None or read.guess.certain else (read.guess.reason,)
     found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=(*doubt, *probe.health.sentences))
     reason = "" if read.guess is None else read.guess.reason
@@ -85,16 +89,34 @@ def shell_step(
     shell = make_shell(
         content.probe, closings, alpha=alpha, coarse=gap, progress=progress, cancelled=cancelled
     )
+    asked = [closings] if isinstance(closings, Closing) else closings
     parameters = {
-        "closings": [each.closing.value for each in shell.openings],
+        "closings": [closing.value for closing in asked],
         "alpha_mm": None if alpha is None else 1e3 * alpha,
         "gap_mm": None if gap is None else 1e3 * gap,
     }
     return content.after("shell", shell.probe, parameters, shell.to_json()), shell
 
 
-def align_step(content: ProbeFile, alignment: Alignment) -> ProbeFile:
-    """Move the probe from the mesh's frame P to the sensor frame S; see `Alignment.place` for what it raises."""
+def align_step(content: ProbeFile, alignment: Alignment, *, again: bool = False) -> ProbeFile:
+    """
+    Move the probe from the mesh's frame P to the sensor frame S.
+
+    Parameters
+    ----------
+    content : ProbeFile
+    alignment : Alignment
+    again : bool
+        Move a probe that is in S already: then the alignment is a correction within S.
+
+    Raises
+    ------
+    AlignmentError
+        The probe is in S already, and `again` was not said.
+    MeshError
+        See `Alignment.place`.
+    """
+    refuse_aligned(content, again=again)
     parameters: dict[str, Any] = {"method": alignment.method.value, "T_SP_m": alignment.T_SP.tolist()}
     result = {
         "sigmas_mm": None if alignment.sigmas_mm is None else alignment.sigmas_mm.tolist(),
@@ -103,6 +125,21 @@ def align_step(content: ProbeFile, alignment: Alignment) -> ProbeFile:
         "warnings": list(alignment.warnings),
     }
     return content.after("align", alignment.place(content.probe), parameters, result, frame="S")
+
+
+def refuse_aligned(content: ProbeFile, *, again: bool) -> None:
+    """
+    Refuse to align what is aligned.
+
+    Raises
+    ------
+    AlignmentError
+    """
+    if content.frame == "S" and not again:
+        raise AlignmentError(
+            "the probe is in the sensor frame already: it would be moved twice. Start from the mesh as it was"
+            " before it was aligned, or say that this is a correction (again)."
+        )
 
 
 def simplify_step(

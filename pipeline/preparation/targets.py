@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from pipeline.mesh.simplify import MaxError
@@ -13,39 +14,44 @@ if TYPE_CHECKING:
 DEFAULT_LIMIT = 1e-4
 
 
-def contact_target(
-    probe: Probe, limit: float = DEFAULT_LIMIT, force: tuple[float, float] = (8.0, 10.0)
-) -> tuple[MaxError, dict[str, Any]]:
+@dataclass(frozen=True)
+class ContactTarget:
     """
-    Ask for the fewest facets that hardly move a contact.
+    The fewest facets that hardly move a contact.
 
-    Parameters
+    Attributes
     ----------
-    probe : Probe
-        The full mesh, m.
     limit : float
         How far 95 % of the contacts may move, m. By default a tenth of a millimetre: a fifth or less of what noise
         does to a touch of 10 N, so that nobody will see it.
-    force : (low, high)
-        Of the touches to expect, N.
-
-    Returns
-    -------
-    target : MaxError
-    stated : dict
-        The target, as it is written into a probe's history.
+    expected : ExpectedTouches
+        Noise, forces and friction to expect.
 
     Raises
     ------
     LadderError
-        The forces or the limit make no sense, or the mesh settles too few touches.
+        A limit that makes no sense.
     """
-    expected = ExpectedTouches(force=force)
-    goal = Goal(limit)
-    stated = {
-        "max_contact_error_mm": round(1e3 * limit, 6),
-        "statistic": goal.statistic,
-        "forces_N": list(force),
-        "touches": expected.count,
-    }
-    return MaxError(contact_error_criterion(probe, expected, goal.statistic), limit), stated
+
+    limit: float = DEFAULT_LIMIT
+    expected: ExpectedTouches = field(default_factory=ExpectedTouches)
+
+    def __post_init__(self) -> None:
+        Goal(self.limit)  # refuses what is no limit
+
+    def of(self, probe: Probe) -> tuple[MaxError, dict[str, Any]]:
+        """
+        Give the target for a full mesh, m, and how it is written into a probe's history.
+
+        Raises
+        ------
+        LadderError
+            The mesh settles too few touches.
+        """
+        stated = {
+            "max_contact_error_mm": round(1e3 * self.limit, 6),
+            "statistic": "p95",
+            "forces_N": list(self.expected.force),
+            "touches": self.expected.count,
+        }
+        return MaxError(contact_error_criterion(probe, self.expected, "p95"), self.limit), stated

@@ -239,6 +239,66 @@ def test_it_does_not_write_over_its_input(ready):
     assert ready.read_bytes() == before
 
 
+def test_nothing_is_moved_twice(ready, tmp_path):
+    once = tmp_path / "once.ply"
+    assert invoke("align", ready, "--mount", "0,0,45,0,0,0", "--out", once).exit_code == 0
+    result = invoke("align", once, "--mount", "0,0,45,0,0,0", "--out", tmp_path / "twice.ply")
+    assert result.exit_code == 2
+    assert "in the sensor frame already" in said(result)
+    result = invoke(
+        "prepare", once, "--mount", "0,0,45,0,0,0", "--facets", "500", "--out", tmp_path / "b.ply"
+    )
+    assert result.exit_code == 2
+    result = invoke("align", once, "--again", "--mount", "0,0,1,0,0,0", "--out", tmp_path / "twice.ply")
+    assert result.exit_code == 0
+    moved = load_probe(tmp_path / "twice.ply", "m").bounds[:, 2] - load_probe(ready, "m").bounds[:, 2]
+    assert moved == pytest.approx([0.046, 0.046])
+
+
+@pytest.mark.parametrize("save", ["ready.ply", "a.ply", "a.json"])
+def test_save_writes_over_nothing(ready, tmp_path, save):
+    before = ready.read_bytes()
+    result = invoke(
+        "align", ready, "--mount", "0,0,0,0,0,0", "--save", tmp_path / save, "--out", tmp_path / "a.ply"
+    )
+    assert result.exit_code == 2
+    assert ready.read_bytes() == before
+    assert not (tmp_path / "a.ply").exists()
+
+
+@pytest.mark.parametrize("option", ["--offset", "--clock", "--placement", "--noise-force"])
+def test_options_of_another_way_are_refused(ready, tmp_path, option):
+    result = invoke("align", ready, "--mount", "0,0,0,0,0,0", option, "1", "--out", tmp_path / "a.ply")
+    assert result.exit_code == 2
+    assert option in said(result)
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--facets", "0"),
+        ("--max-deviation", "nan"),
+        ("--max-contact-error", "-1"),
+        ("--forces", "10,8"),
+        ("--region-ratio", "0"),
+    ],
+)
+def test_prepare_refuses_nonsense_before_the_work(hollow, tmp_path, monkeypatch, arguments):
+    def never(*_, **__):
+        raise AssertionError("the work was begun")
+
+    monkeypatch.setattr("pipeline.preparation.prepare.import_mesh", never)
+    result = invoke("prepare", hollow, *arguments, "--out", tmp_path / "probe.ply")
+    assert result.exit_code == 2, result.stderr
+
+
+def test_json_sent_to_where_the_history_goes(ready, tmp_path):
+    (tmp_path / "probe.json").write_text("")  # what a shell makes of > probe.json
+    result = invoke("simplify", ready, "--facets", "100", "--out", tmp_path / "probe.ply", "--json")
+    assert result.exit_code == 2
+    assert "send it elsewhere" in said(result)
+
+
 def test_a_json_file_of_somebody_else_is_not_written_over(ready, tmp_path):
     (tmp_path / "probe.json").write_text("[1, 2]")
     result = invoke("simplify", ready, "--facets", "100", "--out", tmp_path / "probe.ply")

@@ -119,6 +119,8 @@ def test_rays_along_an_axis_and_within_a_plane():
     assert t.tolist() == [1, np.inf, np.inf, np.inf, 1.5]
     assert face.tolist() == [0, -1, -1, -1, 1]
     assert index.escapes(origins, towards).tolist() == [False, True, True, True, False]
+    sides = np.array([[0.0, 0.5, 1], [1.0, 0.5, 1], [0.5, 0.0, 1], [0.5, 1.0, 1]])
+    assert not index.escapes(sides, np.tile([0.0, 0, -1], (4, 1))).any()  # 0 * inf, at the sides of the box
 
 
 def test_wrong_input_is_refused():

@@ -55,8 +55,27 @@ def exposure(
     cross = cross_products(vertices, faces)
     normals = cross / np.maximum(np.linalg.norm(cross, axis=1, keepdims=True), np.finfo(float).tiny)
     size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
-    origins = vertices[faces].mean(axis=1) + _LIFT * size * normals
-    seen, whole = np.zeros(len(faces)), np.zeros(len(faces))
+    return exposure_at(vertices[faces].mean(axis=1), normals, index, size, count=count, tick=tick)
+
+
+def exposure_at(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    index: SurfaceIndex,
+    size: float,
+    *,
+    count: int = DIRECTIONS,
+    tick: Callable[[float], None] | None = None,
+) -> NDArray[np.float64]:
+    """
+    Do the same for points (k, 3) of a surface of this size, with unit normals (k, 3) towards the side asked about.
+
+    Returns
+    -------
+    (k,) float64
+    """
+    origins = points + _LIFT * size * normals
+    seen, whole = np.zeros(len(points)), np.zeros(len(points))
     for number, direction in enumerate(directions(count)):
         cosine = normals @ direction
         front = np.flatnonzero(cosine > _GRAZING)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.shell.exposure import exposure
+from pipeline.mesh.shell.exposure import exposure, exposure_at
 from pipeline.mesh.shell.wrap import PLUG, SURFACE
 from pipeline.mesh.triangles import cross_products, directions, join
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 # What sees less of the sky than this lies in a groove that no finger enters.
 _VISIBLE = 0.2
 _LOOKS = 64
-_SAMPLES = 60_000
+_SAMPLES = 20_000
 _LINES = 60_000
 
 
@@ -103,8 +103,7 @@ def measure_fit(
     seen = _seen(original, closed, tick)
     shell = SurfaceIndex(wrapped.vertices, wrapped.faces)
     rng = np.random.default_rng(0)
-    visible = seen > _VISIBLE if (seen > _VISIBLE).any() else np.ones(len(seen), dtype=bool)
-    there, _, _ = shell.closest(sample_surface(vertices, original.faces[visible], _SAMPLES, rng))
+    there, _, _ = shell.closest(_visible_points(original, closed, seen, rng))
     real = wrapped.faces[wrapped.rests_on == SURFACE]
     back, _, _ = closed.closest(sample_surface(wrapped.vertices, real, _SAMPLES, rng))
     areas = np.linalg.norm(cross_products(wrapped.vertices, wrapped.faces), axis=1) / 2
@@ -129,13 +128,34 @@ def sample_surface(
     vertices: NDArray[np.float64], faces: NDArray[np.int32], count: int, rng: np.random.Generator
 ) -> NDArray[np.float64]:
     """Draw `count` points evenly over the facets, (count, 3)."""
+    return draw_points(vertices, faces, count, rng)[0]
+
+
+def draw_points(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], count: int, rng: np.random.Generator
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Draw `count` points evenly over the facets, (count, 3), and say which facet each is on, (count,)."""
     areas = np.linalg.norm(cross_products(vertices, faces), axis=1)
-    pick = faces[rng.choice(len(faces), count, p=areas / areas.sum())]
+    facets = rng.choice(len(faces), count, p=areas / areas.sum())
+    pick = faces[facets]
     u, v = rng.random((2, count, 1))
     over = u + v > 1
     u, v = np.where(over, 1 - u, u), np.where(over, 1 - v, v)
     a, b, c = (vertices[pick[:, corner]] for corner in range(3))
-    return np.asarray(a + u * (b - a) + v * (c - a))
+    return np.asarray(a + u * (b - a) + v * (c - a)), facets
+
+
+def _visible_points(
+    original: Probe, closed: SurfaceIndex, seen: NDArray[np.float64], rng: np.random.Generator
+) -> NDArray[np.float64]:
+    """Draw points of the original that can be seen; of a large facet a part may be, and the rest lie inside."""
+    faces = original.faces[seen > 0] if (seen > 0).any() else original.faces
+    points, facets = draw_points(original.vertices, faces, _SAMPLES, rng)
+    cross = cross_products(original.vertices, faces[facets])
+    normals = cross / np.linalg.norm(cross, axis=1, keepdims=True)
+    light = [exposure_at(points, side, closed, original.size, count=_LOOKS) for side in (normals, -normals)]
+    visible = np.maximum(*light) > _VISIBLE
+    return points[visible] if visible.any() else points
 
 
 def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None] | None) -> NDArray[np.float64]:

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 # A facet that sees less of its half-space lies in a cavity. The inner edge of a right angle sees 0.5.
 DARK = 0.45
 
+# ... and of a cavity a tenth at least sees less than this. A shallow pan hovers about DARK and falls into pieces
+# that are each deep for their width.
+_DEEP = 0.25
+
 # A dent shallower than this share of its width is part of the shape: what enters it meets the outside.
 _SHALLOW = 0.3
 
@@ -103,11 +107,13 @@ def find_openings(
     tick : callable, optional
         Told the share that is done; may raise to stop.
     """
-    dark, twin = _dark(vertices, faces, tick)
+    dark, twin, light = _dark(vertices, faces, tick)
     cavity = parts(faces, dark, twin)
     found = []
     for number in range(int(cavity.max(initial=-1)) + 1):
         inside = cavity == number
+        if np.quantile(light[inside], 0.1) > _DEEP:
+            continue
         bottom = vertices[np.unique(faces[inside])]
         for loop in _loops(faces, inside, twin):
             opening = describe(vertices[loop], bottom)
@@ -139,10 +145,11 @@ def shoelace(flat: NDArray[np.float64]) -> float:
 
 def _dark(
     vertices: NDArray[np.float64], faces: NDArray[np.int32], tick: Callable[[float], None] | None
-) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
-    """Mark the facets in cavities, specks removed, (m,), and give the half-edges' twins."""
+) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.float64]]:
+    """Mark the facets in cavities, specks removed, (m,), and give the half-edges' twins and the light, (m,)."""
     twin = twins(faces)
-    dark = exposure(vertices, faces, tick=tick) < DARK
+    light = exposure(vertices, faces, tick=tick)
+    dark = light < DARK
     around = np.where(twin >= 0, twin // 3, np.arange(len(twin)) // 3).reshape(-1, 3)
     for _ in range(4):  # a facet follows two of its three neighbours
         dark = dark[around].sum(axis=1) + dark > 1.5
@@ -152,7 +159,7 @@ def _dark(
         areas = np.linalg.norm(cross_products(vertices, faces), axis=1)
         largest = np.argmax(np.bincount(bright[bright >= 0], areas[bright >= 0]))
         dark |= bright != largest
-    return dark, twin
+    return dark, twin, light
 
 
 def _loops(

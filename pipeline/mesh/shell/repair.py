@@ -6,13 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order
+from scipy.sparse.csgraph import connected_components
 
-from pipeline.mesh.health import label_parts, measure_health
+from pipeline.mesh.health import measure_health
 from pipeline.mesh.shell.exposure import exposure
 from pipeline.mesh.triangles import cross_products
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 _HIDDEN = 1e-3  # a part of which less than this is exposed, at best, lies inside another
@@ -20,7 +22,7 @@ _LOOKS = 64
 
 
 def repair(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32]
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], tick: Callable[[float], None] | None = None
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """
     Drop repeated facets and hidden parts, and turn facets until all face outwards, as far as that helps.
@@ -29,6 +31,8 @@ def repair(
     ----------
     vertices : (n, 3) float64
     faces : (m, 3) int32
+    tick : callable, optional
+        Told the share that is done; may raise to stop.
 
     Returns
     -------
@@ -39,22 +43,19 @@ def repair(
     """
     kept = _without_repeats(faces)
     turned = np.zeros(len(faces), dtype=bool)
-    flip, closed = _consistent(faces[kept])
-    if not closed:
+    found = _consistent(faces[kept])
+    if found is None:
         return np.arange(len(faces)), turned
-    turned[kept] = flip
-    label = label_parts(faces[kept], len(vertices))
+    turned[kept], label = found
     oriented = turn(faces, turned)
-    for number in range(label.max() + 1):
-        part = kept[label == number]
-        corners = vertices[oriented[part]]
-        volume = np.einsum("ij,ij->", corners[:, 0] - corners[0, 0], cross_products(vertices, oriented[part]))
-        if volume < 0:
-            turned[part] = ~turned[part]
-    oriented = turn(faces, turned)
-    if label.max() > 0:
-        seen = exposure(vertices, oriented[kept], count=_LOOKS)
-        best = np.array([seen[label == number].max() for number in range(label.max() + 1)])
+    corners = vertices[oriented[kept]] - vertices[oriented[kept[0], 0]]
+    volumes = np.einsum("ij,ij->i", corners[:, 0], cross_products(vertices, oriented[kept]))
+    inwards = np.bincount(label, volumes) < 0
+    turned[kept] ^= inwards[label]
+    if len(inwards) > 1:
+        seen = exposure(vertices, turn(faces, turned)[kept], count=_LOOKS, tick=tick)
+        best = np.zeros(len(inwards))
+        np.maximum.at(best, label, seen)
         kept = kept[best[label] > _HIDDEN]
     return kept, turned
 
@@ -76,30 +77,26 @@ def _without_repeats(faces: NDArray[np.int32]) -> NDArray[np.int64]:
     return np.sort(first)
 
 
-def _consistent(faces: NDArray[np.int32]) -> tuple[NDArray[np.bool_], bool]:
-    """Which facets to turn for neighbours to agree, (m,), and whether every edge has just two facets."""
+def _consistent(faces: NDArray[np.int32]) -> tuple[NDArray[np.bool_], NDArray[np.int64]] | None:
+    """Tell which facets to turn to agree, and their parts, (m,) each; None unless each edge has two facets."""
     m = len(faces)
     start, end = faces.T.ravel().astype(np.int64), np.roll(faces, -1, axis=1).T.ravel().astype(np.int64)
     count = int(faces.max()) + 1
     key = np.minimum(start, end) * count + np.maximum(start, end)
     order = np.argsort(key, kind="stable")
     if len(order) % 2 or (np.diff(key[order])[::2] != 0).any() or (np.diff(key[order])[1::2] == 0).any():
-        return np.zeros(m, dtype=bool), False
+        return None
     a, b = order[::2], order[1::2]
-    # The facets of an edge agree when they run along it in opposite directions.
+    # The facets of an edge agree when they run along it in opposite directions. Each facet is there twice, as it
+    # is and turned over; what hangs together among those doubles is one consistent choice.
     agree = (start[a] < end[a]) != (start[b] < end[b])
-    rows, columns = a % m, b % m
-    graph = coo_array((np.where(agree, 1, 2), (rows, columns)), shape=(m, m)).tocsr()
-    flip = np.zeros(m, dtype=bool)
-    seen = np.zeros(m, dtype=bool)
-    differ = dict(zip(zip(rows.tolist(), columns.tolist(), strict=True), (~agree).tolist(), strict=True))
-    for root in range(m):
-        if seen[root]:
-            continue
-        walk, before = breadth_first_order(graph, root, directed=False)
-        seen[walk] = True
-        for facet in walk[1:].tolist():
-            parent = int(before[facet])
-            other = differ.get((parent, facet), differ.get((facet, parent), False))
-            flip[facet] = flip[parent] ^ other
-    return flip, True
+    f, g = a % m, b % m
+    rows = np.concatenate((f, f + m))
+    columns = np.concatenate((np.where(agree, g, g + m), np.where(agree, g + m, g)))
+    graph = coo_array((np.ones(2 * len(f), dtype=np.int8), (rows, columns)), shape=(2 * m, 2 * m))
+    _, label = connected_components(graph, directed=False)
+    as_is, turned = label[:m], label[m:]
+    if (as_is == turned).any():  # one-sided, like a Möbius strip
+        return None
+    part = np.unique(np.minimum(as_is, turned), return_inverse=True)[1]
+    return turned < as_is, part.astype(np.int64)

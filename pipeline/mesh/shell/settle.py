@@ -41,6 +41,8 @@ def settle(
     share = np.ones(len(vertices))
     for attempt in range(_ROUNDS + 1):
         moved = vertices + share[:, None] * (targets - vertices)
+        if attempt == _ROUNDS:  # what folded last time stands where it was, and cannot fold
+            break
         after = cross_products(moved, faces)
         size = np.linalg.norm(after, axis=1)
         upright = np.einsum("ij,ij->i", before, after) > _LEAST_COSINE * area * size

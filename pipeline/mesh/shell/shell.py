@@ -3,29 +3,31 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.kernel import SurfaceIndex
 from pipeline.mesh.engines import Cancelled
 from pipeline.mesh.errors import MeshError, MeshWarning
 from pipeline.mesh.probe import Probe
 from pipeline.mesh.regions import RegionSet, transfer
-from pipeline.mesh.shell.fit import ShellFit, measure_fit
+from pipeline.mesh.shell.exposure import exposure
+from pipeline.mesh.shell.fit import measure_fit
 from pipeline.mesh.shell.openings import Opening, find_openings
 from pipeline.mesh.shell.patch import Closing, choose, make_patch
 from pipeline.mesh.shell.repair import is_sound, repair, turn
+from pipeline.mesh.shell.result import REPAIRED, UNCHANGED, WRAPPED, ClosedOpening, Shell
 from pipeline.mesh.shell.rim import find_lip
 from pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
-from pipeline.mesh.triangles import join
+from pipeline.mesh.triangles import cross_products, join, parts, twins
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.regions import RegionReport
     from pipeline.mesh.shell.wrap import Wrapped
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
@@ -33,125 +35,11 @@ if TYPE_CHECKING:
 COARSE = 1 / 65
 FINE = 1 / 190
 _FINEST = 1 / 1000
+_SPECK = 0.01  # of the largest part's area: what is smaller is not the probe
+_MOSTLY = 0.5  # of the area: a shell that is invented to this extent says nothing
+_GLANCES, _NIGHT, _MUCH = 4_000, 0.05, 0.01  # facets looked at, light and share of the area of a hollow mesh
+_LIP = 0.2  # of the width of a mouth
 _NARROWEST = 1.5  # coarse alphas: mouths under this are bridged by the wrap itself
-
-UNCHANGED, REPAIRED, WRAPPED = "unchanged", "repaired", "wrapped"
-
-
-@dataclass(frozen=True, eq=False)
-class ClosedOpening:
-    """
-    An opening, and what was done about it.
-
-    Attributes
-    ----------
-    opening : Opening
-    closing : Closing
-        FAIR, RULED, HULL, or OPEN where it was left as it is.
-    """
-
-    opening: Opening
-    closing: Closing
-
-    @property
-    def sentence(self) -> str:
-        """What was done, in words."""
-        how = {
-            Closing.FAIR: "closed by a fair surface",
-            Closing.RULED: "closed by straight lines between its long rims",
-            Closing.HULL: "closed by the hull of its rim",
-            Closing.OPEN: "left open",
-        }[self.closing]
-        return f"{self.opening.sentence}: {how}."
-
-    def to_json(self) -> dict[str, Any]:
-        """Give the opening as plain values, millimetres."""
-        o = self.opening
-        return {
-            "centre_mm": [round(1e3 * float(x), 3) for x in o.centre],
-            "outwards": [round(float(x), 5) for x in o.axes[2]],
-            "length_mm": round(1e3 * o.length, 3),
-            "width_mm": round(1e3 * o.width, 3),
-            "depth_mm": round(1e3 * o.depth, 3),
-            "perimeter_mm": round(1e3 * o.perimeter, 3),
-            "closing": self.closing.value,
-        }
-
-
-@dataclass(frozen=True, eq=False)
-class Shell:
-    """
-    A probe's outer surface.
-
-    Attributes
-    ----------
-    probe : Probe
-        The shell; ``probe.invented`` marks facets that close openings or bridge gaps. Its regions are those of
-        the original.
-    how : str
-        "unchanged" (the same object as given), "repaired" (vertices as they were) or "wrapped".
-    openings : tuple of ClosedOpening
-        Largest first.
-    fit : ShellFit or None
-        How far shell and original lie apart; None where nothing was moved.
-    alpha : float or None
-        Size of the wrap's facets, metres.
-    turned, dropped : int
-        Facets turned over or left out by a repair.
-    carried : tuple of RegionReport
-        What a wrap did to the area of each region.
-    """
-
-    probe: Probe
-    how: str
-    openings: tuple[ClosedOpening, ...]
-    fit: ShellFit | None = None
-    alpha: float | None = None
-    turned: int = 0
-    dropped: int = 0
-    carried: tuple[RegionReport, ...] = ()
-
-    @property
-    def invented_area(self) -> float:
-        """Area of the invented facets, m²."""
-        return float(self.probe.areas[self.probe.invented].sum())
-
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        """What was done, in words."""
-        out = [_HOW[self.how].format(turned=self.turned, dropped=self.dropped)]
-        out += [f"Found {opening.sentence}" for opening in self.openings]
-        if self.invented_area > 0:
-            share = self.invented_area / self.probe.areas.sum()
-            out.append(
-                f"{1e6 * self.invented_area:.0f} mm² ({100 * share:.1f} %) of the shell is invented: a touch there"
-                " rests on a guess. Measure the part, or ask for its drawing, if it will be touched."
-            )
-        if self.fit is not None:
-            out.append(self.fit.sentence)
-        return (*out, *(report.sentence for report in self.carried))
-
-    def to_json(self) -> dict[str, Any]:
-        """Give the result as plain values, without the mesh."""
-        return {
-            "how": self.how,
-            "facets": len(self.probe.faces),
-            "turned": self.turned,
-            "dropped": self.dropped,
-            "openings": [opening.to_json() for opening in self.openings],
-            "invented_mm2": round(1e6 * self.invented_area, 2),
-            "invented_share": round(self.invented_area / float(self.probe.areas.sum()), 6),
-            "alpha_mm": None if self.alpha is None else round(1e3 * self.alpha, 4),
-            "fit": None if self.fit is None else self.fit.to_json(),
-            "regions": [report.to_json() for report in self.carried],
-        }
-
-
-_HOW = {
-    UNCHANGED: "The mesh is its own outer shell: nothing was changed.",
-    REPAIRED: "Facets turned: {turned}, left out: {dropped}; every vertex is where it was.",
-    WRAPPED: "The outside was wrapped in a closed surface; inner walls and parts are gone.",
-}
 
 
 class Steps:
@@ -202,11 +90,11 @@ def make_shell(
     probe : Probe
         Any frame.
     closings : Closing or sequence of Closing
-        For all openings, or one for each, largest first; AUTO for those that are not listed.
+        For all openings, or one for each, largest first; the last one counts for those that are not listed.
     alpha : float, optional
         Size of the wrap's facets, metres; 1/190 of the size when left out.
     coarse : float, optional
-        Gaps narrower than this are bridged, metres; 1/65 of the size when left out.
+        Gaps narrower than this are bridged, metres; 1/65 of the size when left out, or `alpha` if that is more.
     progress : callable, optional
         Told the share done, 0 to 1.
     cancelled : callable, optional
@@ -224,27 +112,37 @@ def make_shell(
         pymeshlab is missing or failed.
     Cancelled
     """
-    coarse = COARSE * probe.size if coarse is None else coarse
     alpha = FINE * probe.size if alpha is None else alpha
+    coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
-    mended = _mended(probe)
-    reach = _NARROWEST * coarse
+    mended = _mended(probe, steps.upto(0.05))
     wrap = wrap_soup(probe.vertices, probe.faces, coarse, progress=steps.upto(0.1), cancelled=cancelled)
-    found = _at_their_lips(find_openings(*wrap, smallest=reach, tick=steps.upto(0.15)), probe, reach)
+    smallest = _NARROWEST * coarse
+    found = _at_their_lips(find_openings(*wrap, smallest=smallest, tick=steps.upto(0.15)), probe, smallest)
     wanted = _wanted(found, closings)
+    if (
+        mended is not None
+        and not found
+        and _is_hollow(probe.vertices, turn(probe.faces, mended[1])[mended[0]])
+    ):
+        mended = None
     if mended is not None and all(closing is Closing.OPEN for closing in wanted):
         left = tuple(ClosedOpening(opening, Closing.OPEN) for opening in found)
         return _as_it_was(probe, *mended, left)
+    whole, specks = _without_specks(probe, wrap)
     closed = [
         ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
         for opening, closing in zip(found, wanted, strict=True)
     ]
-    return _wrapped(probe, tuple(closed), alpha, coarse, steps)
+    return replace(_wrapped(whole, tuple(closed), alpha, coarse, steps), dropped=specks)
 
 
 def _at_their_lips(found: Sequence[Opening], probe: Probe, reach: float) -> list[Opening]:
-    lips = [find_lip(opening, probe.vertices, probe.faces, reach) for opening in found]
+    # The darkness of a cavity begins the deeper below its lip the wider the mouth is.
+    lips = [
+        find_lip(opening, probe.vertices, probe.faces, max(reach, _LIP * opening.width)) for opening in found
+    ]
     return sorted((lip for lip in lips if not lip.is_dent), key=lambda lip: -lip.area)
 
 
@@ -259,17 +157,19 @@ def _wrapped(
     stop = steps.cancelled
     plug = draw_in(wrap_soup(vertices, faces, coarse, progress=steps.upto(0.3), cancelled=stop), coarse)
     original = (probe.vertices, probe.faces)
-    wrapped = fine_wrap(original, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop)
+    wrapped = fine_wrap(
+        original, probe.invented, patches, plug, alpha, progress=steps.upto(0.85), cancelled=stop
+    )
     shell = _checked(wrapped, probe.name)
     fit = measure_fit(probe, patches, wrapped, alpha, steps.upto(1.0))
+    done = Shell(shell, WRAPPED, openings, fit, alpha, crossing=wrapped.crossing, gap=coarse)
     if not probe.region.any():
-        return Shell(shell, WRAPPED, openings, fit, alpha)
+        return done
     with warnings.catch_warnings():
         # Invented facets have no original near them; a region that vanished is told by its report.
         warnings.simplefilter("ignore", MeshWarning)
         moved = transfer(RegionSet.from_labels(probe.region), probe, shell)
-    shell = shell.with_region(moved.regions.labels)
-    return Shell(shell, WRAPPED, openings, fit, alpha, carried=moved.report)
+    return replace(done, probe=shell.with_region(moved.regions.labels), carried=moved.report)
 
 
 def _checked(wrapped: Wrapped, name: str) -> Probe:
@@ -280,16 +180,59 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
             "the wrap is not sound (" + " ".join(shell.health.sentences) + ") Try another alpha, or close the"
             " mesh in the CAD program."
         )
+    if shell.areas[invented].sum() > _MOSTLY * shell.areas.sum():
+        raise MeshError(
+            "more than half of the shell would be invented: the mesh is a sheet without thickness, or a small part of"
+            " a probe. Export the whole part as a solid."
+        )
     return shell
 
 
-def _mended(probe: Probe) -> tuple[NDArray[np.int64], NDArray[np.bool_]] | None:
-    """Facets to keep and to turn for a sound mesh, or None when that does not do."""
+def _without_specks(probe: Probe, wrap: tuple[NDArray[np.float64], NDArray[np.int32]]) -> tuple[Probe, int]:
+    """Leave out what stands beside the part and is small; gives the rest, and how many facets were left out."""
+    vertices, faces = wrap
+    label = parts(faces, np.ones(len(faces), dtype=bool), twins(faces))
+    areas = np.bincount(label, np.linalg.norm(cross_products(vertices, faces), axis=1))
+    if len(areas) == 1:
+        return probe, 0
+    large = areas > _SPECK * areas.max()
+    if np.count_nonzero(large) > 1:
+        one, two = (vertices[faces[label == part]].mean(axis=(0, 1)) for part in np.argsort(-areas)[:2])
+        raise MeshError(
+            f"the mesh has {np.count_nonzero(large)} parts that do not touch, the middles of two of them"
+            f" {1e3 * np.linalg.norm(one - two):.4g} mm apart: delete what is not the probe in the CAD program, or"
+            " bridge the gap between them by a larger one (gap)."
+        )
+    _, nearest, _ = SurfaceIndex(vertices, faces).closest(probe.vertices[probe.faces].mean(axis=1))
+    keep = large[label[nearest]]
+    whole = Probe.from_arrays(
+        probe.vertices,
+        probe.faces[keep],
+        probe.region[keep],
+        invented=probe.invented[keep],
+        name=probe.name,
+        check_size=False,
+    )
+    return whole, int(np.count_nonzero(~keep))
+
+
+def _mended(
+    probe: Probe, tick: Callable[[float], None]
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]] | None:
+    """Facets to keep and to turn for a mesh that needs no wrap, or None when that does not do."""
     faces = probe.faces
-    if is_sound(probe.vertices, faces):
-        return np.arange(len(faces)), np.zeros(len(faces), dtype=bool)
-    kept, turned = repair(probe.vertices, faces)
+    kept, turned = np.arange(len(faces)), np.zeros(len(faces), dtype=bool)
+    if not is_sound(probe.vertices, faces):
+        kept, turned = repair(probe.vertices, faces, tick)
     return (kept, turned) if is_sound(probe.vertices, turn(faces, turned)[kept]) else None
+
+
+def _is_hollow(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> bool:
+    """Tell whether much of the surface lies where next to no light comes: in bores too narrow to find a mouth of."""
+    areas = np.linalg.norm(cross_products(vertices, faces), axis=1)
+    rng = np.random.default_rng(0)
+    some = faces[rng.choice(len(faces), _GLANCES, p=areas / areas.sum())]
+    return bool(np.mean(exposure(vertices, some, SurfaceIndex(vertices, faces), count=64) < _NIGHT) > _MUCH)
 
 
 def _as_it_was(
@@ -315,11 +258,11 @@ def _as_it_was(
 def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> list[Closing]:
     if isinstance(closings, Closing):
         return [closings] * len(found)
-    if len(closings) > len(found):
+    if len(closings) > max(len(found), 1):
         raise MeshError(
             f"{len(closings)} closings were given, but the mesh has {len(found)} openings: leave the others out."
         )
-    return [*closings, *[Closing.AUTO] * (len(found) - len(closings))]
+    return [*closings, *[closings[-1]] * (len(found) - len(closings))][: len(found)]
 
 
 def _check_lengths(alpha: float, coarse: float, size: float) -> None:

@@ -19,6 +19,7 @@ from pipeline.mesh.shell.settle import settle
 from pipeline.mesh.triangles import cross_products, join
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from typing import Unpack
 
     from numpy.typing import NDArray
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
 OFFSET = 0.1
 # How deep the plug lies under the coarse wrap, in its alphas: the offset, and more than the wrap's sag.
 _DRAWN_IN = OFFSET + 0.3
+_SHORT_OF = OFFSET + 0.05
+_PUT_BACK, _PATIENCE = 12, 3
+_NUDGE = 1e-8  # of the size
 
 SURFACE, PATCH, PLUG = 0, 1, 2
 
@@ -50,12 +54,15 @@ class Wrapped:
         SURFACE, PATCH or PLUG.
     held_back : int
         Vertices that kept a part of the offset, because a facet would have folded.
+    crossing : int
+        Facets that still cut through others.
     """
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int32]
     rests_on: NDArray[np.int8]
     held_back: int
+    crossing: int = 0
 
 
 def wrap_soup(
@@ -73,18 +80,30 @@ def wrap_soup(
 
 
 def draw_in(wrap: Surface, alpha: float) -> Surface:
-    """Move a coarse wrap inwards, to where it hides under the surface that it was wrapped round."""
+    """
+    Move a coarse wrap inwards, to where it hides under the surface that it was wrapped round.
+
+    In a thin wall it stops short of the other side, so as not to come out there.
+    """
     vertices, faces = wrap
     cross = cross_products(vertices, faces)
     normals = np.zeros_like(vertices)
     for corner in range(3):
         np.add.at(normals, faces[:, corner], cross)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
-    return vertices - _DRAWN_IN * alpha * normals, faces
+    inwards = -normals
+    thickness, _ = SurfaceIndex(vertices, faces).first_hit(vertices + 1e-3 * alpha * inwards, inwards)
+    depth = np.clip(thickness - _SHORT_OF * alpha, 0.0, _DRAWN_IN * alpha)
+    return vertices + depth[:, None] * inwards, faces
 
 
 def fine_wrap(
-    surface: Surface, patches: list[Surface], plug: Surface, alpha: float, **control: Unpack[Control]
+    surface: Surface,
+    invented: NDArray[np.bool_],
+    patches: list[Surface],
+    plug: Surface,
+    alpha: float,
+    **control: Unpack[Control],
 ) -> Wrapped:
     """
     Wrap surface, patches and plug, and lay the result on them.
@@ -93,6 +112,8 @@ def fine_wrap(
     ----------
     surface, plug : (vertices, faces)
         Metres.
+    invented : (m,) bool
+        Facets of the surface that were patches once.
     patches : list of (vertices, faces)
     alpha : float
         Metres; the facets of the result are of about this size.
@@ -101,15 +122,16 @@ def fine_wrap(
     """
     layers = [surface, *patches, plug]
     vertices, faces = join(layers)
-    kind = np.repeat(
-        np.array([SURFACE, *[PATCH] * len(patches), PLUG], dtype=np.int8), [len(each[1]) for each in layers]
-    )
+    of_surface = np.where(invented, PATCH, SURFACE)
+    of_others = np.repeat([*[PATCH] * len(patches), PLUG], [len(each[1]) for each in layers[1:]])
+    kind = np.concatenate((of_surface, of_others)).astype(np.int8)
     wrap, wrap_faces = wrap_soup(vertices, faces, alpha, **control)
     index = SurfaceIndex(vertices, faces)
     settled, share = settle(wrap, wrap_faces, index.closest(wrap)[2])
-    settled, share = _uncross(wrap, settled, wrap_faces, share)
+    cancelled = control.get("cancelled")
+    settled, share, crossing = _uncross(wrap, settled, wrap_faces, share, cancelled)
     _, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
-    return Wrapped(settled, wrap_faces, kind[nearest], int(np.count_nonzero(share < 1)))
+    return Wrapped(settled, wrap_faces, kind[nearest], int(np.count_nonzero(share < 1)), crossing)
 
 
 def _uncross(
@@ -117,14 +139,30 @@ def _uncross(
     settled: NDArray[np.float64],
     faces: NDArray[np.int32],
     share: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Put back the corners of facets that cut through others: the wrap itself never does."""
-    for _ in range(6):
-        crossing = self_intersections(settled, faces)
-        if not crossing.any():
+    cancelled: Callable[[], bool] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], int]:
+    """
+    Put back the corners of facets that cut through others, and nudge those that only seem to.
+
+    CGAL's wrap never crosses itself, but the library that looks for crossings takes two facets that lie in one
+    plane to the last bit for crossing, even far apart: moved by a nanometre they no longer do
+    (test_what_seems_to_cross_in_the_wrap_itself_is_nudged).
+    """
+    nudge = _NUDGE * float(np.ptp(wrap, axis=0).max())
+    rng = np.random.default_rng(0)
+    doubtful = np.zeros(len(faces), dtype=bool)
+    for attempt in range(_PUT_BACK):
+        crossing = self_intersections(settled, faces, cancelled=cancelled)
+        if not crossing.any() or attempt == _PUT_BACK - 1:
             break
-        corners = np.unique(faces[crossing])
-        # Where both partners are put back they are as the wrap had them.
+        seeming = np.unique(faces[crossing & doubtful])
+        settled[seeming] += rng.normal(0.0, nudge, (len(seeming), 3))
+        corners = np.unique(faces[crossing & ~doubtful])
+        # A corner that is put back may make its neighbours cross, so the later the wider.
+        for _ in range(attempt // 2):
+            corners = np.unique(faces[np.isin(faces, corners).any(axis=1)])
         settled[corners] = wrap[corners]
         share[corners] = 0.0
-    return settled, share
+        if attempt == _PATIENCE:
+            doubtful = self_intersections(wrap, faces, cancelled=cancelled)
+    return settled, share, int(np.count_nonzero(crossing))

@@ -91,6 +91,8 @@ def simplify_apart(
         See `engines.run`.
     """
     vertices, faces, chosen = _even(recipe, mesh, max(count, inside), inside, locate, **control)
+    # Regions that have fewer facets than their share keep all; what they do not use goes to the rest.
+    inside = min(inside, int(np.count_nonzero(chosen)))
     parts = [
         _part(vertices, faces[chosen], inside, **control),
         _part(vertices, faces[~chosen], count - inside, **control),

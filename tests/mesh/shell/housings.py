@@ -18,11 +18,11 @@ def box(low, high, open_top=False):
     return vertices, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))], dtype=np.int32)
 
 
-def housing(arch: float = 0.0) -> Probe:
-    """A box of 60 x 24 x 100 mm with walls of 2 mm, without a lid; ``arch``: how much its long walls rise, m."""
+def housing(arch: float = 0.0, depth: float = HEIGHT - WALL) -> Probe:
+    """A box of 60 x 24 x 100 mm with walls of 2 mm, open above and so deep; its long walls rise by ``arch``, m."""
     outer, faces = box([-LENGTH / 2, -WIDTH / 2, 0], [LENGTH / 2, WIDTH / 2, HEIGHT], open_top=True)
     inner, inner_faces = box(
-        [-LENGTH / 2 + WALL, -WIDTH / 2 + WALL, WALL],
+        [-LENGTH / 2 + WALL, -WIDTH / 2 + WALL, HEIGHT - depth],
         [LENGTH / 2 - WALL, WIDTH / 2 - WALL, HEIGHT],
         open_top=True,
     )

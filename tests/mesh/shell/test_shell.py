@@ -78,15 +78,24 @@ def test_an_arched_mouth_keeps_its_arch(closing):
     assert height == pytest.approx(arch, abs=1.2e-3 if closing is Closing.FAIR else 3e-4)
 
 
+def test_a_sound_mesh_whose_opening_is_left_open_is_left_as_it_is():
+    probe = housing()
+    shell = make_shell(probe, [Closing.OPEN], alpha=ALPHA, coarse=GAP)
+    assert shell.probe is probe
+    assert shell.openings[0].closing is Closing.OPEN
+
+
 def test_an_opening_left_open_is_lined():
-    shell = make_shell(housing(), [Closing.OPEN], alpha=ALPHA, coarse=GAP)
+    probe = housing()
+    twice = Probe.from_arrays(probe.vertices, np.concatenate((probe.faces, [[0, 1, 9]])))  # a fin: not sound
+    shell = make_shell(twice, [Closing.OPEN], alpha=ALPHA, coarse=GAP)
+    assert shell.how == "wrapped"
     assert shell.probe.health.sentences == ()
     assert shell.openings[0].closing is Closing.OPEN
     distance, _, _ = SurfaceIndex(shell.probe.vertices, shell.probe.faces).closest(
         np.array([[0.0, 0.0, WALL], [0.0, WIDTH / 2 - WALL, HEIGHT / 2]])
     )
     assert distance.max() < 5e-4  # the inner floor and an inner wall are still there
-    assert shell.invented_area < 0.01 * MOUTH
 
 
 def test_regions_of_the_original_are_carried_over():
@@ -98,6 +107,14 @@ def test_regions_of_the_original_are_carried_over():
     area = shell.probe.areas[shell.probe.region == 1].sum()
     assert area == pytest.approx(LENGTH * HEIGHT, rel=0.05)
     assert (shell.probe.normals[shell.probe.region == 1, 1] < -0.5).mean() > 0.95
+
+
+@pytest.mark.parametrize("depth", [0.002, 0.004])
+def test_a_dent_is_part_of_the_shape(depth):
+    probe = housing(depth=depth)
+    shell = make_shell(probe, alpha=ALPHA, coarse=GAP)
+    assert shell.openings == ()
+    assert shell.probe is probe
 
 
 # ---- meshes that need less -------------------------------------------------------------------------
@@ -146,6 +163,69 @@ def test_a_wrap_sees_every_facet():
     shell = make_shell(Probe.from_arrays(vertices, np.concatenate((faces, fin))), alpha=ALPHA, coarse=GAP)
     assert len(shell.openings) == 1
     assert shell.fit.visible_p95 < 2e-4
+
+
+@pytest.mark.parametrize("height", [0.08, 0.15])
+def test_a_wide_mouth_is_closed_at_its_lip_with_the_usual_lengths(height):
+    outer, faces = box([-0.03, -0.02, 0], [0.03, 0.02, height], open_top=True)
+    inner, inner_faces = box([-0.028, -0.018, 0.002], [0.028, 0.018, height], open_top=True)
+    lip = [[4, 5, 13], [4, 13, 12], [5, 7, 15], [5, 15, 13], [7, 6, 14], [7, 14, 15], [6, 4, 12], [6, 12, 14]]
+    triangles = np.concatenate((faces, inner_faces[:, ::-1] + 8, lip)).astype(np.int32)
+    shell = make_shell(Probe.from_arrays(np.concatenate((outer, inner)), triangles), alpha=ALPHA)
+    assert shell.openings[0].opening.rim[:, 2] == pytest.approx(height, abs=1e-4)
+    lid = shell.probe.vertices[shell.probe.faces[shell.probe.invented]].mean(axis=1)
+    assert np.percentile(lid[:, 2], 5) == pytest.approx(height, abs=2e-4)
+
+
+def test_a_bore_too_narrow_to_find_is_bridged():
+    import trimesh
+
+    tube = trimesh.creation.annulus(0.004, 0.005, 0.4, sections=48)
+    shell = make_shell(Probe.from_arrays(tube.vertices, tube.faces.astype(np.int32)), alpha=0.003)
+    assert shell.how == "wrapped"
+    corners = shell.probe.vertices[shell.probe.faces]
+    volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    assert volume == pytest.approx(np.pi * 0.005**2 * 0.4, rel=0.05)  # full, not hollow
+
+
+def test_what_was_invented_once_stays_so(closed):
+    probe = closed.probe
+    side = probe.normals[:, 1] < -0.9
+    pierced = side & (
+        np.linalg.norm(probe.vertices[probe.faces].mean(axis=1) - [0, -0.012, 0.05], axis=1) < 0.006
+    )
+    kept = ~pierced
+    again = Probe.from_arrays(probe.vertices, probe.faces[kept], invented=probe.invented[kept])
+    shell = make_shell(again, alpha=ALPHA, coarse=GAP)
+    before = probe.areas[probe.invented].sum()
+    assert shell.probe.areas[shell.probe.invented].sum() > before + 0.8 * probe.areas[pierced].sum()
+
+
+# ---- what is not one part --------------------------------------------------------------------------
+
+
+def beside(size, apart):
+    part, faces = box([0, 0, 0], [0.03, 0.03, 0.08])
+    other, other_faces = box([apart, 0, 0], [apart + size, size, size])
+    return Probe.from_arrays(np.concatenate((part, other)), np.concatenate((faces, other_faces + 8)))
+
+
+def test_a_speck_beside_the_part_is_left_out():
+    shell = make_shell(beside(0.001, 0.05), alpha=ALPHA)
+    assert shell.dropped == 12
+    assert shell.probe.bounds[1, 0] == pytest.approx(0.03, abs=1e-4)
+    assert any("Specks beside the part" in sentence for sentence in shell.sentences)
+
+
+def test_two_parts_are_refused_before_the_work():
+    with pytest.raises(MeshError, match="2 parts that do not touch"):
+        make_shell(beside(0.03, 0.06), alpha=ALPHA)
+
+
+def test_a_sheet_is_refused():
+    plate = np.array([[0, 0, 0], [0.1, 0, 0], [0.1, 0.05, 0], [0, 0.05, 0]])
+    with pytest.raises(MeshError, match="a sheet without thickness"):
+        make_shell(Probe.from_arrays(plate, np.array([[0, 1, 2], [0, 2, 3]])))
 
 
 # ---- asked for nonsense, or stopped ----------------------------------------------------------------

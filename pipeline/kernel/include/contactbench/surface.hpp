@@ -202,11 +202,14 @@ private:
     static bool meets(const Node& node, const Vec3& o, const Vec3& inverse, double longest) {
         double near = 0.0, far = longest;
         const auto slab = [&](double low, double high, double from, double inv) {
-            // 0 * inf is NaN where the ray runs within a side of the box: the min/max below then keep the
-            // other operand, and the slab does not cut.
+            // A ray along the slab is in it for good or never; 0 * inf would be NaN at its very side.
+            if (std::isinf(inv)) {
+                if (from < low || from > high) far = -1.0;
+                return;
+            }
             const double a = (low - from) * inv, b = (high - from) * inv;
-            near = std::max(near, std::min(a, b) == std::min(a, b) ? std::min(a, b) : near);
-            far = std::min(far, std::max(a, b) == std::max(a, b) ? std::max(a, b) : far);
+            near = std::max(near, std::min(a, b));
+            far = std::min(far, std::max(a, b));
         };
         slab(node.low.x, node.high.x, o.x, inverse.x);
         slab(node.low.y, node.high.y, o.y, inverse.y);

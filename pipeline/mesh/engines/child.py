@@ -31,6 +31,8 @@ _POLL_S = 0.05
 _STARTED, _WORKING, _DONE = 0.0, 0.1, 1.0
 
 # What the child says goes into error messages; the end of it is where the reason stands.
+# A mesh of 100,000 facets has 4 MB: in pipes of 64 kB parent and child would take turns sixty times.
+_PIPE_BYTES = 2**20
 _LAST_WORDS = 300
 
 
@@ -171,6 +173,8 @@ class Child:
             raise EngineError(
                 f"{self.library} cannot be started ({error}): check that {sys.executable} can be run."
             ) from error
+
+        _widen(self._process)
 
     def _exchange(self, request: Message, watch: Watch) -> Message:
         process, noise = self._process, self._noise
@@ -316,3 +320,15 @@ def _cause(code: int) -> str:
         return f"exit code {code}"
     name = signal.Signals(-code).name if -code in set(signal.Signals) else f"signal {-code}"
     return f"{name}, perhaps for want of memory" if name == "SIGKILL" else name
+
+
+def _widen(process: subprocess.Popen[bytes]) -> None:
+    """Give the pipes room for a mesh, where the system lets itself be asked."""
+    try:
+        import fcntl
+    except ImportError:  # not a POSIX system
+        return
+    for pipe in (process.stdin, process.stdout):
+        # A user who has many pipes open already is refused, and 64 kB do the work as well.
+        with contextlib.suppress(OSError, AttributeError):
+            fcntl.fcntl(cast("BinaryIO", pipe).fileno(), fcntl.F_SETPIPE_SZ, _PIPE_BYTES)

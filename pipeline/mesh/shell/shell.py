@@ -256,13 +256,12 @@ def _as_it_was(
 
 
 def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> list[Closing]:
-    if isinstance(closings, Closing):
-        return [closings] * len(found)
-    if len(closings) > max(len(found), 1):
+    listed = [closings] if isinstance(closings, Closing) else [*closings] or [Closing.AUTO]
+    if len(listed) > max(len(found), 1):
         raise MeshError(
-            f"{len(closings)} closings were given, but the mesh has {len(found)} openings: leave the others out."
+            f"{len(listed)} closings were given, but the mesh has {len(found)} openings: leave the others out."
         )
-    return [*closings, *[closings[-1]] * (len(found) - len(closings))][: len(found)]
+    return [*listed, *[listed[-1]] * (len(found) - len(listed))][: len(found)]
 
 
 def _check_lengths(alpha: float, coarse: float, size: float) -> None:

@@ -11,6 +11,8 @@ from pipeline.kernel import SurfaceIndex
 from pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
 from pipeline.mesh.engines import Cancelled, self_intersections
 from pipeline.mesh.shell import Closing, make_shell
+from pipeline.mesh.shell.openings import describe
+from pipeline.mesh.shell.shell import _wanted
 
 pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
 
@@ -241,6 +243,20 @@ def test_lengths_that_make_no_sense_are_refused():
 def test_more_closings_than_openings_are_refused():
     with pytest.raises(MeshError, match="2 closings were given, but the mesh has 1 opening"):
         make_shell(housing(), [Closing.HULL, Closing.HULL], alpha=ALPHA, coarse=GAP)
+
+
+def test_the_last_closing_counts_for_the_rest_and_none_means_auto():
+    two = [housing_opening() for _ in range(2)]
+    assert _wanted(two, []) == [Closing.AUTO] * 2
+    assert _wanted(two, [Closing.HULL]) == [Closing.HULL] * 2
+    assert _wanted(two, [Closing.HULL, Closing.OPEN]) == [Closing.HULL, Closing.OPEN]
+    assert _wanted([], Closing.FAIR) == _wanted([], [Closing.FAIR]) == []
+
+
+def housing_opening():
+    return describe(
+        np.array([[0.0, 0, 0], [0.01, 0, 0], [0.01, 0.01, 0], [0, 0.01, 0]]), np.array([[0, 0, -0.1]])
+    )
 
 
 def test_it_can_be_stopped_and_tells_how_far_it_is():

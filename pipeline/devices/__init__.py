@@ -1,0 +1,1 @@
+"""Force/torque sensors and robots: from the bytes on a line to samples."""

@@ -1,0 +1,166 @@
+"""
+Bota Systems force/torque sensors on a serial line (SensONE, Rokubi, MiniONE).
+
+A frame of 37 bytes, little endian: AA, status (uint16), six float32 (N and N·m), time (uint32, µs),
+temperature (float32, °C), CRC-16/X-25 of all between AA and itself.
+
+In random bytes a false frame comes once in 2^24 bytes, because the header is a single byte.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+
+from pipeline.devices.protocols.checksums import crc16_x25
+from pipeline.devices.protocols.commands import Command, check_line, check_rate
+from pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
+from pipeline.devices.protocols.scanner import FrameScanner
+from pipeline.devices.protocols.sequence import DeviceClock
+from pipeline.devices.sample import Status, WrenchSample
+
+FRAME_BYTES = 37
+_FRAME = struct.Struct("<xH6fIfH")
+_CRC_AT = 35
+
+_FLAGS = {1: Status.LATE, 2: Status.OVERRANGE, 4: Status.INVALID, 8: Status.RAW}
+_KNOWN_BITS = sum(_FLAGS)
+
+# The sensor averages over a number of readings, each this long, s; that sets its rate.
+_READING = 1.953125e-5
+_FEWEST_READINGS, _MOST_READINGS = 51, 512
+LOWEST_RATE, HIGHEST_RATE = (1 / (_READING * n) for n in (_MOST_READINGS, _FEWEST_READINGS))
+
+_BAUD_CODES = {9600: 0, 57600: 1, 115200: 2, 230400: 3, 460800: 4}
+DEFAULT_BAUD = 460800
+
+
+class BotaParser:
+    """
+    `SensorParser` for Bota's binary frames.
+
+    There is no sample count. With the rate given, `lost` is estimated from the sensor's clock.
+
+    Parameters
+    ----------
+    rate_hz : float, optional
+        What the sensor was told to stream at.
+
+    Raises
+    ------
+    ProtocolError
+        The rate is not finite or not positive.
+    """
+
+    def __init__(self, rate_hz: float | None = None) -> None:
+        if rate_hz is not None and not (math.isfinite(rate_hz) and rate_hz > 0):
+            raise ProtocolError(f"Bota: the rate must be finite and above 0 Hz, not {rate_hz!r}.")
+        self._rate = rate_hz
+        self._scanner = FrameScanner(b"\xaa", FRAME_BYTES, _intact)
+        self._clock = DeviceClock(32, 1e-6)
+        self._last_frame = b""
+        self._duplicates = 0
+        self._invalid = 0
+        self._lost = 0
+
+    @property
+    def counters(self) -> Counters:
+        """As `SensorParser`."""
+        scanner = self._scanner
+        return Counters(
+            frames=scanner.frames,
+            bad_checksums=scanner.bad_checksums,
+            skipped_bytes=scanner.skipped_bytes,
+            lost=self._lost,
+            duplicates=self._duplicates,
+            wraps=self._clock.wraps,
+            restarts=self._clock.jumps,
+            invalid=self._invalid,
+        )
+
+    @property
+    def pending(self) -> int:
+        """As `SensorParser`."""
+        return self._scanner.pending
+
+    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
+        """As `SensorParser`."""
+        samples: list[WrenchSample] = []
+        for frame in self._scanner.push(data):
+            if frame == self._last_frame:
+                self._duplicates += 1
+                continue
+            self._last_frame = frame
+            samples.append(self._read(frame, time))
+        return samples
+
+    def reset(self) -> None:
+        """As `SensorParser`."""
+        self._scanner.reset()
+
+    def _read(self, frame: bytes, time: float) -> WrenchSample:
+        bits, fx, fy, fz, mx, my, mz, ticks, temperature, _ = _FRAME.unpack(frame)
+        not_finite = finite_status((fx, fy, fz, mx, my, mz, temperature))
+        self._invalid += not_finite is not Status.OK
+        device_time = self._clock.read(ticks, time)
+        if self._rate is not None:
+            self._lost += max(round(self._clock.step * self._rate) - 1, 0)
+        return WrenchSample(
+            time,
+            (fx, fy, fz),
+            (mx, my, mz),
+            status=_status(bits) | not_finite,
+            device_time=device_time,
+            temperature=temperature if math.isfinite(temperature) else None,
+        )
+
+
+def start_commands(rate_hz: float, *, baud: int = DEFAULT_BAUD) -> tuple[Command, ...]:
+    """
+    Return what makes the sensor stream: configure, binary frames, rate, run.
+
+    After power-up the sensor prints text ending in "App Init"; wait for it, or for silence, first.
+
+    Parameters
+    ----------
+    rate_hz : float
+        100 to 1004 Hz; the sensor takes the nearest of its own (an average over 51 to 512 readings).
+    baud : int
+        Of the line, which the configuration repeats so that it stays.
+
+    Raises
+    ------
+    ProtocolError
+        The sensor or the line cannot do that rate, or the sensor has no such baud rate.
+    """
+    check_rate("Bota", rate_hz, LOWEST_RATE, HIGHEST_RATE)
+    if baud not in _BAUD_CODES:
+        known = ", ".join(map(str, _BAUD_CODES))
+        raise ProtocolError(f"Bota: {baud} is not a baud rate of the sensor: choose one of {known}.")
+    check_line("Bota", rate_hz, baud, FRAME_BYTES)
+    readings = round(1 / (rate_hz * _READING))
+    return (
+        *stop_commands(),
+        Command(f"c,0,1,0,{_BAUD_CODES[baud]}".encode(), b"r,0,c,0"),
+        Command(f"f,{readings},0,0,1".encode(), b"r,0,f,0"),
+        Command(b"R", b"r,0,R,0"),
+    )
+
+
+def stop_commands() -> tuple[Command, ...]:
+    """Return what ends the stream: the sensor waits for its configuration."""
+    return (Command(b"C", b"r,0,C,0"),)
+
+
+def _intact(frame: bytes) -> bool:
+    return crc16_x25(frame[1:_CRC_AT]) == int.from_bytes(frame[_CRC_AT:], "little")
+
+
+def _status(bits: int) -> Status:
+    status = Status.OK
+    if bits == 0:
+        return status
+    for bit, flag in _FLAGS.items():
+        if bits & bit:
+            status |= flag
+    return status | Status.ERROR if bits & ~_KNOWN_BITS else status

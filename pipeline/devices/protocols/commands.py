@@ -1,0 +1,79 @@
+"""Commands as values, and the rates that a serial line can carry."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from pipeline.devices.protocols.parser import ProtocolError
+
+# A start bit, eight data bits and a stop bit (8N1).
+_BITS_PER_BYTE = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """
+    One command to a device.
+
+    Attributes
+    ----------
+    data : bytes
+        What to write.
+    reply : bytes or None
+        What the device's answer contains when it agrees; None where no answer comes, or none is known.
+    """
+
+    data: bytes
+    reply: bytes | None = None
+
+
+def highest_rate(baud: int, frame_bytes: int) -> float:
+    """
+    Return the frames per second that a serial line (8N1) can carry.
+
+    Parameters
+    ----------
+    baud : int
+        Bits per second.
+    frame_bytes : int
+        Length of a frame.
+    """
+    return baud / _BITS_PER_BYTE / frame_bytes
+
+
+def check_rate(device: str, rate_hz: float, low: float, high: float) -> float:
+    """
+    Return a sample rate that the device has.
+
+    Raises
+    ------
+    ProtocolError
+        It is not finite or outside low .. high, Hz.
+    """
+    if not (math.isfinite(rate_hz) and low <= rate_hz <= high):
+        raise ProtocolError(
+            f"{device}: the rate must be between {low:g} and {high:g} Hz, not {rate_hz:g}: choose one there."
+        )
+    return rate_hz
+
+
+def check_line(device: str, rate_hz: float, baud: int | None, frame_bytes: int) -> None:
+    """
+    Refuse a rate that the serial line cannot carry; `baud` None means that there is no serial line.
+
+    Raises
+    ------
+    ProtocolError
+        The baud rate is not positive, or too low.
+    """
+    if baud is None:
+        return
+    if baud <= 0:
+        raise ProtocolError(f"{device}: the baud rate must be above 0, not {baud}.")
+    ceiling = highest_rate(baud, frame_bytes)
+    if rate_hz > ceiling:
+        raise ProtocolError(
+            f"{device}: {rate_hz:g} Hz does not fit on a line of {baud} baud, which carries "
+            f"{math.floor(ceiling)} frames of {frame_bytes} bytes a second: lower the rate or raise the baud rate."
+        )

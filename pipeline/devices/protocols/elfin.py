@@ -1,0 +1,247 @@
+"""
+Hans Robot's controllers (Elfin), the text protocol on TCP port 10003.
+
+A request is "<Command>,<arguments>,;", an answer "<Command>,OK,<values>,;" or "<Command>,Fail,<code>,;";
+an unknown command is answered by "errorcmd,...". Only questions are asked here.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from enum import Enum, StrEnum
+
+from pipeline.devices.protocols.parser import ProtocolError
+
+PORT = 10003
+_END = b";"
+# Several times the longest answer known, of 24 numbers.
+_LONGEST_REPLY = 2048
+
+# Narrower than float() and int(), which also read "1_0" and numbers of any length.
+_DECIMAL = re.compile(r"\s*[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})([eE][+-]?\d{1,3})?\s*")
+_WHOLE = re.compile(r"\s*[+-]?\d{1,10}\s*")
+
+
+class ElfinError(ProtocolError):
+    """An answer of the controller that cannot be used."""
+
+
+class Question(StrEnum):
+    """Everything that is ever asked."""
+
+    POSITION = "ReadActPos"
+    """Joints and Cartesian pose, together."""
+    POSE = "ReadPcsActualPos"
+    """Cartesian pose alone, on older controllers."""
+    JOINTS = "ReadActACS"
+    """Joints alone."""
+    STATE = "ReadRobotState"
+    """Flags: moving, enabled, in error..."""
+
+    def request(self) -> bytes:
+        """Return the bytes to send; they go to the first robot of the controller."""
+        return f"{self.value},0,;".encode()
+
+
+class Outcome(Enum):
+    """How the controller answered."""
+
+    OK = "OK"
+    FAIL = "Fail"
+    UNKNOWN_COMMAND = "errorcmd"
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """
+    One answer.
+
+    Attributes
+    ----------
+    command : str
+        The question that it answers; empty for an unknown command.
+    outcome : Outcome
+    values : tuple of str
+        What follows OK or Fail.
+    """
+
+    command: str
+    outcome: Outcome
+    values: tuple[str, ...] = ()
+
+
+class ReplyReader:
+    """
+    Cuts a stream into answers; what is no answer is dropped and counted.
+
+    Attributes
+    ----------
+    malformed : int
+        Pieces that ended in ";" but were no answer, or were longer than any answer.
+    skipped_bytes : int
+        Their bytes.
+    """
+
+    def __init__(self) -> None:
+        self._buffer = bytearray()
+        self._overlong = False
+        self.malformed = 0
+        self.skipped_bytes = 0
+
+    @property
+    def pending(self) -> int:
+        """Bytes that wait for their ";"."""
+        return len(self._buffer)
+
+    def feed(self, data: bytes) -> list[Reply]:
+        """Take bytes as they arrive, cut anywhere; return the answers that end in them, oldest first."""
+        replies: list[Reply] = []
+        *whole, rest = bytes(data).split(_END)
+        for piece in whole:
+            self._collect(piece)
+            reply = None if self._overlong else _reply(bytes(self._buffer))
+            if reply is None:
+                self.malformed += 1
+                self.skipped_bytes += len(self._buffer) + len(_END)
+            else:
+                replies.append(reply)
+            self._buffer.clear()
+            self._overlong = False
+        self._collect(rest)
+        return replies
+
+    def reset(self) -> None:
+        """Forget half an answer, after the line was lost."""
+        self.skipped_bytes += len(self._buffer)
+        self._buffer.clear()
+        self._overlong = False
+
+    def _collect(self, piece: bytes) -> None:
+        if self._overlong or len(self._buffer) + len(piece) > _LONGEST_REPLY:
+            self._overlong = True
+            self.skipped_bytes += len(self._buffer) + len(piece)
+            self._buffer.clear()
+        else:
+            self._buffer += piece
+
+
+@dataclass(frozen=True, slots=True)
+class RobotState:
+    """What a controller says about its robot; unknown flags of newer firmware are left out."""
+
+    moving: bool
+    enabled: bool
+    error: bool
+    error_code: int
+    error_axis: int
+    braking: bool
+    paused: bool
+    emergency_stop: bool
+    safeguard: bool
+    powered: bool
+    board_connected: bool
+    blending_done: bool
+
+
+_STATE_VALUES = 12
+
+
+def read_state(reply: Reply) -> RobotState:
+    """
+    Read the answer to `Question.STATE`.
+
+    Raises
+    ------
+    ElfinError
+        It answers something else, is a failure, or has the wrong values.
+    """
+    numbers = [_whole(value) for value in _values(reply, Question.STATE)]
+    if len(numbers) < _STATE_VALUES:
+        raise ElfinError(
+            f"Elfin: {Question.STATE} gave {len(numbers)} values instead of {_STATE_VALUES}: "
+            "this controller's software is not supported."
+        )
+    moving, enabled, error, code, axis, *flags = numbers[:_STATE_VALUES]
+    braking, paused, emergency_stop, safeguard, powered, board_connected, blending_done = map(bool, flags)
+    return RobotState(
+        bool(moving),
+        bool(enabled),
+        bool(error),
+        code,
+        axis,
+        braking,
+        paused,
+        emergency_stop,
+        safeguard,
+        powered,
+        board_connected,
+        blending_done,
+    )
+
+
+def read_numbers(reply: Reply, question: Question) -> tuple[float, ...]:
+    """
+    Read the answer to a question about joints or pose, as the controller gives it: degrees and mm.
+
+    Returns
+    -------
+    tuple of float
+        12 for `Question.POSITION` (also where newer firmware sends 24), else 6.
+
+    Raises
+    ------
+    ElfinError
+        It answers something else, is a failure, or a value is missing or not a finite number.
+    """
+    wanted = 12 if question is Question.POSITION else 6
+    texts = _values(reply, question)
+    if len(texts) < wanted:
+        raise ElfinError(
+            f"Elfin: {question} gave {len(texts)} values instead of {wanted}: "
+            "this controller's software is not supported."
+        )
+    return tuple(_finite(text) for text in texts[:wanted])
+
+
+def _values(reply: Reply, question: Question) -> tuple[str, ...]:
+    if reply.outcome is Outcome.UNKNOWN_COMMAND:
+        raise ElfinError(f"Elfin: the controller does not know {question}: ask in another way.")
+    if reply.command != question:
+        raise ElfinError(f"Elfin: {question} was asked, {reply.command!r} was answered: reconnect.")
+    if reply.outcome is Outcome.FAIL:
+        code = reply.values[0] if reply.values else "none"
+        raise ElfinError(
+            f"Elfin: the controller refused {question} with error code {code}: look it up on the robot's panel."
+        )
+    return reply.values
+
+
+def _reply(piece: bytes) -> Reply | None:
+    if not piece.isascii():
+        return None
+    command, *fields = piece.decode("ascii").strip().removesuffix(",").split(",")
+    if command == Outcome.UNKNOWN_COMMAND.value:
+        return Reply("", Outcome.UNKNOWN_COMMAND, tuple(fields))
+    if not command.isalnum() or not fields:
+        return None
+    for outcome in (Outcome.OK, Outcome.FAIL):
+        if fields[0] == outcome.value:
+            return Reply(command, outcome, tuple(fields[1:]))
+    return None
+
+
+def _finite(text: str) -> float:
+    number = float(text) if _DECIMAL.fullmatch(text) else math.nan
+    if not math.isfinite(number):
+        raise ElfinError(f"Elfin: {text[:40]!r} is not a finite number: the controller has no position yet.")
+    return number
+
+
+def _whole(text: str) -> int:
+    if not _WHOLE.fullmatch(text):
+        raise ElfinError(
+            f"Elfin: {text[:40]!r} is not a whole number: this controller's software is not supported."
+        )
+    return int(text)

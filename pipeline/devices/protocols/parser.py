@@ -1,0 +1,96 @@
+"""What all sensor parsers have in common."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from pipeline.devices.sample import Status
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pipeline.devices.sample import WrenchSample
+
+
+class ProtocolError(InputError):
+    """A request that a protocol cannot carry, or a reply that refuses one: names the remedy."""
+
+
+@dataclass(frozen=True, slots=True)
+class Counters:
+    """
+    What a parser has seen since it was made.
+
+    Every byte is in a frame, skipped, or still waiting for the rest of its frame.
+
+    Attributes
+    ----------
+    frames : int
+        Frames with the right header, length and checksum, duplicates included.
+    bad_checksums : int
+        Places that began like a frame and failed the check: damaged frames, and header bytes by chance.
+    skipped_bytes : int
+        Bytes outside every frame.
+    lost : int
+        Samples missing by the device's own count or, for Bota, by its clock.
+    duplicates : int
+        Frames repeated byte for byte, or overtaken by later ones: dropped, never given again as new.
+    wraps : int
+        Times the device's count or clock went through zero.
+    restarts : int
+        Times the count or clock went anywhere else: the device was restarted, or its clock was set.
+    bad_numbers : int
+        Single sequence numbers that fitted neither what came before nor what came after.
+    invalid : int
+        Samples with a number that is not finite; they carry `Status.INVALID`.
+    """
+
+    frames: int = 0
+    bad_checksums: int = 0
+    skipped_bytes: int = 0
+    lost: int = 0
+    duplicates: int = 0
+    wraps: int = 0
+    restarts: int = 0
+    bad_numbers: int = 0
+    invalid: int = 0
+
+
+class SensorParser(Protocol):
+    """Turns the bytes of one sensor into samples."""
+
+    @property
+    def counters(self) -> Counters:
+        """A snapshot of what was seen so far."""
+
+    @property
+    def pending(self) -> int:
+        """Bytes that wait for the rest of their frame; always fewer than one frame."""
+
+    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
+        """
+        Take bytes as they arrive, cut anywhere; for a datagram protocol, one whole datagram.
+
+        Parameters
+        ----------
+        data : bytes
+            Any bytes: what is not a frame is skipped and counted, never an error.
+        time : float
+            When the last of them arrived, seconds of the host's monotonic clock.
+
+        Returns
+        -------
+        list of WrenchSample
+            One per intact frame that ends in these bytes, oldest first.
+        """
+
+    def reset(self) -> None:
+        """Forget half a frame, after the line was lost. Counters and numbering go on."""
+
+
+def finite_status(numbers: Sequence[float]) -> Status:
+    """Return OK, or INVALID if any number is NaN or infinite."""
+    return Status.OK if all(map(math.isfinite, numbers)) else Status.INVALID

@@ -1,0 +1,167 @@
+"""
+RDT over UDP: ATI Net F/T and Ethernet Axia, OnRobot and OptoForce HEX.
+
+A record is one datagram of 36 bytes, big endian: the record's number, the sensor's sample number and a
+status (uint32 each), six int32 counts. UDP's own checksum is the only one: whatever has 36 bytes is a
+record, so a driver must listen to the sensor's address alone.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from dataclasses import dataclass
+from enum import IntEnum
+
+from pipeline.devices.protocols.commands import Command, check_rate
+from pipeline.devices.protocols.parser import Counters, ProtocolError
+from pipeline.devices.protocols.sequence import SequenceCounter
+from pipeline.devices.sample import Status, WrenchSample
+
+RECORD_BYTES = 36
+PORT = 49152
+_RECORD = struct.Struct(">3I6i")
+_REQUEST = struct.Struct(">HHI")
+_MAGIC = 0x1234
+
+# Datagrams that overtake each other are a few apart; further back is a sensor that began again.
+_REORDER = 16
+
+
+class _Request(IntEnum):
+    STOP = 0x0000
+    START = 0x0002
+    PERIOD = 0x0082
+    """OnRobot only: milliseconds between records."""
+
+
+class Profile(IntEnum):
+    """Whose dialect is spoken."""
+
+    ATI = 1
+    ONROBOT = 2
+
+
+@dataclass(frozen=True, slots=True)
+class CountScale:
+    """
+    Counts per unit.
+
+    Attributes
+    ----------
+    per_newton, per_newton_metre : float
+        ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
+
+    Raises
+    ------
+    ProtocolError
+        One is not finite or not positive.
+    """
+
+    per_newton: float
+    per_newton_metre: float
+
+    def __post_init__(self) -> None:
+        for value in (self.per_newton, self.per_newton_metre):
+            if not (math.isfinite(value) and value > 0):
+                raise ProtocolError(
+                    f"RDT: counts per unit must be finite and above 0, not {value!r}: "
+                    "read them from the sensor's configuration page."
+                )
+
+
+ATI_TYPICAL = CountScale(1e6, 1e6)
+ONROBOT_SCALE = CountScale(1e4, 1e5)
+
+
+class RdtParser:
+    """
+    `SensorParser` for RDT records; each `feed` takes one datagram.
+
+    A status other than 0 makes a sample ERROR and INVALID: the word covers saturation and faults, and the
+    numbers are then no measurement.
+
+    Parameters
+    ----------
+    scale : CountScale
+        Of this very sensor.
+    """
+
+    def __init__(self, scale: CountScale) -> None:
+        self._scale = scale
+        self._sequence = SequenceCounter(32, reorder=_REORDER)
+        self._last = b""
+        self._frames = 0
+        self._skipped = 0
+        self._duplicates = 0
+
+    @property
+    def counters(self) -> Counters:
+        """As `SensorParser`."""
+        sequence = self._sequence
+        return Counters(
+            frames=self._frames,
+            skipped_bytes=self._skipped,
+            lost=sequence.lost,
+            duplicates=self._duplicates + sequence.overtaken,
+            wraps=sequence.wraps,
+            restarts=sequence.restarts,
+            bad_numbers=sequence.bad_numbers,
+        )
+
+    @property
+    def pending(self) -> int:
+        """Return 0: a datagram is whole."""
+        return 0
+
+    def feed(self, data: bytes, time: float) -> list[WrenchSample]:
+        """As `SensorParser`; `data` is one datagram."""
+        if len(data) != RECORD_BYTES:
+            self._skipped += len(data)
+            return []
+        self._frames += 1
+        if data == self._last:
+            self._duplicates += 1
+            return []
+        self._last = bytes(data)
+        raw, _, status, *counts = _RECORD.unpack(data)
+        number = self._sequence.number(raw)
+        return [] if number is None else [self._sample(time, number, status, counts)]
+
+    def reset(self) -> None:
+        """As `SensorParser`."""
+
+    def _sample(self, time: float, number: int, status: int, counts: list[int]) -> WrenchSample:
+        fx, fy, fz = (count / self._scale.per_newton for count in counts[:3])
+        mx, my, mz = (count / self._scale.per_newton_metre for count in counts[3:])
+        flags = Status.OK if status == 0 else Status.ERROR | Status.INVALID
+        return WrenchSample(time, (fx, fy, fz), (mx, my, mz), number, flags)
+
+
+def start_commands(rate_hz: float, *, profile: Profile = Profile.ATI) -> tuple[Command, ...]:
+    """
+    Return what makes the sensor stream until it is told to stop.
+
+    An ATI sensor streams at the rate that is set on its configuration page, whatever `rate_hz` is. An
+    OnRobot box is told the period, in whole milliseconds.
+
+    Raises
+    ------
+    ProtocolError
+        The rate is not one that the sensor can have.
+    """
+    start = _request(_Request.START, 0)
+    if profile is Profile.ATI:
+        check_rate("RDT", rate_hz, 1.0, 7000.0)
+        return (start,)
+    check_rate("RDT", rate_hz, 4.0, 1000.0)
+    return (_request(_Request.PERIOD, round(1000 / rate_hz)), start)
+
+
+def stop_commands() -> tuple[Command, ...]:
+    """Return what ends the stream."""
+    return (_request(_Request.STOP, 0),)
+
+
+def _request(command: _Request, argument: int) -> Command:
+    return Command(_REQUEST.pack(_MAGIC, command, argument))

@@ -1,0 +1,262 @@
+"""Streams of a sensor: cut, spliced, damaged, repeated, run round, not finite."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable
+from itertools import pairwise
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pipeline.devices.protocols import ProtocolError, SensorParser
+from pipeline.devices.protocols.bota import BotaParser
+from pipeline.devices.protocols.checksums import crc16_x25, sum8
+from pipeline.devices.protocols.rdt import ATI_TYPICAL, CountScale, RdtParser
+from pipeline.devices.protocols.robotiq import RobotiqParser
+from pipeline.devices.protocols.sri import Layout, SriParser
+from pipeline.devices.sample import Status
+
+SERIAL: dict[str, Callable[[], SensorParser]] = {
+    "sri": SriParser,
+    "bota": BotaParser,
+    "robotiq": RobotiqParser,
+}
+GOLDEN = {
+    "sri": bytes.fromhex("AA55001B00010000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D86"),
+    "bota": bytes.fromhex("AA00000000803F000000C000006040CDCCCC3DCDCC4CBECDCC4C3D40E201000000FC41F2F6"),
+    "robotiq": bytes.fromhex("204E640038FF5E01640038FF32006365"),
+}
+
+
+def sri(number: int, force: float = 1.0, *rest: float) -> bytes:
+    values = (force, *rest, *(0.0,) * 6)[:6]
+    data = struct.pack("<6f", *values)
+    return b"\xaa\x55\x00\x1b" + struct.pack(">H", number % 65536) + data + bytes([sum8(data)])
+
+
+def bota(ticks: int, *, status: int = 0, temperature: float = 20.0, force: float = 1.0) -> bytes:
+    body = struct.pack("<H6fIf", status, force, 0, 0, 0, 0, 0, ticks % 2**32, temperature)
+    return b"\xaa" + body + struct.pack("<H", crc16_x25(body))
+
+
+def rdt(number: int, *, status: int = 0, fx: int = 0) -> bytes:
+    return struct.pack(">3I6i", number % 2**32, number % 2**32, status, fx, 0, 0, 0, 0, 0)
+
+
+def numbers(parser: SensorParser, frames: list[bytes]) -> list[int | None]:
+    return [sample.sequence for frame in frames for sample in parser.feed(frame, 0.0)]
+
+
+@pytest.mark.parametrize("name", SERIAL)
+def test_one_byte_at_a_time(name: str) -> None:
+    parser = SERIAL[name]()
+    frame = GOLDEN[name]
+    for byte in frame[:-1]:
+        assert parser.feed(bytes([byte]), 1.0) == []
+    (sample,) = parser.feed(frame[-1:], 2.0)
+    assert sample.time == 2.0
+
+
+@pytest.mark.parametrize("name", SERIAL)
+@given(pieces=st.lists(st.binary(max_size=80) | st.just(None), max_size=12), cut=st.integers(1, 50))
+def test_garbage_costs_no_intact_frame(name: str, pieces: list[bytes | None], cut: int) -> None:
+    """Whatever stands between frames, those behind it come out; the bytes add up."""
+    parser, frame = SERIAL[name](), GOLDEN[name]
+    # A tail of zeros completes whatever the garbage pretended to begin.
+    stream = b"".join(frame if piece is None else piece for piece in pieces) + bytes(len(frame))
+    for start in range(0, len(stream), cut):
+        parser.feed(stream[start : start + cut], 0.0)
+        assert parser.pending < len(frame)
+    counters = parser.counters
+    assert counters.frames >= sum(piece is None for piece in pieces)
+    assert counters.frames * len(frame) + counters.skipped_bytes + parser.pending == len(stream)
+
+
+@pytest.mark.parametrize("name", SERIAL)
+def test_a_damaged_frame_costs_itself_alone(name: str) -> None:
+    frame = GOLDEN[name]
+    # An SRI packet number is not covered by its checksum.
+    for at in (n for n in range(len(frame)) if name != "sri" or n not in {4, 5}):
+        parser = SERIAL[name]()
+        broken = bytearray(frame)
+        broken[at] ^= 0x41
+        assert len(parser.feed(bytes(broken) + frame, 0.0)) == 1
+        assert parser.counters.skipped_bytes == len(frame)
+
+
+def test_cutting_the_stream_changes_nothing() -> None:
+    stream = b"ACK+SMPF=200$OK\r\n" + b"".join(sri(n, float(n)) for n in range(20))
+    whole = SriParser().feed(stream, 0.0)
+    parser = SriParser()
+    assert [s for n in range(0, len(stream), 7) for s in parser.feed(stream[n : n + 7], 0.0)] == whole
+    assert [sample.sequence for sample in whole] == list(range(20))
+
+
+def test_header_bytes_inside_numbers() -> None:
+    inside = struct.unpack("<f", b"\xaa\x55\x00\x1b")[0]
+    frames = [sri(n, inside, inside, inside, inside, inside, inside) for n in range(5)]
+    # The first is cut in the middle of a number, so that a false header comes first.
+    parser = SriParser()
+    assert numbers(parser, [frames[0][6:], *frames[1:]]) == [1, 2, 3, 4]
+    assert parser.counters.bad_checksums >= 1
+
+
+def test_the_buffer_stays_small_when_much_comes_at_once() -> None:
+    parser = BotaParser()
+    parser.feed(b"\xaa" * 100_000, 0.0)
+    assert parser.pending < 37
+    assert parser.counters.bad_checksums == 100_000 - 36
+
+
+@pytest.mark.parametrize("name", SERIAL)
+def test_reset_forgets_half_a_frame(name: str) -> None:
+    parser, frame = SERIAL[name](), GOLDEN[name]
+    parser.feed(frame[:10], 0.0)
+    parser.reset()
+    assert parser.pending == 0
+    assert parser.counters.skipped_bytes == 10
+    assert parser.feed(frame[10:], 0.0) == []
+    assert len(parser.feed(frame, 0.0)) == 1
+
+
+def test_sri_gap_wrap_and_duplicate() -> None:
+    parser = SriParser()
+    frames = [sri(65534), sri(65535), sri(0), sri(0), sri(3)]
+    assert numbers(parser, frames) == [65534, 65535, 65536, 65539]
+    counters = parser.counters
+    assert (counters.wraps, counters.lost, counters.duplicates, counters.restarts) == (1, 2, 1, 0)
+
+
+def test_sri_damaged_number_costs_no_count() -> None:
+    parser = SriParser()
+    assert numbers(parser, [sri(10), sri(11), sri(40000), sri(13), sri(14)]) == [10, 11, 12, 13, 14]
+    assert (parser.counters.lost, parser.counters.bad_numbers, parser.counters.restarts) == (0, 1, 0)
+
+
+def test_sri_restart_goes_on_counting() -> None:
+    parser = SriParser()
+    assert numbers(parser, [sri(50000), sri(50001), sri(0), sri(1), sri(2)]) == list(range(50000, 50005))
+    assert (parser.counters.lost, parser.counters.restarts) == (0, 1)
+
+
+def test_sri_long_gap_is_counted_once_it_is_sure() -> None:
+    parser = SriParser()
+    assert numbers(parser, [sri(100), sri(1100), sri(1101)]) == [100, 101, 1101]
+    assert parser.counters.lost == 999
+
+
+@given(st.lists(st.integers(0, 65535), max_size=60))
+def test_unwrapped_numbers_always_rise(raw: list[int]) -> None:
+    parser = SriParser()
+    found = [n for n in numbers(parser, [sri(n, float(i)) for i, n in enumerate(raw)]) if n is not None]
+    assert all(a < b for a, b in pairwise(found))
+    assert len(found) == len(raw)
+
+
+def test_rdt_loss_overtaking_and_duplicates() -> None:
+    parser = RdtParser(ATI_TYPICAL)
+    frames = [rdt(2**32 - 1), rdt(0), rdt(3), rdt(2), rdt(3), rdt(3), rdt(4)]
+    assert numbers(parser, frames) == [2**32 - 1, 2**32, 2**32 + 3, 2**32 + 4]
+    counters = parser.counters
+    assert (counters.lost, counters.wraps, counters.duplicates) == (2, 1, 3)
+
+
+def test_rdt_restart() -> None:
+    parser = RdtParser(ATI_TYPICAL)
+    assert numbers(parser, [rdt(9000), rdt(9001), rdt(1), rdt(2)]) == [9000, 9001, 9002, 9003]
+    assert parser.counters.restarts == 1
+
+
+def test_rdt_status_is_not_a_measurement() -> None:
+    (sample,) = RdtParser(ATI_TYPICAL).feed(rdt(1, status=0x20000), 0.0)
+    assert sample.status == Status.ERROR | Status.INVALID
+
+
+@given(st.binary(max_size=80).filter(lambda data: len(data) != 36))
+def test_rdt_datagrams_of_another_length_are_skipped(data: bytes) -> None:
+    parser = RdtParser(ATI_TYPICAL)
+    assert parser.feed(data, 0.0) == []
+    assert parser.counters.skipped_bytes == len(data)
+
+
+@pytest.mark.parametrize(
+    ("bits", "status"),
+    [
+        (0, Status.OK),
+        (1, Status.LATE),
+        (2, Status.OVERRANGE),
+        (4, Status.INVALID),
+        (8, Status.RAW),
+        (3, Status.LATE | Status.OVERRANGE),
+        (0x8000, Status.ERROR),
+    ],
+)
+def test_bota_status(bits: int, status: Status) -> None:
+    (sample,) = BotaParser().feed(bota(0, status=bits), 0.0)
+    assert sample.status == status
+
+
+def test_bota_clock_runs_on_through_its_wrap() -> None:
+    parser = BotaParser(rate_hz=100.0)
+    times = [
+        sample.device_time
+        for n in range(4)
+        for sample in parser.feed(bota(2**32 - 15_000 + n * 10_000), n * 0.01)
+    ]
+    start = (2**32 - 15_000) * 1e-6
+    assert times == pytest.approx([start + n * 0.01 for n in range(4)], abs=1e-9)
+    assert (parser.counters.wraps, parser.counters.restarts, parser.counters.lost) == (1, 0, 0)
+
+
+def test_bota_clock_jump_is_noticed_and_bridged() -> None:
+    parser = BotaParser(rate_hz=100.0)
+    ticks = [5_000_000, 5_010_000, 20_000, 30_000, 90_030_000]
+    times = [
+        sample.device_time for n, tick in enumerate(ticks) for sample in parser.feed(bota(tick), n * 0.01)
+    ]
+    assert times == pytest.approx([5.0, 5.01, 5.02, 5.03, 5.04])
+    assert (parser.counters.restarts, parser.counters.lost) == (2, 0)
+
+
+def test_bota_lost_frames_by_the_clock() -> None:
+    parser = BotaParser(rate_hz=100.0)
+    for n in (0, 1, 5):
+        parser.feed(bota(n * 10_000), n * 0.01)
+    assert parser.counters.lost == 3
+    parser.feed(bota(50_000), 0.06)
+    assert parser.counters.duplicates == 1
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_numbers_that_are_not_finite_are_flagged(value: float) -> None:
+    parser: SensorParser = SriParser()
+    (sample,) = parser.feed(sri(1, value), 0.0)
+    assert sample.status is Status.INVALID
+    assert parser.counters.invalid == 1
+    (sample,) = BotaParser().feed(bota(1, force=value), 0.0)
+    assert sample.status is Status.INVALID
+    (sample,) = BotaParser().feed(bota(1, temperature=value), 0.0)
+    assert sample.status is Status.INVALID
+    assert sample.temperature is None
+
+
+@pytest.mark.parametrize("time", [math.nan, math.inf, -1e9, 1e300])
+def test_any_arrival_time_is_survived(time: float) -> None:
+    parser = BotaParser(rate_hz=100.0)
+    for n in range(3):
+        (sample,) = parser.feed(bota(n * 10_000), time * n)
+        assert sample.device_time is not None
+        assert math.isfinite(sample.device_time)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf])
+def test_senseless_settings_are_refused(bad: float) -> None:
+    with pytest.raises(ProtocolError, match="counts per unit"):
+        CountScale(bad, 1.0)
+    with pytest.raises(ProtocolError, match="rate"):
+        BotaParser(rate_hz=bad)
+    with pytest.raises(ProtocolError, match="points per packet"):
+        Layout(points=0)

@@ -1,0 +1,37 @@
+"""Wire-exact emulated devices on real lines, with scripted faults."""
+
+from pipeline.devices.emulate.emulator import Emulator, Sent
+from pipeline.devices.emulate.making import EMULATED, JOINTS, emulator, possible_faults, swinging
+from pipeline.devices.emulate.script import EmulatorError, Fault, FaultEvent, Script
+from pipeline.devices.emulate.signals import (
+    SYNTHETIC,
+    Moment,
+    Reading,
+    Signal,
+    Six,
+    constant,
+    recorded,
+    sine,
+)
+
+__all__ = [
+    "EMULATED",
+    "JOINTS",
+    "SYNTHETIC",
+    "Emulator",
+    "EmulatorError",
+    "Fault",
+    "FaultEvent",
+    "Moment",
+    "Reading",
+    "Script",
+    "Sent",
+    "Signal",
+    "Six",
+    "constant",
+    "emulator",
+    "possible_faults",
+    "recorded",
+    "sine",
+    "swinging",
+]

@@ -1,0 +1,263 @@
+"""An emulated device on a real line, in a thread of its own."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import Counter, deque
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from pipeline.devices.emulate.mangle import Mangler
+from pipeline.devices.emulate.script import EmulatorError, Fault, Script
+from pipeline.devices.emulate.signals import SYNTHETIC, Truth, constant
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from pipeline.devices.emulate.lines import DeviceLine
+    from pipeline.devices.emulate.mangle import Emission
+    from pipeline.devices.emulate.models.model import Model
+    from pipeline.devices.emulate.script import FaultEvent
+    from pipeline.devices.emulate.signals import Moment, Reading, Signal
+
+_IDLE_S = 0.05  # how long a stop may go unnoticed
+_BETWEEN_PIECES_S = 0.0005  # without it the kernel joins them again
+_LOG = 100_000
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """One frame as it went out, or did not.
+
+    Attributes
+    ----------
+    count : int
+        Of all frames of this emulator, from 0.
+    time : float
+        When it was due, seconds after the first frame of all.
+    sent_at : float
+        When it was given to the line, seconds of the monotonic clock.
+    reading : Reading
+        What is in it.
+    moment : Moment
+        Its number, and the device's clock.
+    frame : bytes
+        As it was before the line's faults.
+    intact : bool
+        All of it went on the line, unchanged.
+    fault : Fault or None
+        Of the line, that acted on it.
+    """
+
+    count: int
+    time: float
+    sent_at: float
+    reading: Reading
+    moment: Moment
+    frame: bytes
+    intact: bool
+    fault: Fault | None
+
+
+class Emulator:
+    """A device that answers, streams, fails by script, and keeps a log of what it truly sent.
+
+    Use it in a ``with`` statement, or call `start` and `close`.
+
+    Parameters
+    ----------
+    model : Model
+        What it is.
+    line : DeviceLine
+        Its end of the line; it is closed with the emulator.
+    scheme : str
+        Of the address, such as "sri+tcp".
+    signal : callable
+        What it measures; the synthetic wrench if none is given.
+    script : Script
+        Faults; none if none is given. Their times count from the first frame.
+    seed : int
+        Of chance in the faults.
+    query : str
+        Options of the address.
+
+    Raises
+    ------
+    EmulatorError
+        The device cannot have one of the faults.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        line: DeviceLine,
+        scheme: str,
+        *,
+        signal: Signal | None = None,
+        script: Script | None = None,
+        seed: int = 0,
+        query: str = "",
+    ) -> None:
+        script = script or Script()
+        script.check(model.faults, model.name)
+        self.model = model
+        self.url = f"{scheme}://{line.where}{query}"
+        self.log: deque[Sent] = deque(maxlen=_LOG)
+        self.counts: Counter[str] = Counter()
+        self.failure: BaseException | None = None
+        self._line = line
+        self._truth = Truth(signal or constant(SYNTHETIC), script, model.trap, model.full_scale)
+        self._mangler = Mangler(model, script, seed, datagrams=line.datagrams)
+        self._origin: float | None = None
+        self._due: float | None = None
+        self._number = self._count = 0
+        self._answered: tuple[Reading, Moment] | None = None
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"emulated {model.name}", daemon=True)
+        model.answer = self._answer
+
+    def start(self) -> Emulator:
+        """Start the thread."""
+        self._thread.start()
+        return self
+
+    def close(self) -> None:
+        """End the thread and the line.
+
+        Raises
+        ------
+        EmulatorError
+            The thread had failed.
+        """
+        self._stop.set()
+        if self._thread.ident is not None:
+            self._thread.join()
+        self._line.close()
+        if self.failure is not None:
+            raise EmulatorError(f"emulated {self.model.name}: it failed: {self.failure!r}.") from self.failure
+
+    def __enter__(self) -> Emulator:
+        return self.start()
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def refused(self) -> list[bytes]:
+        """What it was told and must not be told."""
+        return list(self.model.refused)
+
+    @property
+    def commands(self) -> list[bytes]:
+        """What it was told and obeyed."""
+        return list(self.model.commands)
+
+    def intact(self) -> list[Sent]:
+        """Return the frames of the log that went out whole and unchanged."""
+        return [sent for sent in list(self.log) if sent.intact]
+
+    # ---- the thread ----------------------------------------------------------------------------
+
+    def _run(self) -> None:
+        try:
+            self._send(self.model.greeting())
+            while not self._stop.is_set():
+                self._step()
+        except Exception as error:  # noqa: BLE001 - it is kept, and raised by close
+            self.failure = error
+
+    def _step(self) -> None:
+        data = self._line.receive(self._patience())
+        if self._line.fresh:
+            self._line.fresh = False
+            self._restart()
+        if data:
+            self._obey(data)
+        if not self.model.streaming or self.model.asked_only:
+            self._due = None
+            return
+        if self._due is None:
+            self._due = self._now()
+        while self._due is not None and self._due <= self._now() and not self._stop.is_set():
+            self._stream(self._due)
+
+    def _patience(self) -> float:
+        if self._due is None:
+            return _IDLE_S
+        return min(_IDLE_S, max(0.0, self._due - self._now()))
+
+    def _now(self) -> float:
+        now = time.monotonic()
+        if self._origin is None:
+            self._origin = now
+        return now - self._origin
+
+    def _obey(self, data: bytes) -> None:
+        for answer in self.model.feed(data):
+            if self._answered is None and self.model.asked_only:
+                self._answer()  # its answers are all it sends: the faults of the line are for them
+            if self._answered is None:
+                self._send(answer)
+            else:
+                (reading, moment), self._answered = self._answered, None
+                self._emit(self._now(), reading, moment, answer)
+
+    def _answer(self) -> tuple[Reading, Moment]:
+        """Return what a frame that was asked for holds; the answer that follows is that frame."""
+        now = self._now()
+        self._answered = self._truth.reading(now), self._truth.moment(now, self._next())
+        return self._answered
+
+    def _stream(self, due: float) -> None:
+        reading, moment = self._truth.reading(due), self._truth.moment(due, self._next())
+        self._due = due + 1 / (self.model.rate * self._truth.rate_factor(due))
+        frame = self.model.frame(reading, moment)
+        if not self.model.streaming:
+            self._due = None
+        self._emit(due, reading, moment, frame)
+
+    def _next(self) -> int:
+        self._number += 1
+        return self._number - 1
+
+    def _emit(self, due: float, reading: Reading, moment: Moment, frame: bytes) -> None:
+        emission = self._mangler.mangle(frame, due, self._count)
+        # Said before it is sent: whoever has received a frame finds it in the log.
+        sent = Sent(
+            self._count, due, time.monotonic(), reading, moment, frame, emission.intact, emission.fault
+        )
+        self.log.append(sent)
+        self._count += 1
+        if not self._put(emission):
+            self.log[-1] = replace(sent, intact=False)
+        self.counts["intact" if self.log[-1].intact else "not intact"] += 1
+        if emission.away is not None:
+            self._go_away(emission.away)
+
+    def _put(self, emission: Emission) -> bool:
+        taken = True
+        for number, piece in enumerate(emission.pieces):
+            if number:
+                time.sleep(_BETWEEN_PIECES_S)
+            taken = self._send(piece) and taken
+        return taken
+
+    def _send(self, data: bytes) -> bool:
+        taken = not data or self._line.send(data)
+        self.counts["bytes" if taken else "bytes nobody took"] += len(data)
+        return taken
+
+    def _go_away(self, event: FaultEvent) -> None:
+        self._line.hang_up()
+        self._stop.wait(max(0.0, event.stop - self._now()))
+        self._line.restore()
+        self._restart()
+        self._send(self.model.greeting())
+
+    def _restart(self) -> None:
+        self.model.restart()
+        self._mangler.restart()
+        self._number, self._due = 0, None

@@ -1,0 +1,24 @@
+"""The emulated devices, one per protocol, without their lines."""
+
+from pipeline.devices.emulate.models.bota import BotaModel, bota_frame
+from pipeline.devices.emulate.models.elfin import ElfinModel
+from pipeline.devices.emulate.models.model import Model
+from pipeline.devices.emulate.models.rdt import RdtModel, rdt_record
+from pipeline.devices.emulate.models.robotiq import RobotiqModel, robotiq_frame
+from pipeline.devices.emulate.models.sri import SriModel, sri_frame
+from pipeline.devices.emulate.models.ur import UrModel, rtde_packet
+
+__all__ = [
+    "BotaModel",
+    "ElfinModel",
+    "Model",
+    "RdtModel",
+    "RobotiqModel",
+    "SriModel",
+    "UrModel",
+    "bota_frame",
+    "rdt_record",
+    "robotiq_frame",
+    "rtde_packet",
+    "sri_frame",
+]

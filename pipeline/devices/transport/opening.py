@@ -1,0 +1,30 @@
+"""Which line an address asks for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pipeline.devices.transport.serial_line import SerialLine
+from pipeline.devices.transport.sockets import TcpLine, UdpLine
+from pipeline.devices.url import AddressError, Carrier
+
+if TYPE_CHECKING:
+    from pipeline.devices.transport.line import Line
+    from pipeline.devices.url import DeviceAddress
+
+
+def line_to(address: DeviceAddress) -> Line:
+    """Return the line to a device, not yet open.
+
+    Raises
+    ------
+    AddressError
+        It is a recording: no line leads there.
+    """
+    if address.carrier is Carrier.SERIAL and address.baud is not None:
+        return SerialLine(address.path, address.baud)
+    if address.carrier is Carrier.TCP and address.port is not None:
+        return TcpLine(address.host, address.port)
+    if address.carrier is Carrier.UDP and address.port is not None:
+        return UdpLine(address.host, address.port)
+    raise AddressError(f"address {str(address)!r}: it has no line: give the address of a device.")

@@ -1,0 +1,64 @@
+"""The serial ports of this machine, with a guess at what hangs on each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from pipeline.devices.url import Protocol
+
+# Words in what USB says about a port. Most boxes use a bought converter that says nothing about them.
+_WORDS = {
+    Protocol.SRI: ("sunrise", "m8128", "m8126", "sri "),
+    Protocol.BOTA: ("bota", "rokubi", "sensone", "minione"),
+    Protocol.ROBOTIQ: ("robotiq", "ft300", "ft 300"),
+}
+
+
+@dataclass(frozen=True)
+class SerialPort:
+    """One serial port.
+
+    Attributes
+    ----------
+    path : str
+        As an address has it.
+    description : str
+        What the system says about it.
+    serial_number : str or None
+        Of the USB converter.
+    guess : Protocol or None
+        None: a converter that does not say what it belongs to.
+    """
+
+    path: str
+    description: str
+    serial_number: str | None
+    guess: Protocol | None
+
+    @property
+    def url(self) -> str | None:
+        """The address to try, where there is a guess."""
+        return f"{self.guess}+serial://{self.path}" if self.guess else None
+
+
+def list_ports() -> list[SerialPort]:
+    """Return the serial ports of this machine, ports with a guess first, then by path."""
+    from serial.tools import list_ports as tool  # type: ignore[import-untyped]
+
+    ports = []
+    for port in tool.comports():
+        words = [port.description, port.manufacturer, port.product]
+        text = ", ".join(dict.fromkeys(str(word) for word in words if word and word != "n/a"))
+        ports.append(
+            SerialPort(port.device, text or "no description", port.serial_number, guess_device(text))
+        )
+    return sorted(ports, key=lambda port: (port.guess is None, port.path))
+
+
+def guess_device(description: str) -> Protocol | None:
+    """Guess from what USB says of a port which protocol its device speaks; None: it does not say."""
+    text = f"{description.lower()} "
+    for protocol, words in _WORDS.items():
+        if any(word in text for word in words):
+            return protocol
+    return None

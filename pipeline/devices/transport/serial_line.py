@@ -1,0 +1,100 @@
+"""Serial lines, by pyserial."""
+
+from __future__ import annotations
+
+import errno
+import time
+from contextlib import suppress
+from typing import Any
+
+from pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
+
+try:
+    import termios
+except ImportError:  # Windows
+    _ERRORS: tuple[type[Exception], ...] = (OSError,)
+else:
+    # A terminal that was hung up raises this one from whatever touches its settings.
+    _ERRORS = (OSError, termios.error)
+
+# ValueError: a speed or a path that the system cannot have.
+_OPENING_ERRORS: tuple[type[Exception], ...] = (*_ERRORS, ValueError)
+_WRITE_TIMEOUT_S = 1.0
+_REMEDIES = {
+    errno.ENOENT: "plug the device in, or choose another of the ports that are listed",
+    errno.EACCES: "get the right to use serial ports (on Linux: the group dialout), or close the other program",
+    errno.EAGAIN: "another program uses it: close that one",
+    errno.EBUSY: "another program uses it: close that one",
+}
+
+
+class SerialLine:
+    """A serial port, 8N1, for this process alone.
+
+    Parameters
+    ----------
+    path : str
+        Such as /dev/ttyUSB0 or COM3.
+    baud : int
+        Bit/s.
+    """
+
+    datagrams = False
+
+    def __init__(self, path: str, baud: int) -> None:
+        self.name = path
+        self._baud = baud
+        self._port: Any = None
+
+    def open(self) -> None:
+        """Open the port; see `Line.open`."""
+        import serial  # type: ignore[import-untyped]
+
+        self.close()
+        try:
+            self._port = serial.Serial(
+                self.name, self._baud, timeout=0.0, write_timeout=_WRITE_TIMEOUT_S, exclusive=True
+            )
+        except _OPENING_ERRORS as error:
+            number = getattr(error, "errno", None)
+            remedy = _REMEDIES.get(number or 0, "check the path and the speed, and that it is plugged in")
+            raise LineUnavailable(f"{self.name}: the port cannot be opened ({error}): {remedy}.") from error
+
+    def read(self, timeout: float) -> Chunk:
+        """Return what is there; see `Line.read`."""
+        port = self._opened()
+        try:
+            if port.timeout != timeout:  # setting it costs system calls, equal or not
+                port.timeout = timeout
+            data = port.read(1)
+            if data:
+                # Not read(many): that waits until there are as many. A port that hung up in between fails here.
+                data += port.read(port.in_waiting)
+        except _ERRORS as error:
+            raise self._lost(error) from error
+        return Chunk(data, time.monotonic())
+
+    def write(self, data: bytes) -> None:
+        """Send all of `data`; see `Line.write`."""
+        try:
+            self._opened().write(data)
+        except _ERRORS as error:
+            raise self._lost(error) from error
+
+    def close(self) -> None:
+        """Close the port."""
+        port, self._port = self._port, None
+        if port is not None:
+            with suppress(*_ERRORS):
+                port.close()
+
+    def _opened(self) -> Any:
+        if self._port is None:
+            raise LineLost(f"{self.name}: the port is not open: open it first.")
+        return self._port
+
+    def _lost(self, error: Exception) -> LineLost:
+        self.close()
+        return LineLost(
+            f"{self.name}: the line is lost ({error}): check the plug; it can be opened again then."
+        )

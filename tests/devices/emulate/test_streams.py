@@ -1,0 +1,257 @@
+"""Emulators on real lines, read through the transports and decoded by the parsers."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from pipeline.devices.emulate import (
+    EMULATED,
+    SYNTHETIC,
+    Emulator,
+    EmulatorError,
+    Fault,
+    Script,
+    emulator,
+    possible_faults,
+    swinging,
+)
+from pipeline.devices.protocols import bota, elfin, rdt, robotiq, sri, ur_pose
+from pipeline.devices.protocols.commands import Command
+from pipeline.devices.protocols.parser import SensorParser
+from pipeline.devices.sample import Status, WrenchSample
+from pipeline.devices.transport import Line, LineError, LineLost, line_to
+from pipeline.devices.url import DeviceAddress
+
+SENSORS = ("sri", "bota", "robotiq", "rdt")
+RATE = 400.0
+PATIENCE_S = 10.0
+
+START: dict[str, Callable[[], tuple[Command, ...]]] = {
+    "sri": lambda: sri.start_commands(RATE),
+    "bota": lambda: bota.start_commands(RATE),
+    "robotiq": robotiq.start_commands,
+    "rdt": lambda: rdt.start_commands(RATE),
+}
+PARSER: dict[str, Callable[[], SensorParser]] = {
+    "sri": sri.SriParser,
+    "bota": bota.BotaParser,
+    "robotiq": robotiq.RobotiqParser,
+    "rdt": lambda: rdt.RdtParser(rdt.ATI_TYPICAL),
+}
+
+
+class Host:
+    """The other end: opens, starts and decodes."""
+
+    def __init__(self, device: Emulator, protocol: str) -> None:
+        self.device = device
+        self.protocol = protocol
+        self.line: Line = line_to(DeviceAddress.parse(device.url))
+        self.parser = PARSER[protocol]()
+        self.samples: list[WrenchSample] = []
+        self.start()
+
+    def start(self) -> None:
+        self.line.open()
+        for command in START[self.protocol]():
+            self.line.write(command.data)
+            if command.reply is not None:
+                self._await(command.reply)
+
+    def read_until(self, done: Callable[[], bool]) -> list[WrenchSample]:
+        end = time.monotonic() + PATIENCE_S
+        while not done():
+            assert time.monotonic() < end, "it never came"
+            chunk = self.line.read(0.05)
+            self.samples += self.parser.feed(chunk.data, chunk.time)
+        return self.samples
+
+    def _await(self, reply: bytes) -> None:
+        end, seen = time.monotonic() + PATIENCE_S, b""
+        while reply not in seen:
+            assert time.monotonic() < end, f"no {reply!r} in {seen!r}"
+            chunk = self.line.read(0.05)
+            seen += chunk.data
+        self.samples += self.parser.feed(seen.partition(reply)[2], chunk.time)  # frames may follow at once
+
+
+def device_for(protocol: str, script: Script | None = None, carrier: str | None = None) -> Emulator:
+    rate = 100.0 * (4 if protocol != "robotiq" else 2)
+    return emulator(protocol, carrier, rate=rate, script=script, signal=swinging(protocol))
+
+
+def truths(device: Emulator) -> np.ndarray:
+    return np.array([sent.reading.values for sent in device.intact()])
+
+
+def values(samples: list[WrenchSample]) -> np.ndarray:
+    return np.array([(*sample.force, *sample.torque) for sample in samples])
+
+
+@pytest.mark.parametrize(("protocol", "carrier"), [*((name, None) for name in SENSORS), ("sri", "tcp")])
+def test_what_is_sent_is_what_arrives(protocol: str, carrier: str | None):
+    with device_for(protocol, carrier=carrier) as device:
+        host = Host(device, protocol)
+        samples = host.read_until(lambda: len(host.samples) >= 30)
+        sent = truths(device)[: len(samples)]
+        host.line.close()
+    assert device.refused == []
+    assert np.allclose(values(samples), sent, atol=6e-3, rtol=1e-6)
+    assert host.parser.counters.lost == 0
+    assert all(sample.status is Status.OK for sample in samples)
+
+
+# The damage is over after 0.12 s, and frames that follow are read until twenty of them are there.
+WIRE = [Fault.SPLIT, Fault.MERGED, Fault.GARBAGE, Fault.BAD_CHECKSUM, Fault.STALL, Fault.HEADER]
+
+
+def well_after(device: Emulator) -> int:
+    return sum(sent.time > 0.13 and sent.intact for sent in list(device.log))
+
+
+@pytest.mark.parametrize("fault", WIRE)
+@pytest.mark.parametrize("protocol", SENSORS)
+def test_only_damaged_frames_are_lost(protocol: str, fault: Fault):
+    if fault not in possible_faults(protocol):
+        pytest.skip(f"{protocol} cannot have it")
+    with device_for(protocol, Script([(0.04, fault, 0.08)])) as device:
+        host = Host(device, protocol)
+        host.read_until(lambda: well_after(device) >= 20)
+        count = len(device.intact())
+        host.read_until(lambda: len(host.samples) >= count)
+        samples = values(host.samples)
+        sent = truths(device)[: len(samples)]
+        host.line.close()
+    assert np.allclose(samples, sent, atol=6e-3, rtol=1e-6)
+    assert host.parser.counters.frames == len(samples)
+    if fault is Fault.HEADER:
+        assert any(entry.reading.values == device.model.trap for entry in device.log)
+    else:
+        assert {entry.fault for entry in device.log} == {None, fault}
+
+
+def come_back(host: Host) -> None:
+    """Start again until samples come; a start that was sent while the line broke is lost without a word."""
+    end = time.monotonic() + PATIENCE_S
+    enough = len(host.samples) + 10
+    while len(host.samples) < enough:
+        assert time.monotonic() < end
+        host.parser.reset()
+        try:
+            host.start()
+            silent = time.monotonic() + 0.3
+            host.read_until(lambda end=silent: len(host.samples) >= enough or time.monotonic() > end)
+        except LineError:
+            time.sleep(0.01)
+
+
+@pytest.mark.parametrize("fault", [Fault.DISCONNECT, Fault.RECONNECT])
+@pytest.mark.parametrize("protocol", SENSORS)
+def test_a_line_breaks_and_comes_back(protocol: str, fault: Fault):
+    with device_for(protocol, Script([(0.05, fault, 0.1)])) as device:
+        host = Host(device, protocol)
+        if protocol == "rdt":  # UDP tells nobody: the silence does
+            host.read_until(lambda: list(device.log)[-1:] != [] and device.log[-1].fault is fault)
+        else:
+            with pytest.raises(LineLost):
+                host.read_until(lambda: False)
+        come_back(host)
+        host.line.close()
+    assert device.refused == []
+
+
+def test_the_clock_and_the_limits_are_seen():
+    script = Script([(0.03, Fault.CLOCK_JUMP, 0.1, 5.0), (0.06, Fault.SATURATION, 10.0)])
+    with device_for("bota", script) as device:
+        host = Host(device, "bota")
+        host.read_until(lambda: any(sample.status is not Status.OK for sample in host.samples))
+        host.line.close()
+    assert Status.OVERRANGE in host.samples[-1].status
+    assert host.samples[0].temperature == 25.0
+    clocks = [sent.moment.clock for sent in device.log]
+    assert 5.0 < np.diff(clocks).max() < 5.1
+
+
+def test_elfin_answers_and_fails_by_script():
+    with emulator(
+        "elfin", script=Script([(0.0, Fault.SPLIT, 0.1), (0.1, Fault.BAD_CHECKSUM, 30.0)])
+    ) as device:
+        line = line_to(DeviceAddress.parse(device.url))
+        line.open()
+        reader, replies = elfin.ReplyReader(), []
+        end = time.monotonic() + PATIENCE_S
+        while not any(reply.outcome is not elfin.Outcome.OK for reply in replies):
+            assert time.monotonic() < end
+            line.write(elfin.Question.POSITION.request())
+            known = len(replies)
+            while len(replies) == known:
+                assert time.monotonic() < end
+                replies += reader.feed(line.read(0.05).data)
+        line.close()
+    assert replies[0].outcome is elfin.Outcome.OK
+    assert elfin.read_numbers(replies[0], elfin.Question.POSITION)[0] == pytest.approx(
+        np.degrees(0.3), abs=1e-5
+    )
+
+
+def test_ur_agrees_and_streams():
+    with emulator("ur") as device:
+        line, stream = line_to(DeviceAddress.parse(device.url)), ur_pose.UrStream(125.0)
+        line.open()
+        line.write(stream.start())
+        poses, end = [], time.monotonic() + PATIENCE_S
+        while len(poses) < 10:
+            assert time.monotonic() < end
+            chunk = line.read(0.05)
+            poses += stream.feed(chunk.data, chunk.time)
+            answer = stream.take_output()
+            if answer:
+                line.write(answer)
+        line.close()
+    assert device.refused == []
+    assert np.allclose(poses[0].joints, device.log[0].reading.values)
+    assert np.allclose(np.diff([pose.device_time for pose in poses]), 1 / 125)
+
+
+def test_a_host_that_does_not_read_stops_nothing():
+    with emulator("sri", rate=20_000.0) as device:
+        line = line_to(DeviceAddress.parse(device.url))
+        line.open()
+        line.write(b"AT+GSD\r\n")
+        end = time.monotonic() + PATIENCE_S
+        while not device.counts["bytes nobody took"]:
+            assert time.monotonic() < end
+            time.sleep(0.005)
+        line.close()
+    assert any(not sent.intact for sent in device.log)
+
+
+def test_what_cannot_be_made_is_refused():
+    with pytest.raises(EmulatorError, match="there are sri"):
+        emulator("other")
+    with pytest.raises(EmulatorError, match="speaks over serial"):
+        emulator("bota", "tcp")
+    with pytest.raises(EmulatorError, match="cannot have it"):
+        emulator("elfin", script=Script([(0, Fault.DRIFT, 1)]))
+    with emulator("ur") as device, pytest.raises(EmulatorError, match="choose another"):
+        emulator("ur", port=int(device.url.rpartition(":")[2]))
+    assert len(EMULATED) == 6
+
+
+def test_a_failure_of_the_signal_is_not_silent():
+    device = emulator("sri", "tcp", signal=lambda _: SYNTHETIC[:3])
+    device.start()
+    line = line_to(DeviceAddress.parse(device.url))
+    line.open()
+    line.write(b"AT+GSD\r\n")
+    end = time.monotonic() + PATIENCE_S
+    while device.failure is None:
+        assert time.monotonic() < end
+        time.sleep(0.005)
+    line.close()
+    with pytest.raises(EmulatorError, match="it failed"):
+        device.close()

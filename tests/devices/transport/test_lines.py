@@ -1,0 +1,211 @@
+"""Real pseudo-terminals and loopback sockets."""
+
+from __future__ import annotations
+
+import os
+import socket
+import time
+import tty
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import pytest
+
+from pipeline.devices.transport import (
+    Line,
+    LineLost,
+    LineUnavailable,
+    SerialLine,
+    TcpLine,
+    UdpLine,
+    guess_device,
+    line_to,
+    list_ports,
+)
+from pipeline.devices.url import AddressError, DeviceAddress, Protocol
+
+
+@dataclass
+class Pair:
+    line: Line
+    send: Callable[[bytes], object]
+    receive: Callable[[], bytes]
+    hang_up: Callable[[], object]
+
+
+@pytest.fixture
+def serial() -> Iterator[Pair]:
+    master, slave = os.openpty()
+    tty.setraw(slave)
+    line = SerialLine(os.ttyname(slave), 115_200)
+    opened = [master, slave]
+
+    def hang_up() -> None:
+        while opened:
+            os.close(opened.pop())
+
+    yield Pair(line, lambda data: os.write(master, data), lambda: os.read(master, 100), hang_up)
+    line.close()
+    hang_up()
+
+
+@pytest.fixture
+def tcp() -> Iterator[Pair]:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        line = TcpLine("127.0.0.1", listener.getsockname()[1])
+        hosts: list[socket.socket] = []
+
+        def host() -> socket.socket:
+            if not hosts:
+                hosts.append(listener.accept()[0])
+            return hosts[0]
+
+        yield Pair(line, lambda data: host().sendall(data), lambda: host().recv(100), lambda: host().close())
+        line.close()
+        for opened in hosts:
+            opened.close()
+
+
+@pytest.fixture
+def pair(request: pytest.FixtureRequest) -> Pair:
+    made: Pair = request.getfixturevalue(request.param)
+    return made
+
+
+def repeat(call: Callable[[], object]) -> None:
+    """Call until it raises; what a line says when it breaks may come a little later."""
+    for _ in range(200):
+        call()
+        time.sleep(0.001)
+
+
+both = pytest.mark.parametrize("pair", ["serial", "tcp"], indirect=True)
+
+
+@both
+def test_bytes_go_both_ways(pair: Pair):
+    pair.line.open()
+    before = time.monotonic()
+    pair.send(b"frame")
+    chunk = pair.line.read(1.0)
+    assert chunk.data == b"frame"
+    assert before <= chunk.time <= time.monotonic()
+    pair.line.write(b"command")
+    assert pair.receive() == b"command"
+
+
+@both
+def test_a_silent_line_gives_nothing_in_time(pair: Pair):
+    pair.line.open()
+    for timeout in (0.0, 0.02):
+        before = time.monotonic()
+        assert pair.line.read(timeout).data == b""
+        assert timeout - 0.005 <= time.monotonic() - before < 0.5
+
+
+@both
+def test_a_line_that_is_hung_up_is_lost(pair: Pair):
+    pair.line.open()
+    pair.send(b"half")
+    assert pair.line.read(1.0).data == b"half"
+    pair.hang_up()
+    with pytest.raises(LineLost, match="lost"):
+        repeat(lambda: pair.line.read(0.1))
+    with pytest.raises(LineLost, match="not open"):
+        pair.line.write(b"x")
+    pair.line.close()
+
+
+@both
+def test_a_lost_line_is_noticed_by_writing(pair: Pair):
+    pair.line.open()
+    pair.send(b"x")
+    pair.hang_up()
+    with pytest.raises(LineLost):
+        repeat(lambda: pair.line.write(b"command"))
+
+
+@both
+def test_an_open_line_can_be_opened_again(pair: Pair):
+    pair.line.open()
+    pair.line.open()
+    pair.line.close()
+    pair.line.close()
+    with pytest.raises(LineLost, match="open it first"):
+        pair.line.read(0.0)
+
+
+def test_a_serial_line_is_for_one_only(serial: Pair):
+    serial.line.open()
+    other = SerialLine(serial.line.name, 115_200)
+    with pytest.raises(LineUnavailable, match="another program uses it"):
+        other.open()
+
+
+def test_lines_that_are_not_there(tmp_path):
+    with pytest.raises(LineUnavailable, match="plug the device in"):
+        SerialLine(str(tmp_path / "none"), 115_200).open()
+    (tmp_path / "file").touch()
+    with pytest.raises(LineUnavailable, match="cannot be opened"):
+        SerialLine(str(tmp_path / "file"), 115_200).open()
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+    with pytest.raises(LineUnavailable, match="check that the device is on"):
+        TcpLine("127.0.0.1", port).open()
+    for kind in (TcpLine, UdpLine):
+        with pytest.raises(LineUnavailable):
+            kind("a" * 70 + ".invalid", port).open()
+
+
+def test_a_datagram_is_one_chunk():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as device:
+        device.bind(("127.0.0.1", 0))
+        line = UdpLine("127.0.0.1", device.getsockname()[1])
+        line.open()
+        line.write(b"start")
+        data, host = device.recvfrom(100)
+        assert data == b"start"
+        device.sendto(b"one", host)
+        device.sendto(b"two", host)
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as stranger:
+            stranger.sendto(b"false", host)
+        assert [line.read(0.5).data for _ in range(3)] == [b"one", b"two", b""]
+    with pytest.raises(LineLost):  # now nobody is there, and the host says so
+        repeat(lambda: line.write(b"start"))
+    line.close()
+
+
+def test_an_address_leads_to_its_line():
+    serial = line_to(DeviceAddress.parse("sri+serial:///dev/ttyUSB9?baud=9600&rate=10"))
+    assert isinstance(serial, SerialLine)
+    assert serial.name == "/dev/ttyUSB9"
+    assert isinstance(line_to(DeviceAddress.parse("ur+tcp://h")), TcpLine)
+    udp = line_to(DeviceAddress.parse("rdt+udp://h"))
+    assert udp.datagrams
+    assert udp.name == "h:49152"
+    with pytest.raises(AddressError, match="no line"):
+        line_to(DeviceAddress.parse("replay:///a.mcap"))
+
+
+def test_ports_are_guessed_from_what_they_say(monkeypatch):
+    assert guess_device("Bota Systems SensONE") is Protocol.BOTA
+    assert guess_device("ROBOTIQ FT300 Sensor") is Protocol.ROBOTIQ
+    assert guess_device("Sunrise Instruments M8128") is Protocol.SRI
+    assert guess_device("FT232R USB UART") is None
+
+    class Found:
+        def __init__(self, device: str, description: str, product: str | None) -> None:
+            self.device, self.description, self.product = device, description, product
+            self.manufacturer, self.serial_number = None, "A1"
+
+    monkeypatch.setattr(
+        "serial.tools.list_ports.comports",
+        lambda: [Found("/dev/ttyS0", "n/a", None), Found("/dev/ttyUSB1", "USB-RS485", "Robotiq FT300")],
+    )
+    first, second = list_ports()
+    assert (first.path, first.guess, first.url) == (
+        "/dev/ttyUSB1",
+        Protocol.ROBOTIQ,
+        "robotiq+serial:///dev/ttyUSB1",
+    )
+    assert (second.description, second.url) == ("no description", None)

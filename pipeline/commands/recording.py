@@ -1,0 +1,199 @@
+"""``contactbench recording info, convert, import-ros2``: look into recordings and turn them into others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import RobotOption, refuse_overwriting
+from pipeline.console import Bar, JsonOption, print_json, say
+
+if TYPE_CHECKING:
+    from pipeline.recording import FlangeTrack, Recording, WrenchTrack
+
+recording_app = typer.Typer(
+    help="Look into recordings of sensors and robots, and convert them.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, an MCAP file.")]
+
+
+@recording_app.command(
+    help=(
+        "Say what is in a recording: devices, topics, samples, rates, losses, and whether the file is whole.\n\n"
+        "Exit code 1: it is cut off or damaged, or holds no samples."
+    ),
+    epilog="Example: contactbench recording info touches.mcap",
+)
+def info(file: FileArgument, as_json: JsonOption = False) -> None:
+    """Say what is in a recording."""
+    found = _read(file)
+    topics = [
+        *(_wrench_facts(topic, track) for topic, track in found.wrenches.items()),
+        *(_flange_facts(topic, track) for topic, track in found.flanges.items()),
+    ]
+    for facts in topics:
+        say(_sentence(facts))
+    say(f"{len(found.events):,} events; written by {found.info.tool}.")
+    for device in found.info.devices:
+        say(" ".join(part for part in (device.topic, device.address, device.model, device.serial) if part))
+    _warn(found.warnings)
+    whole = found.complete and not found.warnings and bool(topics)
+    if not topics:
+        say("There are no samples in it.", "red")
+    if as_json:
+        print_json(
+            {
+                "complete": found.complete,
+                "tool": found.info.tool,
+                "note": found.info.note,
+                "started_ns": found.info.started_ns,
+                "devices": [
+                    {name: getattr(device, name) for name in device.__slots__}
+                    for device in found.info.devices
+                ],
+                "topics": topics,
+                "events": len(found.events),
+                "warnings": list(found.warnings),
+            }
+        )
+    if not whole:
+        raise typer.Exit(1)
+
+
+@recording_app.command(
+    help=(
+        "Write a recording as .csv or .npz.\n\n"
+        "CSV: one topic, as locate and captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot"
+        " was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same moments; readings that the device"
+        " says are no good, or without a pose beside them, are left out. NPZ: everything, as it is.\n\n"
+        "Exit code 1: the recording is cut off or damaged; what can be read is written."
+    ),
+    epilog="Example: contactbench recording convert touches.mcap --out touches.csv",
+)
+def convert(
+    file: FileArgument,
+    out: Annotated[Path, typer.Option(help="File to write: .csv or .npz.")],
+    topic: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Only that topic [the one sensor, else the one robot].")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Write a recording as .csv or .npz."""
+    ending = out.suffix.lower()
+    if ending not in (".csv", ".npz"):
+        raise typer.BadParameter(f"--out {out}: end its name with .csv or .npz.")
+    refuse_overwriting(out, [file])
+    from pipeline.recording.convert import write_csv, write_npz
+
+    found = _read(file)
+    left_out: tuple[str, ...] = ()
+    if ending == ".csv":
+        left_out = write_csv(out, found, topic)
+    else:
+        write_npz(out, found, topic)
+    warnings = (*found.warnings, *left_out)
+    _warn(warnings)
+    say(f"written: {out}")
+    if as_json:
+        print_json({"out": str(out), "complete": found.complete, "warnings": list(warnings)})
+    if found.warnings:
+        raise typer.Exit(1)
+
+
+@recording_app.command(
+    "import-ros2",
+    help=(
+        "Make a recording of a ROS 2 bag in MCAP format; ROS is not needed.\n\n"
+        "Takes a topic of geometry_msgs/WrenchStamped, and the flange's pose from tf2_msgs/TFMessage,"
+        " geometry_msgs/PoseStamped, or sensor_msgs/JointState with --robot. Where there is one of a kind it is"
+        " taken; otherwise the message lists them.\n\n"
+        "Exit code 1: something in the bag is damaged or missing; what can be read is written."
+    ),
+    epilog="Example: contactbench recording import-ros2 bag_0.mcap --out touches.mcap",
+)
+def import_bag(
+    bag: Annotated[Path, typer.Argument(metavar="BAG", help="ROS 2 bag, an MCAP file.")],
+    out: Annotated[Path, typer.Option(help="Recording to write; must not exist.")],
+    wrench_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the sensor.")] = None,
+    pose_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the robot.")] = None,
+    robot: RobotOption = None,
+    base: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of the robot's base.")] = None,
+    flange: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of its flange.")] = None,
+    header_stamps: Annotated[
+        bool,
+        typer.Option("--header-stamps", help="Times are those in the headers, not when the bag got them."),
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Make a recording of a ROS 2 bag."""
+    from pipeline.recording.ros2 import Wanted, import_ros2
+    from pipeline.robot import Robot
+
+    arm = None if robot is None else Robot.named(robot)
+    wanted = Wanted(wrench_topic, pose_topic, arm, base, flange, header_stamps)
+    with Bar("importing") as bar:
+        done = import_ros2(bag, out, wanted, bar)
+    _warn(done.warnings)
+    where = "" if done.pose_topic is None else f", {done.poses:,} poses from {done.pose_topic}"
+    say(f"{done.wrenches:,} wrenches from {done.wrench_topic}{where}.")
+    if as_json:
+        print_json(
+            {
+                "out": str(out),
+                "wrench_topic": done.wrench_topic,
+                "pose_topic": done.pose_topic,
+                "wrenches": done.wrenches,
+                "poses": done.poses,
+                "warnings": list(done.warnings),
+            }
+        )
+    if done.warnings:
+        raise typer.Exit(1)
+
+
+def _read(file: Path) -> Recording:
+    from pipeline.recording import read_recording
+
+    with Bar("reading") as bar:
+        return read_recording(file, bar)
+
+
+def _warn(warnings: tuple[str, ...]) -> None:
+    for sentence in warnings:
+        say(f"warning: {sentence}", "yellow")
+
+
+def _facts(topic: str, kind: str, track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
+    times = track.times
+    duration = float(times.max() - times.min())
+    rate = (len(times) - 1) / duration if duration > 0 else None
+    return {"topic": topic, "kind": kind, "samples": len(times), "seconds": duration, "rate": rate}
+
+
+def _wrench_facts(topic: str, track: WrenchTrack) -> dict[str, Any]:
+    import numpy as np
+
+    steps = np.diff(track.sequence[track.sequence >= 0])
+    return {
+        **_facts(topic, "wrench", track),
+        "lost": sum(step - 1 for step in steps.tolist() if step > 1),
+        "unusable": int(np.count_nonzero(~track.usable)),
+    }
+
+
+def _flange_facts(topic: str, track: FlangeTrack) -> dict[str, Any]:
+    return {**_facts(topic, "flange", track), "joints": track.joints.shape[1]}
+
+
+def _sentence(facts: dict[str, Any]) -> str:
+    rate = "" if facts["rate"] is None else f" ({facts['rate']:.1f} Hz)"
+    what = {"wrench": "wrenches", "flange": "poses of the flange"}[facts["kind"]]
+    sentence = f"{facts['topic']}: {facts['samples']:,} {what} in {facts['seconds']:.2f} s{rate}"
+    if facts["kind"] == "wrench":
+        sentence += f", {facts['lost']:,} lost, {facts['unusable']:,} unusable"
+    return sentence + "."

@@ -1,0 +1,281 @@
+"""Recordings as CSV, for everything that reads tables, and as NPZ, for NumPy."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from contextlib import contextmanager
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+
+from pipeline.durable import scratch_beside, sync_folder
+from pipeline.recording.errors import RecordingError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from pipeline.recording.reader import Recording
+    from pipeline.recording.tracks import FlangeTrack, WrenchTrack
+
+_WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
+_POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")
+_BLOCK_ROWS = 50_000
+
+# Poses are asked for at 50 Hz or more; over a longer gap the flange may have been anywhere.
+LONGEST_GAP = 0.25
+
+
+def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tuple[str, ...]:
+    """
+    Write the samples of one topic as a table.
+
+    A wrench topic gives t,fx,fy,fz,mx,my,mz (s, N, N·m), status, sequence and temperature where there are any,
+    and, if there is exactly one flange, its pose at the same moments: qw,qx,qy,qz (R_BE) and px,py,pz (m),
+    interpolated. Readings that are no measurements, or that have no pose beside them, are left out. A flange
+    topic gives t, its pose, and joints j1.. in degrees.
+
+    Parameters
+    ----------
+    file : path
+        Appears as a whole; what was there stays until then.
+    recording : Recording
+    topic : str, optional
+        Left out: the wrenches if there is one sensor, else the one flange.
+
+    Returns
+    -------
+    tuple of str
+        What was left out: sentences.
+
+    Raises
+    ------
+    RecordingError
+        There is no such topic, the choice is not clear, no row is left, or the file cannot be written.
+    """
+    topic = _chosen(recording, topic)
+    said: list[str] = []
+    if topic in recording.flanges:
+        columns, table = _flange_table(recording.flanges[topic])
+    else:
+        columns, table = _wrench_table(recording, topic, said)
+    if not len(table):
+        reasons = " ".join(said) or "There is none."
+        raise RecordingError(f"{file}: no reading of {topic} would be left for the table. {reasons}")
+    with _whole_file(file) as stream:
+        stream.write((",".join(columns) + "\n").encode())
+        whole = [name in ("status", "sequence") for name in columns]
+        for begin in range(0, len(table), _BLOCK_ROWS):
+            stream.write(_rows(table[begin : begin + _BLOCK_ROWS], whole))
+    return tuple(said)
+
+
+def write_npz(file: Path, recording: Recording, topic: str | None = None) -> None:
+    """
+    Write everything as NumPy arrays, no row left out and nothing interpolated.
+
+    The names: `topics`, `about` and `events` are UTF-8 bytes of JSON; for the topic number i of `topics`
+    there are `i/times` and the other arrays of its track, by their names there. Nothing is pickled.
+
+    Parameters
+    ----------
+    file : path
+        Appears as a whole; what was there stays until then.
+    recording : Recording
+    topic : str, optional
+        Only that one.
+
+    Raises
+    ------
+    RecordingError
+        There is no such topic, or the file cannot be written.
+    """
+    tracks: Mapping[str, WrenchTrack | FlangeTrack] = {**recording.wrenches, **recording.flanges}
+    if topic is not None:
+        _check_topic(recording, topic)
+        tracks = {topic: tracks[topic]}
+    arrays: dict[str, NDArray[Any]] = {
+        "topics": _json_bytes(list(tracks)),
+        "about": _json_bytes(asdict(recording.info)),
+        "events": _json_bytes([asdict(event) for event in recording.events]),
+    }
+    for number, track in enumerate(tracks.values()):
+        arrays.update((f"{number}/{name}", values) for name, values in vars(track).items())
+    with _whole_file(file) as stream:
+        np.savez(stream, **arrays)  # type: ignore[arg-type]
+
+
+def load_npz(file: Path) -> dict[str, Any]:
+    """
+    Return what `write_npz` wrote: tracks as dictionaries by topic, `about` and `events`.
+
+    Raises
+    ------
+    RecordingError
+        It is no such file.
+    """
+    try:
+        with np.load(file, allow_pickle=False) as stored:
+            decoded = {name: json.loads(stored[name].tobytes()) for name in ("topics", "about", "events")}
+            tracks = {
+                topic: {
+                    name.partition("/")[2]: stored[name]
+                    for name in stored.files
+                    if name.partition("/")[0] == str(number)
+                }
+                for number, topic in enumerate(decoded["topics"])
+            }
+    except (OSError, ValueError, KeyError, TypeError, EOFError) as error:
+        raise RecordingError(
+            f"{file}: this is no converted recording ({error}): convert it again."
+        ) from error
+    return {"about": decoded["about"], "events": decoded["events"], **tracks}
+
+
+def _chosen(recording: Recording, topic: str | None) -> str:
+    if topic is not None:
+        _check_topic(recording, topic)
+        return topic
+    for tracks in (recording.wrenches, recording.flanges):
+        if len(tracks) == 1:
+            return next(iter(tracks))
+        if tracks:
+            raise RecordingError(
+                f"the recording has several topics of that kind: {', '.join(tracks)}. Say which: --topic NAME."
+            )
+    raise RecordingError("the recording holds no samples: there is nothing to convert.")
+
+
+def _check_topic(recording: Recording, topic: str) -> None:
+    known = (*recording.wrenches, *recording.flanges)
+    if topic not in known:
+        raise RecordingError(
+            f"the recording has no samples on {topic}; it has: {', '.join(known) or 'none'}."
+        )
+
+
+def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[list[str], NDArray[np.float64]]:
+    track = recording.wrenches[topic]
+    columns = list(_WRENCH_COLUMNS)
+    parts: list[NDArray[Any]] = [track.times[:, None], track.wrenches]
+    kept = track.usable
+    if not kept.all():
+        said.append(f"{np.count_nonzero(~kept):,} readings are left out: the device says they are no good.")
+    if len(recording.flanges) == 1:
+        poses, there = poses_at(next(iter(recording.flanges.values())), track.times)
+        lost = kept & ~there
+        if lost.any():
+            said.append(
+                f"{np.count_nonzero(lost):,} readings are left out: no pose within {LONGEST_GAP} s beside them."
+            )
+        kept &= there
+        columns += _POSE_COLUMNS
+        parts.append(poses)
+    elif recording.flanges:
+        said.append("There are several flanges: the table has no poses.")
+    columns.append("status")
+    parts.append(track.status[:, None])
+    optional: tuple[tuple[str, NDArray[Any], NDArray[np.bool_]], ...] = (
+        ("sequence", track.sequence, track.sequence >= 0),
+        ("temperature", track.temperature, np.isfinite(track.temperature)),
+    )
+    for name, values, some in optional:
+        if some.all():
+            columns.append(name)
+            parts.append(values[:, None])
+    return columns, np.hstack(parts, dtype=np.float64)[kept]
+
+
+def _flange_table(track: FlangeTrack) -> tuple[list[str], NDArray[np.float64]]:
+    joints = [f"j{number + 1}" for number in range(track.joints.shape[1])]
+    parts = (track.times[:, None], _quaternions(track.R_BE), track.p_BE_B, np.degrees(track.joints))
+    return ["t", *_POSE_COLUMNS, *joints], np.hstack(parts)
+
+
+def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """
+    Interpolate poses: orientation by slerp, position linearly.
+
+    Parameters
+    ----------
+    track : FlangeTrack
+    times : (n,) float64
+        s.
+
+    Returns
+    -------
+    poses : (n, 7) float64
+        qw qx qy qz px py pz; NaN where there is none.
+    there : (n,) bool
+        There are samples on both sides, no more than LONGEST_GAP apart, or one at that moment.
+    """
+    from scipy.spatial.transform import Rotation, Slerp
+
+    poses = np.full((len(times), 7), np.nan)
+    moments, first = np.unique(track.times, return_index=True)
+    if len(moments) < 2:
+        return poses, np.zeros(len(times), dtype=bool)
+    after = np.clip(np.searchsorted(moments, times), 1, len(moments) - 1)
+    begin, end = moments[after - 1], moments[after]
+    hit = (times == begin) | (times == end)  # a gap beside a sample does not take it away
+    there = (times >= begin) & (times <= end) & (hit | (end - begin <= LONGEST_GAP))
+    if not there.any():
+        return poses, there
+    turned = Slerp(moments, Rotation.from_matrix(track.R_BE[first]))(times[there])
+    poses[there, :4] = turned.as_quat(canonical=True)[:, [3, 0, 1, 2]]
+    share = ((times - begin) / (end - begin))[there, None]
+    before, behind = track.p_BE_B[first][after - 1][there], track.p_BE_B[first][after][there]
+    poses[there, 4:] = (1 - share) * before + share * behind
+    return poses, there
+
+
+def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+
+
+def _rows(table: NDArray[np.float64], whole: Sequence[bool]) -> bytes:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    for row in table.tolist():
+        writer.writerow(
+            [
+                "" if value != value else int(value) if is_whole else repr(value)
+                for value, is_whole in zip(row, whole, strict=True)
+            ]
+        )
+    return text.getvalue().encode()
+
+
+def _json_bytes(value: Any) -> NDArray[np.uint8]:
+    return np.frombuffer(json.dumps(value, ensure_ascii=False).encode(), dtype=np.uint8)
+
+
+@contextmanager
+def _whole_file(file: Path) -> Iterator[BinaryIO]:
+    """Write a file that appears as a whole, or not at all; larger than fits into memory twice."""
+    try:
+        scratch = scratch_beside(file)
+        try:
+            with scratch.open("xb") as stream:
+                yield stream
+                stream.flush()
+                os.fsync(stream.fileno())
+            scratch.replace(file)
+        except BaseException:
+            scratch.unlink(missing_ok=True)
+            raise
+        sync_folder(file.parent)
+    except (OSError, ValueError) as error:
+        if isinstance(error, RecordingError):
+            raise
+        raise RecordingError(
+            f"{file}: the file cannot be written ({error}): choose a folder that exists, is writable and has space."
+        ) from error

@@ -1,0 +1,156 @@
+"""What a recording says about itself: its clock, the devices, who wrote it."""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal, get_args
+
+from pipeline import __version__
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+WRENCH_TOPIC, FLANGE_TOPIC, EVENT_TOPIC = "/wrench", "/flange", "/events"
+
+ABOUT_RECORD = "contactbench.recording"
+DEVICE_RECORD = "contactbench.device"
+FORMAT = 1
+
+_CENTURIES = 1e10  # s; what 64 bits of nanoseconds hold
+
+DeviceKind = Literal["wrench", "flange"]
+
+
+@dataclass(frozen=True, slots=True)
+class DeviceInfo:
+    """
+    Where a topic's samples come from.
+
+    Attributes
+    ----------
+    kind : {"wrench", "flange"}
+    topic : str
+        Where its samples are in the recording.
+    address : str
+        As it was opened, an URL.
+    model, serial : str
+        Empty where unknown.
+    rate : float or None
+        Nominal, Hz.
+    """
+
+    kind: DeviceKind
+    topic: str
+    address: str
+    model: str = ""
+    serial: str = ""
+    rate: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class RecordingInfo:
+    """
+    What a recording says about itself.
+
+    Attributes
+    ----------
+    started_ns : int
+        Unix time of the start, ns.
+    clock : float
+        The samples' clock at that moment, s: it ties their times to the calendar.
+    devices : tuple of DeviceInfo
+    tool : str
+        Who wrote it.
+    note : str
+    """
+
+    started_ns: int
+    clock: float
+    devices: tuple[DeviceInfo, ...] = ()
+    tool: str = f"contactbench {__version__}"
+    note: str = ""
+
+    @classmethod
+    def now(cls, devices: Iterable[DeviceInfo] = (), note: str = "") -> RecordingInfo:
+        """Return the description of a recording that starts now, on the host's monotonic clock."""
+        return cls(time.time_ns(), time.monotonic(), tuple(devices), note=note)
+
+    def topics(self, kind: DeviceKind) -> tuple[str, ...]:
+        """Return the topics of one kind of samples; the usual one where no device names another."""
+        named = tuple(dict.fromkeys(device.topic for device in self.devices if device.kind == kind))
+        return named or ((WRENCH_TOPIC,) if kind == "wrench" else (FLANGE_TOPIC,))
+
+    def log_time(self, moment: float) -> int:
+        """
+        Return the Unix time of a moment of the samples' clock, ns.
+
+        Raises
+        ------
+        ValueError
+            It is before 1970 or after 2200, or not a time.
+        """
+        since = moment - self.clock
+        nanoseconds = self.started_ns + round(since * 1e9) if abs(since) < _CENTURIES else -1
+        if not 0 <= nanoseconds < 2**63:
+            raise ValueError(f"{moment} s on the samples' clock is no time near the start of the recording")
+        return nanoseconds
+
+
+def about_record(info: RecordingInfo) -> dict[str, str]:
+    """Return the metadata record that describes a recording."""
+    return {
+        "format": str(FORMAT),
+        "tool": info.tool,
+        "started_ns": str(info.started_ns),
+        "clock": repr(float(info.clock)),
+        "note": info.note,
+    }
+
+
+def device_record(device: DeviceInfo) -> dict[str, str]:
+    """Return the metadata record that describes a device."""
+    return {
+        "kind": device.kind,
+        "topic": device.topic,
+        "address": device.address,
+        "model": device.model,
+        "serial": device.serial,
+        "rate": "" if device.rate is None else repr(float(device.rate)),
+    }
+
+
+def read_about(values: Mapping[str, str]) -> RecordingInfo:
+    """
+    Return what a metadata record says.
+
+    Raises
+    ------
+    KeyError, ValueError
+        It is damaged.
+    """
+    started, clock = int(values["started_ns"]), float(values["clock"])
+    if not 0 <= started < 2**63 or not math.isfinite(clock):
+        raise ValueError("the start is no time")
+    return RecordingInfo(started, clock, (), values["tool"], values["note"])
+
+
+def read_device(values: Mapping[str, str]) -> DeviceInfo:
+    """
+    Return what a metadata record says.
+
+    Raises
+    ------
+    KeyError, ValueError
+        It is damaged.
+    """
+    kinds: dict[str, DeviceKind] = {known: known for known in get_args(DeviceKind)}
+    if values["kind"] not in kinds:
+        raise ValueError(f"no kind of device: {values['kind']!r}")
+    rate = float(values["rate"]) if values["rate"] else None
+    if rate is not None and not 0 < rate < math.inf:
+        raise ValueError(f"no rate: {rate}")
+    return DeviceInfo(
+        kinds[values["kind"]], values["topic"], values["address"], values["model"], values["serial"], rate
+    )

@@ -1,0 +1,298 @@
+"""Samples as JSON messages, and back."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.devices.sample import FlangeSample, Status, WrenchSample
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+MOST_JOINTS = 64
+_LARGEST = 2**63 - 1  # what arrays of integers hold
+_INFO_LEVEL = 2  # of foxglove.Log
+_ORTHOGONAL = 1e-6
+
+_encode = json.JSONEncoder(allow_nan=False, separators=(",", ":"), ensure_ascii=False).encode
+
+
+class MessageError(ValueError):
+    """A sample that cannot be stored, or a message that is none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """
+    Something that happened during a recording.
+
+    Attributes
+    ----------
+    time : float
+        As for a sample, s.
+    name : str
+    fields : mapping
+        What goes with it; as JSON has it.
+    """
+
+    time: float
+    name: str
+    fields: Mapping[str, Any] = field(default_factory=dict)
+
+
+# ---- writing -----------------------------------------------------------------------------------
+
+
+def wrench_message(sample: WrenchSample, stamp_ns: int) -> bytes:
+    """
+    Return a wrench as JSON.
+
+    Raises
+    ------
+    MessageError
+        Its sequence number or status cannot be stored.
+    """
+    body: dict[str, Any] = {
+        "timestamp": _stamp(stamp_ns),
+        "frame_id": "sensor",
+        "time": float(sample.time),
+        "force": _named("xyz", sample.force),
+        "torque": _named("xyz", sample.torque),
+        "status": _whole(int(sample.status)),
+    }
+    if sample.sequence is not None:
+        body["sequence"] = _whole(int(sample.sequence))
+    _optional(body, device_time=sample.device_time, temperature=sample.temperature)
+    return _encode(body).encode()
+
+
+def flange_message(sample: FlangeSample, stamp_ns: int) -> bytes:
+    """
+    Return a pose as JSON.
+
+    Raises
+    ------
+    MessageError
+        It is no pose.
+    """
+    R, p = np.asarray(sample.R_BE, dtype=np.float64), np.asarray(sample.p_BE_B, dtype=np.float64)
+    if p.shape != (3,):
+        raise MessageError("the position of the flange needs three numbers")
+    body: dict[str, Any] = {
+        "timestamp": _stamp(stamp_ns),
+        "parent_frame_id": "base",
+        "child_frame_id": "flange",
+        "translation": _named("xyz", p.tolist()),
+        "rotation": _named("xyzw", _quaternion(_rotation(R))),
+        "time": float(sample.time),
+        "R": R.ravel().tolist(),
+    }
+    if sample.joints is not None:
+        joints = np.asarray(sample.joints, dtype=np.float64)
+        if joints.ndim != 1 or len(joints) > MOST_JOINTS:
+            raise MessageError(f"joints need a list of at most {MOST_JOINTS} angles")
+        body["joints"] = [_or_null(angle) for angle in joints.tolist()]
+    _optional(body, device_time=sample.device_time)
+    return _encode(body).encode()
+
+
+def event_message(event: Event, stamp_ns: int) -> bytes:
+    """
+    Return an event as JSON.
+
+    Raises
+    ------
+    MessageError
+        Its fields cannot be written as JSON.
+    """
+    try:
+        fields = _encode(dict(event.fields))
+        body = {
+            "timestamp": _stamp(stamp_ns),
+            "level": _INFO_LEVEL,
+            "message": f"{event.name} {fields}" if event.fields else event.name,
+            "name": "contactbench",
+            "file": "",
+            "line": 0,
+            "time": float(event.time),
+            "event": event.name,
+            "fields": event.fields,
+        }
+        return _encode(body).encode()
+    except (TypeError, ValueError, RecursionError) as error:
+        raise MessageError(f"the fields of the event {event.name!r} cannot be stored ({error})") from error
+
+
+def _stamp(nanoseconds: int) -> dict[str, int]:
+    seconds, rest = divmod(nanoseconds, 10**9)
+    return {"sec": seconds, "nsec": rest}
+
+
+def _or_null(value: float) -> float | None:
+    # JSON has neither NaN nor infinity; both mean that there is no number.
+    number = float(value)
+    return number if math.isfinite(number) else None
+
+
+def _named(names: str, values: Any) -> dict[str, float | None]:
+    return {name: _or_null(value) for name, value in zip(names, values, strict=True)}
+
+
+def _optional(body: dict[str, Any], **values: float | None) -> None:
+    for name, value in values.items():
+        if value is not None and math.isfinite(value):
+            body[name] = float(value)
+
+
+def _whole(value: int) -> int:
+    if not 0 <= value <= _LARGEST:
+        raise MessageError(f"{value} is no count")
+    return value
+
+
+def _rotation(R: np.ndarray[Any, np.dtype[np.float64]]) -> np.ndarray[Any, np.dtype[np.float64]]:
+    # Written so that NaN fails too. Entries of a rotation are small: huge ones would overflow the product.
+    if (
+        R.shape != (3, 3)
+        or not (np.abs(R) < 2).all()
+        or not (np.abs(R.T @ R - np.eye(3)) < _ORTHOGONAL).all()
+    ):
+        raise MessageError("the orientation of the flange is no rotation")
+    if np.linalg.det(R) < 0:
+        raise MessageError("the orientation of the flange is a reflection")
+    return R
+
+
+def _quaternion(R: np.ndarray[Any, np.dtype[np.float64]]) -> list[float]:
+    """Return x, y, z, w with w >= 0 by Shepperd's method: divided by the largest of the four."""
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = R.ravel().tolist()
+    products = (
+        (1 + xx - yy - zz, xy + yx, xz + zx, zy - yz),
+        (xy + yx, 1 - xx + yy - zz, yz + zy, xz - zx),
+        (xz + zx, yz + zy, 1 - xx - yy + zz, yx - xy),
+        (zy - yz, xz - zx, yx - xy, 1 + xx + yy + zz),
+    )
+    row = products[max(range(4), key=lambda index: products[index][index])]
+    size = math.copysign(math.hypot(*row), row[3])
+    return [value / size for value in row]
+
+
+# ---- reading -----------------------------------------------------------------------------------
+
+
+def read_wrench(data: bytes) -> WrenchSample:
+    """
+    Return the wrench of a message.
+
+    Raises
+    ------
+    MessageError
+        It is none.
+    """
+    body = _body(data)
+    return WrenchSample(
+        _time(body),
+        _triple(body.get("force")),
+        _triple(body.get("torque")),
+        _count(body["sequence"]) if "sequence" in body else None,
+        Status(_count(body.get("status"), 2**31)),
+        _given(body, "device_time"),
+        _given(body, "temperature"),
+    )
+
+
+def read_flange(data: bytes) -> FlangeSample:
+    """
+    Return the pose of a message.
+
+    Raises
+    ------
+    MessageError
+        It is none.
+    """
+    body = _body(data)
+    R = _numbers(body.get("R"), 9)
+    joints = None
+    if "joints" in body:
+        listed = body["joints"]
+        if not isinstance(listed, list) or len(listed) > MOST_JOINTS:
+            raise MessageError("joints are no list of angles")
+        joints = _numbers(listed, len(listed))
+    return FlangeSample(
+        _time(body),
+        _rotation(R.reshape(3, 3)),
+        np.array(_triple(body.get("translation"))),
+        joints,
+        _given(body, "device_time"),
+    )
+
+
+def read_event(data: bytes) -> Event:
+    """
+    Return the event of a message.
+
+    Raises
+    ------
+    MessageError
+        It is none.
+    """
+    body = _body(data)
+    name, fields = body.get("event"), body.get("fields")
+    if not isinstance(name, str) or not isinstance(fields, dict):
+        raise MessageError("no event")
+    return Event(_time(body), name, fields)
+
+
+def _body(data: bytes) -> dict[str, Any]:
+    try:
+        body = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise MessageError(f"no JSON ({error})") from error
+    if not isinstance(body, dict):
+        raise MessageError("no JSON object")
+    return body
+
+
+def _number(value: Any) -> float:
+    if value is None:
+        return math.nan
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise MessageError("text where a number belongs")
+    try:
+        return float(value)
+    except OverflowError:
+        raise MessageError("a number that is too large") from None
+
+
+def _time(body: dict[str, Any]) -> float:
+    time = _number(body.get("time"))
+    if not math.isfinite(time):
+        raise MessageError("no time")
+    return time
+
+
+def _given(body: dict[str, Any], name: str) -> float | None:
+    return _number(body[name]) if name in body else None
+
+
+def _triple(value: Any) -> tuple[float, float, float]:
+    if not isinstance(value, dict):
+        raise MessageError("no x, y, z")
+    return _number(value.get("x")), _number(value.get("y")), _number(value.get("z"))
+
+
+def _numbers(value: Any, count: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    if not isinstance(value, list) or len(value) != count:
+        raise MessageError(f"no list of {count} numbers")
+    return np.array([_number(item) for item in value], dtype=np.float64)
+
+
+def _count(value: Any, largest: int = _LARGEST) -> int:
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= largest:
+        raise MessageError("no count")
+    return value

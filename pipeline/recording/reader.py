@@ -1,0 +1,211 @@
+"""Reading recordings: sample by sample, or as arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.recording.errors import RecordingError
+from pipeline.recording.info import (
+    ABOUT_RECORD,
+    DEVICE_RECORD,
+    FORMAT,
+    RecordingInfo,
+    read_about,
+    read_device,
+)
+from pipeline.recording.messages import Event, MessageError, read_event, read_flange, read_wrench
+from pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
+from pipeline.recording.stream import McapStream, Message, Metadata
+from pipeline.recording.tracks import FlangeRows, FlangeTrack, WrenchRows, WrenchTrack
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+    from pathlib import Path
+    from types import TracebackType
+
+_DECODERS: Mapping[str, Callable[[bytes], WrenchSample | FlangeSample | Event]] = {
+    WRENCH_SCHEMA: read_wrench,
+    FLANGE_SCHEMA: read_flange,
+    EVENT_SCHEMA: read_event,
+}
+
+# Half a day of three sensors at 1 kHz; longer ones are read with RecordingReader.
+MOST_SAMPLES = 130_000_000
+MOST_EVENTS = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """
+    A recording as arrays.
+
+    Attributes
+    ----------
+    info : RecordingInfo
+    wrenches, flanges : mapping of topic to track
+        Topics without samples are left out.
+    events : tuple of Event
+    warnings : tuple of str
+        What is missing or damaged: sentences.
+    complete : bool
+        The recording was closed, and the file is whole.
+    """
+
+    info: RecordingInfo
+    wrenches: Mapping[str, WrenchTrack]
+    flanges: Mapping[str, FlangeTrack]
+    events: tuple[Event, ...]
+    warnings: tuple[str, ...]
+    complete: bool
+
+
+class RecordingReader:
+    """
+    Iterate over the samples of a recording, once, as they were written; for files of any length.
+
+    Parameters
+    ----------
+    path : path
+    progress : callable, optional
+        Gets the bytes read so far, and those in the file.
+
+    Attributes
+    ----------
+    info : RecordingInfo
+        What the recording says about itself.
+    warnings : list of str
+        What is missing or damaged; known at the end.
+    complete : bool
+        The recording was closed, and the file is whole; known at the end.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be read, or is no recording of contactbench.
+    """
+
+    def __init__(self, path: Path, progress: Callable[[int, int], None] | None = None) -> None:
+        self._stream = McapStream(path, progress)
+        self._records = iter(self._stream)
+        self._first: Message | None = None
+        try:
+            self.info = self._about(path)
+        except BaseException:
+            self.close()
+            raise
+
+    def __enter__(self) -> RecordingReader:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def __iter__(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
+        """Yield topics and what was recorded on them."""
+        message = self._first
+        if message is not None:
+            yield from self._decoded(message)
+        for record in self._records:
+            if isinstance(record, Message):
+                yield from self._decoded(record)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is missing or damaged."""
+        return self._stream.warnings
+
+    @property
+    def complete(self) -> bool:
+        """The recording was closed, and the file is whole."""
+        return self._stream.complete
+
+    def close(self) -> None:
+        """Close the file."""
+        self._stream.close()
+
+    def _about(self, path: Path) -> RecordingInfo:
+        about: RecordingInfo | None = None
+        devices = []
+        for record in self._records:
+            if isinstance(record, Message):
+                self._first = record
+                break
+            try:
+                if record.name == ABOUT_RECORD:
+                    _check_format(path, record)
+                    about = read_about(record.values)
+                elif record.name == DEVICE_RECORD:
+                    devices.append(read_device(record.values))
+            except (KeyError, ValueError) as error:
+                if isinstance(error, RecordingError):
+                    raise
+                self._stream.warn(f"What the file says about itself is damaged ({error}).")
+        if about is None:
+            reason = " ".join(self.warnings[:1]) or "For a ROS 2 bag use: contactbench recording import-ros2."
+            raise RecordingError(f"{path}: this is no recording of contactbench. {reason}")
+        return RecordingInfo(about.started_ns, about.clock, tuple(devices), about.tool, about.note)
+
+    def _decoded(self, message: Message) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
+        channel = message.channel
+        decode = _DECODERS.get(channel.schema_name) if channel.encoding == "json" else None
+        if decode is None:
+            self._stream.warn(f"There are messages of an unknown kind on {channel.topic[:80]!r}.")
+            return
+        try:
+            sample = decode(message.data)
+        except MessageError as error:
+            self._stream.warn(f"A message on {channel.topic[:80]!r} is damaged and left out ({error}).")
+            return
+        yield channel.topic, sample
+
+
+def read_recording(path: Path, progress: Callable[[int, int], None] | None = None) -> Recording:
+    """
+    Read a whole recording.
+
+    Parameters
+    ----------
+    path : path
+    progress : callable, optional
+        Gets the bytes read so far, and those in the file.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be read, is no recording of contactbench, or is too long for arrays.
+    """
+    wrenches: dict[str, WrenchRows] = {}
+    flanges: dict[str, FlangeRows] = {}
+    events: list[Event] = []
+    room = MOST_SAMPLES
+    with RecordingReader(path, progress) as reader:
+        for topic, sample in reader:
+            room -= 1
+            if isinstance(sample, WrenchSample):
+                wrenches.setdefault(topic, WrenchRows()).add(sample)
+            elif isinstance(sample, FlangeSample):
+                flanges.setdefault(topic, FlangeRows()).add(sample)
+            else:
+                events.append(sample)
+            if room < 0 or len(events) > MOST_EVENTS:
+                raise RecordingError(f"{path}: the recording is too long to be read at once: split it.")
+        return Recording(
+            reader.info,
+            {topic: rows.track() for topic, rows in wrenches.items()},
+            {topic: rows.track() for topic, rows in flanges.items()},
+            tuple(events),
+            tuple(reader.warnings),
+            reader.complete,
+        )
+
+
+def _check_format(path: Path, record: Metadata) -> None:
+    if int(record.values["format"]) > FORMAT:
+        raise RecordingError(
+            f"{path}: the recording was written by a newer program ({record.values.get('tool', '')[:80]}): update"
+            " contactbench."
+        )

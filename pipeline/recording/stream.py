@@ -1,0 +1,285 @@
+"""Any MCAP file as a stream of messages; no length or count in it is trusted."""
+
+from __future__ import annotations
+
+import os
+import zlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, BinaryIO
+
+import zstandard
+
+from pipeline.recording.errors import RecordingError
+from pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+# Bags with pictures have chunks of many MiB; our own are under 2.
+LARGEST_CHUNK = 256 * 2**20
+_LARGEST_OTHER = 16 * 2**20
+_BLOCK = 2**20
+_MOST_WARNINGS = 20
+
+_WANTED = {
+    Opcode.HEADER: _LARGEST_OTHER,
+    Opcode.SCHEMA: _LARGEST_OTHER,
+    Opcode.CHANNEL: _LARGEST_OTHER,
+    Opcode.METADATA: _LARGEST_OTHER,
+    Opcode.DATA_END: _LARGEST_OTHER,
+    Opcode.MESSAGE: LARGEST_CHUNK,
+    Opcode.CHUNK: LARGEST_CHUNK,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """A topic, and how its messages are written."""
+
+    topic: str
+    encoding: str
+    schema_name: str
+    schema_encoding: str
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """What was published on a topic; log time in ns."""
+
+    channel: Channel
+    log_time: int
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Metadata:
+    """A named map of strings."""
+
+    name: str
+    values: dict[str, str]
+
+
+class McapStream:
+    """
+    Iterate over the messages and metadata of an MCAP file, once, in the order of the file.
+
+    A file that is cut off gives what is in its whole chunks; a damaged chunk is left out. Both are said in
+    `warnings`.
+
+    Parameters
+    ----------
+    path : path
+    progress : callable, optional
+        Gets the bytes read so far, and those in the file.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be opened or read, or is no MCAP file.
+    """
+
+    def __init__(self, path: Path, progress: Callable[[int, int], None] | None = None) -> None:
+        self._path = path
+        self._progress = progress
+        self._file = _open(path)
+        try:
+            self._size = os.fstat(self._file.fileno()).st_size
+            self._at, self._crc, self._crc_before = 0, 0, 0
+            self._check_magic()
+        except BaseException:
+            self._file.close()
+            raise
+        self._schemas: dict[int, tuple[str, str]] = {}
+        self._channels: dict[int, Channel] = {}
+        self._faults = 0
+        self.warnings: list[str] = []
+        self.complete = False
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """The topics met so far."""
+        return tuple(self._channels.values())
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def warn(self, sentence: str) -> None:
+        """Keep a warning, unless there are many already."""
+        self._faults += 1
+        if self._faults <= _MOST_WARNINGS:
+            self.warnings.append(sentence)
+        elif self._faults == _MOST_WARNINGS + 1:
+            self.warnings.append("More of it is damaged in the same way.")
+
+    def __iter__(self) -> Iterator[Message | Metadata]:
+        """Yield messages and metadata until the end of the data, or of what is left of it."""
+        while True:
+            found = self._next_record()
+            if found is None:
+                return
+            begin, opcode, payload = found
+            if opcode == Opcode.DATA_END:
+                self._end(payload)
+                return
+            try:
+                yield from self._meaning(opcode, payload)
+            except ValueError as error:
+                self.warn(f"What is at byte {begin:,} is damaged and left out ({error}).")
+
+    def _check_magic(self) -> None:
+        if self._read(len(MAGIC)) != MAGIC:
+            raise RecordingError(f"{self._path}: this is no MCAP file: choose a recording or a ROS 2 bag.")
+
+    def _next_record(self) -> tuple[int, int, bytes] | None:
+        """Return where the next record that matters is, its opcode and payload; None at the end of what can be read."""
+        while True:
+            begin, self._crc_before = self._at, self._crc
+            head = self._read(PREFIX.size)
+            opcode, length = PREFIX.unpack(head) if len(head) == PREFIX.size else (0, self._size)
+            if length > self._size - self._at:
+                self._cut_off(begin)
+                return None
+            if opcode == Opcode.FOOTER:
+                self._cut_off(begin)
+                return None
+            limit = _WANTED.get(opcode, -1)
+            if length <= limit:
+                return begin, opcode, self._read(length)
+            if limit >= 0:
+                self.warn(f"What is at byte {begin:,} is too long ({length:,} bytes) and left out.")
+            self._skip(length)
+
+    def _meaning(self, opcode: int, payload: bytes) -> Iterator[Message | Metadata]:
+        if opcode == Opcode.CHUNK:
+            yield from self._chunk(payload)
+        elif opcode == Opcode.METADATA:
+            cursor = Cursor(payload)
+            yield Metadata(cursor.text(), cursor.mapping())
+        else:
+            message = self._plain(opcode, payload)
+            if message is not None:
+                yield message
+
+    def _chunk(self, payload: bytes) -> Iterator[Message]:
+        data = _unpacked(Cursor(payload))
+        at = 0
+        while at < len(data):
+            if len(data) - at < PREFIX.size:
+                raise ValueError("half a record")
+            opcode, length = PREFIX.unpack_from(data, at)
+            at += PREFIX.size
+            if length > len(data) - at:
+                raise ValueError("half a record")
+            message = self._plain(opcode, data[at : at + length])
+            at += length
+            if message is not None:
+                yield message
+
+    def _plain(self, opcode: int, payload: bytes) -> Message | None:
+        if opcode == Opcode.MESSAGE:
+            if len(payload) < MESSAGE_HEAD.size:
+                raise ValueError("half a message")
+            number, _, log_time, _ = MESSAGE_HEAD.unpack_from(payload)
+            if number not in self._channels:
+                raise ValueError(f"a message on channel {number}, which is not described")
+            return Message(self._channels[number], log_time, payload[MESSAGE_HEAD.size :])
+        cursor = Cursor(payload)
+        if opcode == Opcode.SCHEMA:
+            number = cursor.number(2)
+            self._schemas.setdefault(number, (cursor.text(), cursor.text()))
+        elif opcode == Opcode.CHANNEL:
+            number, schema = cursor.number(2), cursor.number(2)
+            topic, encoding = cursor.text(), cursor.text()
+            self._channels.setdefault(number, Channel(topic, encoding, *self._schemas.get(schema, ("", ""))))
+        return None
+
+    def _end(self, payload: bytes) -> None:
+        expected = int.from_bytes(payload[:4], "little")
+        if expected and expected != self._crc_before:
+            self.warn("The file was changed after it was written: its checksum does not match.")
+        try:
+            self._file.seek(-len(MAGIC), os.SEEK_END)
+            self.complete = self._file.read(len(MAGIC)) == MAGIC
+        except OSError as error:
+            raise self._unreadable(error) from error
+        if not self.complete:
+            self.warn(
+                "The file is cut off after its last sample: nothing but the table of contents is missing."
+            )
+
+    def _cut_off(self, begin: int) -> None:
+        self.warn(
+            f"The file is cut off or damaged at byte {begin:,} of {self._size:,}: it gives what was recorded up to"
+            " there."
+        )
+
+    def _read(self, length: int) -> bytes:
+        try:
+            data = self._file.read(length)
+        except OSError as error:
+            raise self._unreadable(error) from error
+        self._crc = zlib.crc32(data, self._crc)
+        self._at += len(data)
+        if self._progress is not None:
+            self._progress(self._at, self._size)
+        return data
+
+    def _skip(self, length: int) -> None:
+        while length > 0:
+            block = self._read(min(length, _BLOCK))
+            if not block:
+                return
+            length -= len(block)
+
+    def _unreadable(self, error: OSError) -> RecordingError:
+        return RecordingError(f"{self._path}: the file cannot be read ({error}): copy it to another disk.")
+
+
+def _unpacked(cursor: Cursor) -> bytes:
+    cursor.take(16)  # first and last time
+    size, checksum = cursor.number(8), cursor.number(4)
+    compression = cursor.text()
+    packed = cursor.take(cursor.number(8))
+    if size > LARGEST_CHUNK:
+        raise ValueError(f"a chunk of {size:,} bytes")
+    data = _decompressed(compression, packed, size)
+    if len(data) != size or (checksum and zlib.crc32(data) != checksum):
+        raise ValueError("its checksum does not match")
+    return data
+
+
+def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
+    if compression == "":
+        return packed
+    if compression == "zstd":
+        try:
+            # A frame says itself how large it will be, and is believed: so ask before.
+            if zstandard.frame_content_size(packed) > size:
+                raise ValueError("a chunk that is larger than it says")
+            return zstandard.ZstdDecompressor().decompress(packed, max_output_size=size)
+        except zstandard.ZstdError as error:
+            raise ValueError(f"it cannot be unpacked: {error}") from error
+    if compression == "lz4":
+        from lz4 import frame  # type: ignore[import-untyped]
+
+        try:
+            data: bytes = frame.LZ4FrameDecompressor().decompress(packed, max_length=size)
+        except (RuntimeError, EOFError) as error:
+            raise ValueError(f"it cannot be unpacked: {error}") from error
+        return data
+    raise ValueError(f"it is packed as {compression[:20]!r}, which is unknown")
+
+
+def _open(path: Path) -> BinaryIO:
+    try:
+        return path.open("rb")
+    except FileNotFoundError:
+        raise RecordingError(f"{path}: there is no such file: check the path.") from None
+    except IsADirectoryError:
+        raise RecordingError(f"{path}: this is a folder: choose an MCAP file inside it.") from None
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        raise RecordingError(
+            f"{path}: the file cannot be opened ({error}): check its permissions."
+        ) from error

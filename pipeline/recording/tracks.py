@@ -1,0 +1,164 @@
+"""What was recorded on one topic, as arrays."""
+
+from __future__ import annotations
+
+from array import array
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.devices.sample import Status, WrenchSample
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from pipeline.devices.sample import FlangeSample
+
+_USABLE = Status.LATE  # everything else says that a reading is no measurement
+
+
+@dataclass(frozen=True, eq=False)
+class WrenchTrack:
+    """
+    The wrenches of one sensor; n samples, as given.
+
+    Attributes
+    ----------
+    times : (n,) float64
+        The samples' clock, s.
+    wrenches : (n, 6) float64
+        Fx Fy Fz Mx My Mz in S, N and N·m about the sensor's origin.
+    sequence : (n,) int64
+        The device's count; -1: it has none.
+    status : (n,) int64
+        Flags of `Status`.
+    device_time : (n,) float64
+        The device's clock, s; NaN: it has none.
+    temperature : (n,) float64
+        °C; NaN: unknown.
+    """
+
+    times: NDArray[np.float64]
+    wrenches: NDArray[np.float64]
+    sequence: NDArray[np.int64]
+    status: NDArray[np.int64]
+    device_time: NDArray[np.float64]
+    temperature: NDArray[np.float64]
+
+    @property
+    def usable(self) -> NDArray[np.bool_]:
+        """(n,) the numbers are measurements: finite, and the device reports no error but lateness."""
+        usable: NDArray[np.bool_] = ((self.status & ~int(_USABLE)) == 0) & np.isfinite(self.wrenches).all(
+            axis=1
+        )
+        return usable
+
+    def samples(self) -> Iterator[WrenchSample]:
+        """Yield the samples one by one."""
+        for row in range(len(self.times)):
+            fx, fy, fz, mx, my, mz = self.wrenches[row].tolist()
+            sequence = int(self.sequence[row])
+            yield WrenchSample(
+                float(self.times[row]),
+                (fx, fy, fz),
+                (mx, my, mz),
+                None if sequence < 0 else sequence,
+                Status(int(self.status[row])),
+                _or_none(self.device_time[row]),
+                _or_none(self.temperature[row]),
+            )
+
+
+@dataclass(frozen=True, eq=False)
+class FlangeTrack:
+    """
+    The poses of one flange E in its base B; n samples, as given.
+
+    Attributes
+    ----------
+    times : (n,) float64
+        The samples' clock, s.
+    R_BE : (n, 3, 3) float64
+    p_BE_B : (n, 3) float64
+        m; NaN: unknown.
+    joints : (n, k) float64
+        rad; NaN: unknown. k = 0 where no sample has any.
+    device_time : (n,) float64
+        The controller's clock, s; NaN: it has none.
+    """
+
+    times: NDArray[np.float64]
+    R_BE: NDArray[np.float64]
+    p_BE_B: NDArray[np.float64]
+    joints: NDArray[np.float64]
+    device_time: NDArray[np.float64]
+
+
+class WrenchRows:
+    """Collect samples in columns: an hour at 1 kHz fits where 3.6 million objects would not."""
+
+    def __init__(self) -> None:
+        self._numbers = array("d")
+        self._counts = array("q")
+
+    def add(self, sample: WrenchSample) -> None:
+        """Append a sample."""
+        times = (sample.time, _or_nan(sample.device_time), _or_nan(sample.temperature))
+        self._numbers.extend((*times, *sample.force, *sample.torque))
+        self._counts.extend((-1 if sample.sequence is None else sample.sequence, sample.status))
+
+    def track(self) -> WrenchTrack:
+        """Return the samples so far."""
+        numbers = np.array(self._numbers).reshape(-1, 9)
+        counts = np.array(self._counts).reshape(-1, 2)
+        return WrenchTrack(
+            times=numbers[:, 0].copy(),
+            wrenches=numbers[:, 3:].copy(),
+            sequence=counts[:, 0].copy(),
+            status=counts[:, 1].copy(),
+            device_time=numbers[:, 1].copy(),
+            temperature=numbers[:, 2].copy(),
+        )
+
+
+class FlangeRows:
+    """Collect poses in columns; where samples differ in the number of joints, the missing ones are NaN."""
+
+    def __init__(self) -> None:
+        self._numbers = array("d")
+        self._joints = array("d")
+        self._joint_counts = array("q")
+
+    def add(self, sample: FlangeSample) -> None:
+        """Append a pose."""
+        self._numbers.extend((sample.time, _or_nan(sample.device_time)))
+        self._numbers.extend(sample.p_BE_B.tolist())
+        self._numbers.extend(sample.R_BE.ravel().tolist())
+        joints = [] if sample.joints is None else sample.joints.tolist()
+        self._joints.extend(joints)
+        self._joint_counts.append(len(joints))
+
+    def track(self) -> FlangeTrack:
+        """Return the poses so far."""
+        numbers = np.array(self._numbers).reshape(-1, 14)
+        counts = np.array(self._joint_counts)
+        joints = np.full((len(numbers), counts.max(initial=0)), np.nan)
+        joints[np.arange(joints.shape[1]) < counts[:, None]] = self._joints
+        return FlangeTrack(
+            times=numbers[:, 0].copy(),
+            R_BE=numbers[:, 5:].reshape(-1, 3, 3),
+            p_BE_B=numbers[:, 2:5].copy(),
+            joints=joints,
+            device_time=numbers[:, 1].copy(),
+        )
+
+
+def _or_nan(value: float | None) -> float:
+    return np.nan if value is None else value
+
+
+def _or_none(value: np.float64) -> float | None:
+    return None if np.isnan(value) else float(value)

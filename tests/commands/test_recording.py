@@ -1,0 +1,127 @@
+"""recording info, convert, import-ros2."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import typer
+from mcap_ros2.writer import Writer
+from typer.testing import CliRunner
+
+from pipeline import cli
+from pipeline.commands.recording import recording_app
+from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
+from pipeline.recording.ros2_types import DEFINITIONS, WRENCH_STAMPED
+
+
+@pytest.fixture(scope="module")
+def app() -> typer.Typer:
+    """The group by itself, with the program's way of ending on wrong input."""
+    app = typer.Typer(cls=cli.app.info.cls, pretty_exceptions_enable=False)
+    app.add_typer(recording_app, name="recording")
+    return app
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    about = RecordingInfo(10**18, 5.0, (DeviceInfo("wrench", "/wrench", "sri+tcp://a:4008", serial="7"),))
+    with RecordingWriter(tmp_path / "r.mcap", about) as writer:
+        for number in range(101):
+            if number != 50:
+                sample = WrenchSample(5 + number / 100, (1.0, 2.0, 3.0), (0.1, 0.2, 0.3), number)
+                writer.wrench(sample)
+            writer.flange(FlangeSample(5 + number / 100, np.eye(3), np.zeros(3)))
+        writer.event("stop", {}, 6.0)
+    return tmp_path / "r.mcap"
+
+
+def invoke(app: typer.Typer, *arguments: object) -> Any:
+    return CliRunner().invoke(app, ["recording", *map(str, arguments)])
+
+
+def test_info(app: typer.Typer, file: Path) -> None:
+    result = invoke(app, "info", file, "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert found["complete"]
+    assert found["devices"][0]["serial"] == "7"
+    wrench, flange = found["topics"]
+    assert (wrench["topic"], wrench["samples"], wrench["lost"]) == ("/wrench", 100, 1)
+    assert flange["rate"] == pytest.approx(100)
+    assert "/wrench: 100 wrenches in 1.00 s (99.0 Hz), 1 lost, 0 unusable." in result.stderr
+
+
+def test_info_of_a_file_that_is_cut_off(app: typer.Typer, file: Path) -> None:
+    file.write_bytes(file.read_bytes()[:-100])
+    result = invoke(app, "info", file, "--json")
+    assert result.exit_code == 1
+    assert "cut off" in json.loads(result.stdout)["warnings"][0]
+
+
+@pytest.mark.parametrize("ending", ["csv", "npz", "CSV"])
+def test_convert(app: typer.Typer, file: Path, ending: str) -> None:
+    out = file.with_name(f"out.{ending}")
+    result = invoke(app, "convert", file, "--out", out, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout) == {"out": str(out), "complete": True, "warnings": []}
+    assert out.stat().st_size > 100
+
+
+def test_a_converted_recording_shows_its_still_poses(app: typer.Typer, file: Path) -> None:
+    out = file.with_name("out.csv")
+    assert invoke(app, "convert", file, "--out", out).exit_code == 0
+    poses = file.with_name("poses.csv")
+    result = CliRunner().invoke(cli.app, ["captures", str(out), "--out", str(poses)])
+    assert result.exit_code == 1  # one pose is too few; but the table was understood
+    assert "100 readings" in result.stderr
+
+
+def bag(file: Path, topics: int = 1) -> Path:
+    with file.open("wb") as stream:
+        writer = Writer(stream)
+        schema = writer.register_msgdef(WRENCH_STAMPED, DEFINITIONS[WRENCH_STAMPED])
+        for number in range(10):
+            for topic in range(topics):
+                writer.write_message(f"/ft{topic}", schema, {"wrench": {"force": {"z": 4.0}}}, number)
+        writer.finish()
+    return file
+
+
+def test_import_ros2(app: typer.Typer, tmp_path: Path) -> None:
+    result = invoke(app, "import-ros2", bag(tmp_path / "b.mcap"), "--out", tmp_path / "r.mcap", "--json")
+    assert result.exit_code == 1  # there are no poses in it
+    assert json.loads(result.stdout)["wrenches"] == 10
+    assert read_recording(tmp_path / "r.mcap").wrenches["/wrench"].wrenches[0, 2] == 4.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("info", "none.mcap"), "there is no such file"),
+        (("info", "b.mcap"), "import-ros2"),
+        (("convert", "r.mcap", "--out", "x.txt"), "end its name with .csv or .npz"),
+        (("convert", "r.mcap", "--out", "x.csv", "--topic", "/no"), "it has: /wrench, /flange"),
+        (("import-ros2", "r.mcap", "--out", "x.mcap"), "no topic of WrenchStamped"),
+        (("import-ros2", "two.mcap", "--out", "x.mcap"), "several topics: /ft0"),
+        (("import-ros2", "b.mcap", "--out", "r.mcap"), "choose another"),
+        (("import-ros2", "b.mcap", "--out", "x.mcap", "--robot", "kuka"), "known: elfin3"),
+    ],
+)
+def test_wrong_input(
+    app: typer.Typer, file: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], message: str
+) -> None:
+    monkeypatch.chdir(file.parent)
+    bag(Path("b.mcap"))
+    bag(Path("two.mcap"), 2)
+    result = invoke(app, *arguments)
+    assert result.exit_code == 2
+    assert message in " ".join(result.stderr.replace("│", " ").split())
+    assert not Path("x.mcap").exists()
+
+
+@pytest.mark.parametrize("command", ["info", "convert", "import-ros2"])
+def test_help_has_an_example(app: typer.Typer, command: str) -> None:
+    assert "Example: contactbench recording" in invoke(app, command, "--help").stdout

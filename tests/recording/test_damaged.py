@@ -1,0 +1,287 @@
+"""Recordings that were cut off, changed, or made to do harm."""
+
+from __future__ import annotations
+
+import json
+import struct
+import zlib
+from pathlib import Path
+
+import lz4.frame
+import numpy as np
+import pytest
+import zstandard
+from mcap.stream_reader import StreamReader
+from recording.recording_cases import record
+
+from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.recording import Event, RecordingError, RecordingReader, read_recording
+from pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
+from pipeline.recording.wire import record as wire_record
+
+Samples = list[tuple[str, WrenchSample | FlangeSample | Event]]
+
+
+def samples(file: Path) -> tuple[list[str], list[str], bool]:
+    """Return what a file holds as text, its warnings, and whether it is whole."""
+    with RecordingReader(file) as reader:
+        found = [repr((topic, sample)) for topic, sample in reader]
+        return found, reader.warnings, reader.complete
+
+
+def after_topic(sample: str) -> str:
+    return sample.partition(", ")[2]
+
+
+def bounds(data: bytes) -> list[tuple[int, int, int]]:
+    """Return opcode, begin and end of every record."""
+    found, at = [], len(MAGIC)
+    while at < len(data) - len(MAGIC):
+        opcode, length = PREFIX.unpack_from(data, at)
+        found.append((opcode, at, at + PREFIX.size + length))
+        at = found[-1][2]
+    return found
+
+
+def messages_before(data: bytes) -> dict[int, int]:
+    """Return how many messages are in whole chunks up to the end of each chunk."""
+    counts, total = {}, 0
+    chunks = iter([end for opcode, _, end in bounds(data) if opcode == Opcode.CHUNK])
+    from io import BytesIO
+
+    for item in StreamReader(BytesIO(data), emit_chunks=True).records:
+        if type(item).__name__ == "Chunk":
+            unpacked = zstandard.decompress(item.data)  # type: ignore[attr-defined]
+            at = 0
+            while at < len(unpacked):
+                total += 1
+                at += PREFIX.size + PREFIX.unpack_from(unpacked, at)[1]
+            counts[next(chunks)] = total
+    return counts
+
+
+def test_a_file_that_is_cut_anywhere_gives_its_whole_chunks(tmp_path: Path) -> None:
+    file = record(tmp_path / "r.mcap", 200, 100)
+    data = file.read_bytes()
+    everything, warnings, complete = samples(file)
+    assert (warnings, complete) == ([], True)
+    counts = messages_before(data)
+    first_chunk = next(begin for opcode, begin, _ in bounds(data) if opcode == Opcode.CHUNK)
+    about = next(end for opcode, _, end in bounds(data) if opcode == Opcode.METADATA)
+    ends = [end for _, _, end in bounds(data)]
+    cuts = {*ends, *(end - 1 for end in ends), *(end + 3 for end in ends)}
+    cuts |= set(np.random.default_rng(0).integers(0, len(data), 60).tolist())
+    for cut in sorted(cut for cut in cuts if cut < len(data)):
+        part = tmp_path / "part.mcap"
+        part.write_bytes(data[:cut])
+        if cut < about:
+            with pytest.raises(RecordingError):
+                samples(part)
+            continue
+        found, warnings, complete = samples(part)
+        expected = max((count for end, count in counts.items() if end <= cut), default=0)
+        assert found == everything[:expected]
+        assert not complete
+        assert "cut off" in warnings[0]
+    assert about < first_chunk
+
+
+def test_a_damaged_chunk_is_left_out_and_the_rest_is_given(tmp_path: Path) -> None:
+    file = record(tmp_path / "r.mcap", 200, 100)
+    data = bytearray(file.read_bytes())
+    everything = samples(file)[0]
+    chunks = [(begin, end) for opcode, begin, end in bounds(bytes(data)) if opcode == Opcode.CHUNK]
+    counts = list(messages_before(bytes(data)).values())
+    data[chunks[1][1] - 20] ^= 0x40
+    file.write_bytes(data)
+    found, warnings, complete = samples(file)
+    assert found == everything[: counts[0]] + everything[counts[1] :]
+    assert complete
+    assert f"What is at byte {chunks[1][0]:,} is damaged and left out" in warnings[0]
+    assert "was changed after it was written" in warnings[-1]
+
+
+def test_mutated_files_give_samples_or_a_sentence(tmp_path: Path) -> None:
+    file = record(tmp_path / "r.mcap", 40, 20)
+    data = file.read_bytes()
+    everything = set(map(after_topic, samples(file)[0]))
+    starts = [begin for _, begin, _ in bounds(data)]
+    rng = np.random.default_rng(3)
+    mutant = tmp_path / "m.mcap"
+    refused = 0
+    for number in range(600):
+        changed = bytearray(data)
+        for _ in range(rng.integers(1, 4)):
+            # Half of them in the heads of records, where lengths are.
+            near = rng.choice(starts) + rng.integers(0, 40) if number % 2 else rng.integers(len(data))
+            place = int(min(near, len(data) - 1))
+            match rng.integers(4):
+                case 0:
+                    changed[place : place + 8] = b"\xff" * len(changed[place : place + 8])
+                case 1:
+                    changed[place : place + 1] = bytes(rng.integers(0, 256, 1, dtype=np.uint8))
+                case 2:
+                    del changed[place : place + int(rng.integers(1, 30))]
+                case _:
+                    changed[place:place] = bytes(
+                        rng.integers(0, 256, int(rng.integers(1, 30)), dtype=np.uint8)
+                    )
+        mutant.write_bytes(changed)
+        try:
+            found, warnings, _ = samples(mutant)
+        except RecordingError:
+            refused += 1
+            continue
+        # A checksum guards every sample; the name of its topic is guarded by that of the whole file only.
+        assert {after_topic(sample) for sample in found} <= everything
+        assert len(found) == len(everything) or warnings
+        if number % 5 == 0:
+            read_recording(mutant)
+    assert 10 < refused < 400
+
+
+# ---- made to do harm ---------------------------------------------------------------------------
+
+
+def crafted(tmp_path: Path, *records: bytes, start: bool = True) -> Path:
+    """Write a file of these records after what a recording begins with."""
+    whole = record(tmp_path / "whole.mcap", 1, 0).read_bytes()
+    (tmp_path / "whole.mcap").unlink()
+    head = next(begin for opcode, begin, _ in bounds(whole) if opcode == Opcode.CHUNK)
+    file = tmp_path / "crafted.mcap"
+    file.write_bytes((whole[:head] if start else MAGIC) + b"".join(records))
+    return file
+
+
+def chunk(data: bytes, *, compression: str = "", size: int | None = None, crc: int | None = None) -> bytes:
+    size = len(data) if size is None else size
+    head = struct.pack("<QQQI", 0, 0, size, zlib.crc32(data) if crc is None else crc)
+    return wire_record(Opcode.CHUNK, head + text(compression) + struct.pack("<Q", len(data)) + data)
+
+
+def message(body: object, channel: int = 1) -> bytes:
+    data = body if isinstance(body, bytes) else json.dumps(body).encode()
+    return wire_record(Opcode.MESSAGE, MESSAGE_HEAD.pack(channel, 0, 0, 0) + data)
+
+
+FORCE = {"force": {"x": 1, "y": 2, "z": 3}, "torque": {"x": 1, "y": 2, "z": 3}, "status": 0, "time": 1.0}
+POSE = {"time": 1.0, "R": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": {}}
+
+
+def test_the_crafted_messages_are_fine_unless_changed(tmp_path: Path) -> None:
+    file = crafted(tmp_path, chunk(message(FORCE) + message(POSE, 2)), message(FORCE))
+    assert len(samples(file)[0]) == 3
+    packed = lz4.frame.compress(message(FORCE))
+    plain = message(FORCE)
+    file = crafted(tmp_path, chunk(packed, compression="lz4", size=len(plain), crc=zlib.crc32(plain)))
+    assert len(samples(file)[0]) == 1
+
+
+@pytest.mark.parametrize(
+    ("body", "channel"),
+    [
+        (b"", 1),
+        (b"{", 1),
+        (b"\xff\xfe", 1),
+        (b"[" * 100_000, 1),
+        (b'{"time":' * 50_000, 1),
+        (b'{"time":' + b"9" * 10_000 + b"}", 1),
+        ([], 1),
+        ({}, 1),
+        ({**FORCE, "time": None}, 1),
+        ({**FORCE, "time": "now"}, 1),
+        ({**FORCE, "time": True}, 1),
+        ({**FORCE, "time": 10**400}, 1),
+        ({**FORCE, "force": [1, 2, 3]}, 1),
+        ({**FORCE, "force": {"x": "1"}}, 1),
+        ({**FORCE, "status": -1}, 1),
+        ({**FORCE, "status": 2**40}, 1),
+        ({**FORCE, "status": 1.5}, 1),
+        ({**FORCE, "sequence": 2**63}, 1),
+        ({**FORCE, "sequence": None}, 1),
+        ({**POSE, "R": [1] * 9}, 2),
+        ({**POSE, "R": [1e300] * 9}, 2),
+        ({**POSE, "R": [[1]] * 9}, 2),
+        ({**POSE, "R": [1, 0]}, 2),
+        ({**POSE, "R": [1, 0, 0, 0, 1, 0, 0, 0, -1]}, 2),
+        ({**POSE, "joints": [0] * 65}, 2),
+        ({**POSE, "joints": "a"}, 2),
+        ({"time": 1, "event": 3, "fields": {}}, 3),
+        ({"time": 1, "event": "a", "fields": []}, 3),
+        (FORCE, 77),
+    ],
+)
+def test_messages_that_are_none_are_left_out(body: object, channel: int, tmp_path: Path) -> None:
+    file = crafted(tmp_path, message(FORCE), message(body, channel), message(FORCE))
+    found, warnings, _ = samples(file)
+    assert len(found) == 2
+    assert "left out" in warnings[0]
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        chunk(b"abc", compression="zstd", size=2**40),
+        chunk(b"abc", compression="zstd"),
+        chunk(b"abc", compression="lz4"),
+        chunk(b"abc", compression="brotli"),
+        chunk(zstandard.compress(bytes(10**8)), compression="zstd", size=1000),
+        chunk(zstandard.compress(bytes(1000)), compression="zstd", size=2**28),
+        chunk(lz4.frame.compress(bytes(10**8)), compression="lz4", size=1000),
+        chunk(b"\x05"),
+        chunk(PREFIX.pack(Opcode.MESSAGE, 2**63) + b"abc"),
+        chunk(PREFIX.pack(Opcode.MESSAGE, 3) + b"abc"),
+        chunk(message(FORCE), crc=1),
+        wire_record(Opcode.CHUNK, b""),
+        wire_record(Opcode.SCHEMA, b"\x01"),
+        wire_record(Opcode.CHANNEL, struct.pack("<HHI", 9, 1, 2**32 - 1)),
+        wire_record(Opcode.METADATA, text("contactbench.device") + struct.pack("<I", 2**32 - 1)),
+        wire_record(Opcode.METADATA, text("\n") + mapping({"a": "b"})[:-1]),
+    ],
+)
+def test_records_that_lie_are_left_out(bad: bytes, tmp_path: Path) -> None:
+    found, warnings, _ = samples(crafted(tmp_path, message(FORCE), bad, message(FORCE)))
+    assert len(found) == 2
+    assert "damaged and left out" in warnings[0]
+
+
+def test_many_faults_are_not_all_told(tmp_path: Path) -> None:
+    _, warnings, _ = samples(crafted(tmp_path, *[message(b"")] * 1000))
+    assert len(warnings) == 21
+    assert warnings[-1] == "More of it is damaged in the same way."
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "no MCAP file"),
+        (b"t,fx,fy,fz\n", "no MCAP file"),
+        (MAGIC, "no recording of contactbench. The file is cut off"),
+        (MAGIC + wire_record(Opcode.DATA_END, bytes(4)) + MAGIC, "import-ros2"),
+        (
+            MAGIC
+            + wire_record(
+                Opcode.METADATA,
+                text("contactbench.recording") + mapping({"format": "2", "tool": "contactbench 9"}),
+            ),
+            r"newer program \(contactbench 9\): update",
+        ),
+        (
+            MAGIC + wire_record(Opcode.METADATA, text("contactbench.recording") + mapping({"format": "1"})),
+            "says about itself is damaged",
+        ),
+    ],
+)
+def test_other_files_are_refused_with_a_sentence(content: bytes, message: str, tmp_path: Path) -> None:
+    (tmp_path / "f").write_bytes(content)
+    with pytest.raises(RecordingError, match=message):
+        read_recording(tmp_path / "f")
+
+
+def test_files_that_cannot_be_opened(tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="there is no such file"):
+        read_recording(tmp_path / "none.mcap")
+    with pytest.raises(RecordingError, match="this is a folder"):
+        read_recording(tmp_path)
+    with pytest.raises(RecordingError, match="cannot be opened"):
+        read_recording(Path("a\0b"))

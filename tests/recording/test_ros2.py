@@ -1,0 +1,210 @@
+"""Import of ROS 2 bags, written with the reference library."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from mcap_ros2.writer import Writer
+from scipy.spatial.transform import Rotation
+
+from pipeline.recording import RecordingError, read_recording
+from pipeline.recording.ros2 import Wanted, import_ros2, list_topics
+from pipeline.recording.ros2_types import DEFINITIONS, JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
+from pipeline.robot import Robot
+
+START = 1_700_000_000_000_000_000
+STEP = 10_000_000
+
+
+class Bag:
+    """A bag of messages every 10 ms; the headers are half a second early."""
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self._stream = file.open("wb")
+        self._writer = Writer(self._stream, chunk_size=2000)
+        self._schemas: dict[str, Any] = {}
+
+    def add(self, topic: str, kind: str, number: int, body: dict[str, Any]) -> None:
+        if kind not in self._schemas:
+            self._schemas[kind] = self._writer.register_msgdef(kind, DEFINITIONS[kind])
+        self._writer.write_message(topic, self._schemas[kind], body, START + number * STEP)
+
+    def wrench(self, number: int, topic: str = "/ft/wrench") -> None:
+        force = {"x": number + 0.125, "y": -1.5, "z": 1 / 3}
+        body = {"wrench": {"force": force, "torque": {"x": 0.1, "y": 0.2, "z": -0.0}}}
+        self.add(topic, WRENCH_STAMPED, number, {"header": header(number), **body})
+
+    def transforms(self, number: int, *items: tuple[str, str, Rotation, Any], topic: str = "/tf") -> None:
+        self.add(topic, TF, number, {"transforms": [transform(number, *item) for item in items]})
+
+    def close(self) -> Path:
+        self._writer.finish()
+        self._stream.close()
+        return self.file
+
+
+def header(number: int, frame: str = "sensor") -> dict[str, Any]:
+    seconds, rest = divmod(START + number * STEP - 500_000_000, 10**9)
+    return {"stamp": {"sec": seconds, "nanosec": rest}, "frame_id": frame}
+
+
+def transform(number: int, parent: str, child: str, R: Rotation, p: Any) -> dict[str, Any]:
+    return {
+        "header": header(number, parent),
+        "child_frame_id": child,
+        "transform": {
+            "translation": dict(zip("xyz", map(float, p), strict=True)),
+            "rotation": dict(zip("xyzw", R.as_quat().tolist(), strict=True)),
+        },
+    }
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Bag:
+    bag = Bag(tmp_path / "bag.mcap")
+    for number in range(50):
+        bag.wrench(number)
+    return bag
+
+
+def turned(number: int) -> Rotation:
+    return Rotation.from_rotvec([0.01 * number, 0.2, -0.1])
+
+
+def test_wrenches_and_the_only_transform(bag: Bag, tmp_path: Path) -> None:
+    for number in range(50):
+        bag.transforms(number, ("base_link", "tool0", turned(number), [number, 0, 0.5]))
+    done = import_ros2(bag.close(), tmp_path / "r.mcap")
+    assert (done.wrenches, done.poses, done.warnings) == (50, 50, ())
+    found = read_recording(tmp_path / "r.mcap")
+    wrenches, poses = found.wrenches["/wrench"], found.flanges["/flange"]
+    np.testing.assert_array_equal(wrenches.wrenches[7], [7.125, -1.5, 1 / 3, 0.1, 0.2, -0.0])
+    np.testing.assert_allclose(wrenches.times, np.arange(50) * 0.01, atol=1e-12)
+    np.testing.assert_allclose(wrenches.device_time, START / 1e9 - 0.5 + np.arange(50) * 0.01)
+    np.testing.assert_allclose(poses.R_BE[9], turned(9).as_matrix(), atol=1e-12)
+    np.testing.assert_array_equal(poses.p_BE_B[9], [9, 0, 0.5])
+    assert found.info.started_ns == START
+    assert [device.address for device in found.info.devices] == ["ros2:/ft/wrench", "ros2:/tf"]
+
+
+def test_header_stamps(bag: Bag, tmp_path: Path) -> None:
+    import_ros2(bag.close(), tmp_path / "r.mcap", Wanted(header_stamps=True))
+    track = read_recording(tmp_path / "r.mcap").wrenches["/wrench"]
+    np.testing.assert_allclose(track.times, np.arange(50) * 0.01 - 0.5, atol=1e-12)
+    np.testing.assert_allclose(track.device_time, np.arange(50) * 0.01, atol=1e-12)
+
+
+def test_a_chain_of_transforms_with_a_static_one(bag: Bag, tmp_path: Path) -> None:
+    mount = Rotation.from_euler("x", 90, degrees=True)
+    bag.transforms(0, ("link6", "flange", mount, [0, 0, 0.1]), topic="/tf_static")
+    for number in range(20):
+        bag.transforms(
+            number,
+            ("base", "link6", turned(number), [1, 2, 3]),
+            ("map", "cart", Rotation.identity(), [0, 0, 0]),
+        )
+        bag.transforms(number, ("map", "cart", Rotation.identity(), [0, 0, 0]))
+    file = bag.close()
+    with pytest.raises(
+        RecordingError, match=r"--base NAME --flange NAME. There are: base -> link6, link6 ->"
+    ):
+        import_ros2(file, tmp_path / "r.mcap")
+    with pytest.raises(RecordingError, match="no frame tool0; there are: base, cart"):
+        import_ros2(file, tmp_path / "r.mcap", Wanted(base="base", flange="tool0"))
+    with pytest.raises(RecordingError, match="go together"):
+        import_ros2(file, tmp_path / "r.mcap", Wanted(base="base"))
+    assert not (tmp_path / "r.mcap").exists()
+    done = import_ros2(file, tmp_path / "r.mcap", Wanted(base="/base", flange="flange"))
+    assert done.poses == 20
+    poses = read_recording(tmp_path / "r.mcap").flanges["/flange"]
+    np.testing.assert_allclose(poses.R_BE[4], (turned(4) * mount).as_matrix(), atol=1e-12)
+    np.testing.assert_allclose(poses.p_BE_B[4], turned(4).apply([0, 0, 0.1]) + [1, 2, 3], atol=1e-12)
+
+
+def test_joints_with_a_robot(bag: Bag, tmp_path: Path) -> None:
+    names = [f"elfin_joint{number}" for number in (3, 1, 2, 6, 5, 4)]
+    for number in range(5):
+        body = {"header": header(number), "name": names, "position": [1.1, 0.3, -0.4, 0.9, -0.7, 0.5]}
+        bag.add("/joint_states", JOINT_STATE, number, body)
+    file = bag.close()
+    without = import_ros2(file, tmp_path / "without.mcap")
+    assert "say of which robot, --robot NAME" in without.warnings[0]
+    assert without.poses == 0
+    done = import_ros2(file, tmp_path / "r.mcap", Wanted(robot=Robot.named("elfin3")))
+    assert (done.poses, done.pose_topic) == (5, "/joint_states")
+    poses = read_recording(tmp_path / "r.mcap").flanges["/flange"]
+    np.testing.assert_array_equal(poses.joints[0], [0.3, -0.4, 1.1, 0.5, -0.7, 0.9])
+    np.testing.assert_allclose(poses.p_BE_B[0], [0.528910, 0.113500, 0.556217], atol=2e-5)
+    with pytest.raises(RecordingError, match="say of which robot"):
+        import_ros2(file, tmp_path / "x.mcap", Wanted(pose_topic="/joint_states"))
+
+
+def test_poses_and_messages_that_are_none(bag: Bag, tmp_path: Path) -> None:
+    for number in range(6):
+        orientation = {"w": 1.0} if number != 3 else {"w": 3.0}
+        body = {"header": header(number), "pose": {"position": {"x": 1.0}, "orientation": orientation}}
+        bag.add("/pose", POSE_STAMPED, number, body)
+    done = import_ros2(bag.close(), tmp_path / "r.mcap")
+    assert done.poses == 5
+    assert done.warnings == ("A message on '/pose' is left out (it is no pose).",)
+
+
+def test_a_choice_that_is_not_clear_lists_the_topics(bag: Bag, tmp_path: Path) -> None:
+    bag.wrench(0, "/other")
+    file = bag.close()
+    with pytest.raises(RecordingError, match=r"several topics: /ft/wrench .*, /other .*--wrench-topic NAME"):
+        import_ros2(file, tmp_path / "r.mcap")
+    with pytest.raises(RecordingError, match="/x is none of: /ft/wrench"):
+        import_ros2(file, tmp_path / "r.mcap", Wanted(wrench_topic="/x"))
+    assert import_ros2(file, tmp_path / "r.mcap", Wanted(wrench_topic="/other")).wrenches == 1
+    assert [(topic.name, topic.count) for topic in list_topics(file)] == [("/ft/wrench", 50), ("/other", 1)]
+
+
+def test_no_wrenches(tmp_path: Path) -> None:
+    bag = Bag(tmp_path / "bag.mcap")
+    bag.transforms(0, ("a", "b", Rotation.identity(), [0, 0, 0]))
+    with pytest.raises(
+        RecordingError, match=r"no topic of WrenchStamped messages; there are: /tf \(tf2_msgs"
+    ):
+        import_ros2(bag.close(), tmp_path / "r.mcap")
+
+
+def test_an_existing_recording_stays(bag: Bag, tmp_path: Path) -> None:
+    (tmp_path / "r.mcap").write_bytes(b"mine")
+    with pytest.raises(RecordingError, match="choose another"):
+        import_ros2(bag.close(), tmp_path / "r.mcap")
+    assert (tmp_path / "r.mcap").read_bytes() == b"mine"
+
+
+def test_mutated_bags_give_samples_or_a_sentence(bag: Bag, tmp_path: Path) -> None:
+    for number in range(20):
+        bag.transforms(number, ("base_link", "tool0", turned(number), [number, 0, 0.5]))
+    data = bag.close().read_bytes()
+    rng = np.random.default_rng(5)
+    for number in range(150):
+        changed = bytearray(data)
+        for place in rng.integers(0, len(data), 3).tolist():
+            changed[place] = int(rng.integers(256))
+        (tmp_path / "m.mcap").write_bytes(changed[: rng.integers(len(data))] if number % 3 == 0 else changed)
+        try:
+            import_ros2(tmp_path / "m.mcap", tmp_path / f"{number}.mcap")
+        except RecordingError:
+            assert not (tmp_path / f"{number}.mcap").exists()
+
+
+@pytest.mark.parametrize("kind", sorted(DEFINITIONS))
+def test_hostile_messages_are_refused(kind: str) -> None:
+    from pipeline.recording.ros2_types import decoder
+
+    decode, rng = decoder(kind), np.random.default_rng(1)
+    for size in range(200):
+        data = b"\0\1\0\0" + rng.choice([b"\xff", b"\0", b"\x02"], size).tobytes()
+        for body in (data, data[:size]):
+            try:
+                decode(body)
+            except ValueError:
+                continue

@@ -1,0 +1,230 @@
+"""What can happen in a session, as typed records; and who did it, when, with what."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from datetime import datetime, timedelta
+from typing import Annotated, Any, Literal
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    JsonValue,
+    StringConstraints,
+    ValidationError,
+    field_validator,
+)
+
+from pipeline.session.errors import JournalError
+from pipeline.session.frames import Frame, canonical
+
+SCHEMA, VERSION = "contactbench.session", 1
+
+Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+Word = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_-]{0,63}$")]
+Text = Annotated[str, StringConstraints(max_length=10_000)]
+Short = Annotated[str, StringConstraints(min_length=1, max_length=200)]
+# What no file system takes for a path, a drive, a stream or a hidden file.
+Name = Annotated[
+    str, StringConstraints(pattern=r'^[^./\\:*?"<>|\x00-\x1f\x7f][^/\\:*?"<>|\x00-\x1f\x7f]{0,199}$')
+]
+Place = Annotated[
+    str, StringConstraints(pattern=r"^(raw|meshes|results)/[0-9a-f]{12}-[A-Za-z0-9_-][A-Za-z0-9._-]{0,119}$")
+]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", strict=True)
+
+
+class FileRef(_Part):
+    """A file of the session: where it lies in the folder, and what must be in it."""
+
+    path: Place
+    sha256: Sha256
+    size: Annotated[int, Field(ge=0)]
+
+
+class Origin(_Part):
+    """The journal that this one was migrated from."""
+
+    version: int
+    sha256: Sha256
+
+
+class SessionCreated(_Part):
+    """Always the first."""
+
+    type: Literal["session_created"] = "session_created"
+    schema_id: Literal["contactbench.session"] = "contactbench.session"
+    version: Annotated[int, Field(ge=0)] = VERSION
+    id: Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{32}$")]
+    migrated_from: Origin | None = None
+
+
+class InputAdded(_Part):
+    """A raw input; one of the same kind and name, but of other content, takes its place."""
+
+    type: Literal["input_added"] = "input_added"
+    kind: Word
+    name: Name
+    file: FileRef
+    sensor: Short | None = None
+
+
+class MeshChanged(_Part):
+    """The probe's mesh from now on."""
+
+    type: Literal["mesh_changed"] = "mesh_changed"
+    name: Name
+    file: FileRef
+
+
+class ParameterSet(_Part):
+    """A setting; ``kind.parameter`` is one that results of that kind are computed with."""
+
+    type: Literal["parameter_set"] = "parameter_set"
+    key: Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_-]{0,63}\.[a-z][a-zA-Z0-9_-]{0,63}$")]
+    value: JsonValue
+
+
+class ResultAdded(_Part):
+    """A result and all that it follows from. `inputs`: role -> hash of an input, a mesh or another result's file."""
+
+    type: Literal["result_added"] = "result_added"
+    kind: Word
+    name: Name
+    files: Annotated[dict[Name, FileRef], Field(min_length=1, max_length=100)]
+    inputs: Annotated[dict[Word, Sha256], Field(max_length=1000)]
+    parameters: dict[Short, JsonValue]
+    created: Short | None = None
+
+
+class ResultMarked(_Part):
+    """What a person says of a result; the newest one of this kind and name is meant."""
+
+    type: Literal["result_marked"] = "result_marked"
+    kind: Word
+    name: Name
+    mark: Literal["accepted", "rejected", "stale"]
+    reason: Text = ""
+
+
+class Note(_Part):
+    """Words."""
+
+    type: Literal["note"] = "note"
+    text: Text
+
+
+class DeviceRezeroed(_Part):
+    """The sensor's zero was moved, on the device or by its owner; the session only hears of it."""
+
+    type: Literal["device_rezeroed"] = "device_rezeroed"
+    sensor: Short
+    reason: Text = ""
+
+
+Action = (
+    SessionCreated
+    | InputAdded
+    | MeshChanged
+    | ParameterSet
+    | ResultAdded
+    | ResultMarked
+    | Note
+    | DeviceRezeroed
+)
+
+
+class Entry(_Part):
+    """An action with who, when (UTC, ISO 8601), with which tool and which sensor."""
+
+    at: str
+    by: Text
+    tool: Short
+    sensor: Short | None = None
+    action: Annotated[Action, Field(discriminator="type")]
+
+    @field_validator("at")
+    @classmethod
+    def _is_utc(cls, value: str) -> str:
+        time = datetime.fromisoformat(value)
+        if time.utcoffset() != timedelta(0):
+            raise ValueError("is not a time in UTC")
+        return value
+
+
+@dataclass(frozen=True)
+class Record:
+    """
+    An entry in its place.
+
+    Attributes
+    ----------
+    number : int
+        From 1.
+    hash : str
+        Of the chain up to here, 64 hexadecimal digits.
+    entry : Entry
+    """
+
+    number: int
+    hash: str
+    entry: Entry
+
+    @property
+    def action(self) -> Action:
+        """What happened."""
+        return self.entry.action
+
+
+def files_of(action: Action) -> tuple[FileRef, ...]:
+    """Return the files that an action refers to."""
+    if isinstance(action, InputAdded | MeshChanged):
+        return (action.file,)
+    return tuple(action.files.values()) if isinstance(action, ResultAdded) else ()
+
+
+def payload_of(entry: Entry) -> bytes:
+    """Return an entry as canonical JSON."""
+    return canonical(entry.model_dump(mode="json"))
+
+
+def parse_payload(payload: bytes, number: int) -> dict[str, Any]:
+    """Return the JSON object of a record; JournalError if it holds none."""
+    try:
+        value = json.loads(payload)
+    except (ValueError, RecursionError) as error:
+        raise JournalError(
+            f"record {number} holds no JSON ({error}): take the session from a backup."
+        ) from error
+    if not isinstance(value, dict):
+        raise JournalError(f"record {number} holds no JSON object: take the session from a backup.")
+    return value
+
+
+def read_entry(value: dict[str, Any], number: int) -> Entry:
+    """Return the entry that a JSON object is; JournalError, with the field, if it is none."""
+    try:
+        entry = Entry.model_validate(value)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        where = ".".join(map(str, first["loc"]))
+        raise JournalError(
+            f"record {number}: {where}: {first['msg']}: take the session from a backup, or use the contactbench that"
+            " wrote it."
+        ) from error
+    if isinstance(entry.action, SessionCreated) != (number == 1):
+        raise JournalError(f"record {number}: session_created is the first record, and only that.")
+    return entry
+
+
+def records_of(found: tuple[Frame, ...]) -> tuple[Record, ...]:
+    """Return the records of frames; JournalError if one is none."""
+    return tuple(
+        Record(number, frame.chain.hex(), read_entry(parse_payload(frame.payload, number), number))
+        for number, frame in enumerate(found, 1)
+    )

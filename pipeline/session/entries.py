@@ -1,0 +1,46 @@
+"""Entries made from what a caller gives, checked before anything is written."""
+
+from __future__ import annotations
+
+import getpass
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from pipeline import __version__
+from pipeline.session.actions import Entry, FileRef
+from pipeline.session.errors import SessionError
+
+if TYPE_CHECKING:
+    from pipeline.session.actions import Action
+
+_A = TypeVar("_A", bound=BaseModel)
+
+TOOL = f"contactbench {__version__}"
+# Stands for a file while all else of an action is checked, before the file is copied.
+NOWHERE = FileRef(path="raw/000000000000-_", sha256="0" * 64, size=0)
+
+
+def checked(action: type[_A], /, **fields: Any) -> _A:
+    """Return an action of these fields; SessionError, with the field, if they are wrong."""
+    try:
+        return action(**fields)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_context=False)[0]
+        where = ".".join(map(str, first["loc"]))
+        raise SessionError(f"{where}: {first['input']!r:.100}: {first['msg']}: correct it.") from error
+
+
+def entry(action: Action, by: str, sensor: str | None) -> Entry:
+    """Return an action with who, when and with what."""
+    at = datetime.now(UTC).isoformat(timespec="microseconds")
+    return checked(Entry, at=at, by=by, tool=TOOL, sensor=sensor, action=action)
+
+
+def user() -> str:
+    """Return the name of the computer's user, or a dash."""
+    try:
+        return getpass.getuser()
+    except (KeyError, ImportError, OSError):  # no name for this number; Windows without its variables
+        return "-"

@@ -1,0 +1,118 @@
+"""The session's files: on the disk, whole and under their hash, before any record speaks of them."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import stat
+from typing import TYPE_CHECKING
+
+from pipeline.durable import scratch_beside, sync_folder
+from pipeline.session.actions import FileRef
+from pipeline.session.errors import SessionError
+from pipeline.session.journal import write_all
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+    from pathlib import Path
+
+FOLDERS = ("raw", "meshes", "results")
+_CHUNK = 2**20
+_LONGEST = 80  # of a name in the folder
+_SCRATCH = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")
+_BINARY = getattr(os, "O_BINARY", 0)
+
+
+def chunks_of(file: Path) -> Iterator[bytes]:
+    """Read a file piece by piece."""
+    with file.open("rb") as stream:
+        while chunk := stream.read(_CHUNK):
+            yield chunk
+
+
+def store(session: Path, folder: str, name: str, chunks: Iterable[bytes]) -> FileRef:
+    """
+    Put content into a session's folder, durably, under its hash and its name.
+
+    The same content and name give the same place: what a crash left behind before its record was written is
+    taken up when the action is repeated.
+
+    Raises
+    ------
+    OSError
+        It cannot be read or written; nothing is there under its name then.
+    """
+    target = session / folder
+    scratch = scratch_beside(target / "stored")
+    try:
+        digest, size = _write(scratch, chunks)
+        place = f"{folder}/{digest[:12]}-{_plain(name)}"
+        os.replace(scratch, session / place)  # noqa: PTH105 the tests make this very call fail
+    except BaseException:
+        scratch.unlink(missing_ok=True)
+        raise
+    sync_folder(target)
+    return FileRef(path=place, sha256=digest, size=size)
+
+
+def write_file(file: Path, chunks: Iterable[bytes]) -> int:
+    """Write a new file and bring it to the disk, not its name; return its size. OSError if that fails."""
+    return _write(file, chunks)[1]
+
+
+def _write(scratch: Path, chunks: Iterable[bytes]) -> tuple[str, int]:
+    digest, size = hashlib.sha256(), 0
+    descriptor = os.open(scratch, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, 0o644)
+    try:
+        for chunk in chunks:
+            write_all(descriptor, chunk)
+            digest.update(chunk)
+            size += len(chunk)
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+    return digest.hexdigest(), size
+
+
+def _plain(name: str) -> str:
+    """Return a name that every file system and zip program takes; its ending stays."""
+    plain = re.sub(r"[^A-Za-z0-9._-]", "_", name).lstrip(".") or "_"
+    return plain[-_LONGEST:].lstrip(".") or "_"
+
+
+def regular(file: Path) -> Path:
+    """Refuse what is not a file that can be copied: folders, devices, pipes that never end."""
+    try:
+        if not stat.S_ISREG(file.stat().st_mode):
+            raise SessionError(f"{file}: not a regular file: choose a file.")
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        raise SessionError(f"{file}: the file cannot be read ({error}): check the path.") from error
+    return file
+
+
+def wrong_with(session: Path, ref: FileRef) -> str:
+    """Say what is wrong with a file of the session; empty if it is what the journal says."""
+    file = session / ref.path
+    try:
+        if file.is_symlink() or not stat.S_ISREG(file.stat().st_mode):
+            return f"{ref.path} is no regular file"
+        digest, size = hashlib.sha256(), 0
+        for chunk in chunks_of(file):
+            digest.update(chunk)
+            size += len(chunk)
+    except FileNotFoundError:
+        return f"{ref.path} is missing"
+    except OSError as error:
+        return f"{ref.path} cannot be read ({error})"
+    if size != ref.size:
+        return f"{ref.path} has {size} bytes, not {ref.size}"
+    return "" if digest.hexdigest() == ref.sha256 else f"{ref.path} has another content than the journal says"
+
+
+def remove_scratch(session: Path) -> None:
+    """Delete what a crash left half written; only for the holder of the lock."""
+    for folder in (session, *(session / name for name in FOLDERS)):
+        for file in folder.glob(".*.tmp"):
+            if _SCRATCH.fullmatch(file.name):
+                file.unlink(missing_ok=True)

@@ -1,0 +1,143 @@
+"""The journal file: read by anyone, appended to by one, every record on the disk before it is acknowledged."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from pipeline.session import frames
+from pipeline.session.errors import JournalError, SessionError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+JOURNAL = "journal"
+LARGEST = 256 * 2**20
+_BINARY = getattr(os, "O_BINARY", 0)
+
+
+def read_journal(folder: Path) -> bytes:
+    """
+    Return the journal's bytes as they are now.
+
+    Raises
+    ------
+    SessionError
+        There is none, it cannot be read, or it is far too large.
+    """
+    file = folder / JOURNAL
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise SessionError(
+            f"{folder}: this folder holds no session: check the path, or make one with `contactbench session new`."
+        ) from None
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        raise SessionError(
+            f"{file}: the journal cannot be read ({error}): choose a session's folder."
+        ) from error
+    if len(data) > LARGEST:
+        raise SessionError(f"{file}: larger than {LARGEST >> 20} MiB: begin a new session.")
+    return data
+
+
+def refuse_damage(folder: Path, found: frames.Scan) -> None:
+    """Raise JournalError for damage that no crash explains."""
+    if found.damage:
+        remedy = (
+            "`contactbench session repair` sets this record aside"
+            if found.last
+            else "take the session from an archive or a backup"
+        )
+        raise JournalError(f"{folder / JOURNAL}: {found.damage}: {remedy}; `session verify` tells more.")
+    if not found.frames:
+        raise JournalError(
+            f"{folder / JOURNAL}: not one whole record: take the session from an archive or a backup."
+        )
+
+
+class JournalWriter:
+    """
+    Appends records. Whoever has one holds the session's lock.
+
+    A write that fails is taken back, and the writer refuses all that follows: after a failed fsync nobody knows
+    what the disk holds, and only reading it again tells.
+
+    Parameters
+    ----------
+    folder : path
+        Of the session.
+    found : Scan
+        What the journal holds; behind it the file is cut.
+    """
+
+    def __init__(self, folder: Path, found: frames.Scan) -> None:
+        self._file = folder / JOURNAL
+        self._end, self._chain = found.end, found.chain
+        self._broken = False
+        try:
+            self._descriptor = os.open(self._file, os.O_RDWR | os.O_APPEND | _BINARY)
+        except OSError as error:
+            raise SessionError(
+                f"{self._file}: the journal cannot be written ({error}): check the rights."
+            ) from error
+        try:
+            if os.fstat(self._descriptor).st_size != self._end:
+                os.ftruncate(self._descriptor, self._end)
+                os.fsync(self._descriptor)
+        except OSError as error:
+            self.close()
+            raise SessionError(f"{self._file}: the torn record cannot be cut off ({error}).") from error
+
+    def append(self, payload: bytes) -> bytes:
+        """
+        Put a record on the disk; return its hash once it is there.
+
+        Raises
+        ------
+        SessionError
+            It is not there, or nobody knows: open the session again. What was acknowledged before is there.
+        """
+        if self._descriptor < 0 or self._broken:
+            raise SessionError(f"{self._file}: closed, or a write has failed before: open the session again.")
+        data = frames.encode(payload, self._chain)
+        if self._end + len(data) > LARGEST:
+            raise SessionError(
+                f"{self._file}: the journal is full ({LARGEST >> 20} MiB): begin a new session."
+            )
+        try:
+            write_all(self._descriptor, data)
+            os.fsync(self._descriptor)
+        except BaseException as error:
+            self._take_back()
+            if not isinstance(error, OSError):
+                raise
+            raise SessionError(
+                f"{self._file}: the action is not recorded ({error}): free space or check the disk, then open the"
+                " session again; all that was recorded before is there."
+            ) from error
+        self._chain = frames.chained(self._chain, payload)
+        self._end += len(data)
+        return self._chain
+
+    def _take_back(self) -> None:
+        self._broken = True
+        try:
+            os.ftruncate(self._descriptor, self._end)
+            os.fsync(self._descriptor)
+        except OSError:  # what is left is whole, or a torn tail: reading tells
+            return
+
+    def close(self) -> None:
+        """Close the file; a second time does nothing."""
+        if self._descriptor >= 0:
+            os.close(self._descriptor)
+            self._descriptor = -1
+
+
+def write_all(descriptor: int, data: bytes) -> None:
+    """Write all of it: one call may write a part."""
+    rest = memoryview(data)
+    while rest:
+        rest = rest[os.write(descriptor, rest) :]

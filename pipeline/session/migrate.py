@@ -1,0 +1,119 @@
+"""Journals of older versions, brought up to date; those of newer ones are refused."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING, Any
+
+from pipeline.durable import write_durably
+from pipeline.session import frames
+from pipeline.session.actions import SCHEMA, VERSION, Record, parse_payload, read_entry
+from pipeline.session.errors import SchemaError, SessionError
+from pipeline.session.journal import JOURNAL
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    Payloads = list[dict[str, Any]]
+    Migration = Callable[[Payloads], Payloads]
+
+# version -> what makes the next version's payloads of all payloads of that one, the first with its new version.
+MIGRATIONS: dict[int, Migration] = {}
+
+
+def version_of(folder: Path, found: frames.Scan) -> int:
+    """
+    Return the version of a journal.
+
+    Raises
+    ------
+    SchemaError
+        It is newer than this program, or no session's.
+    """
+    first = parse_payload(found.frames[0].payload, 1)
+    action = first.get("action")
+    version = action.get("version") if isinstance(action, dict) else None
+    if not isinstance(action, dict) or action.get("schema_id") != SCHEMA or type(version) is not int:
+        raise SchemaError(
+            f"{folder / JOURNAL}: its first record does not say {SCHEMA}: choose a session's folder."
+        )
+    if version > VERSION:
+        raise SchemaError(
+            f"{folder}: the session has the version {version}, and this contactbench knows {VERSION} at most: use a"
+            " newer contactbench. Nothing was changed."
+        )
+    return version
+
+
+def migrated(folder: Path, data: bytes, found: frames.Scan, version: int) -> list[bytes]:
+    """
+    Return the payloads of an older journal as this version writes them; writes nothing.
+
+    Raises
+    ------
+    SchemaError
+        There is no way from that version to this one.
+    """
+    payloads = [parse_payload(frame.payload, number) for number, frame in enumerate(found.frames, 1)]
+    for step in range(version, VERSION):
+        if step not in MIGRATIONS:
+            raise SchemaError(
+                f"{folder}: the session has the version {version}, too old for this contactbench: open it with one"
+                f" that migrates version {step}."
+            )
+        payloads = MIGRATIONS[step](payloads)
+    digest = hashlib.sha256(data[: found.end]).hexdigest()
+    payloads[0]["action"] |= {"version": VERSION, "migrated_from": {"version": version, "sha256": digest}}
+    return [frames.canonical(payload) for payload in payloads]
+
+
+def records_of_payloads(payloads: list[bytes]) -> tuple[Record, ...]:
+    """Return the records that payloads make in this order."""
+    records, before = [], frames.GENESIS
+    for number, payload in enumerate(payloads, 1):
+        before = frames.chained(before, payload)
+        records.append(Record(number, before.hex(), read_entry(parse_payload(payload, number), number)))
+    return tuple(records)
+
+
+def original_of(folder: Path, version: int) -> Path:
+    """Return where the journal of an older version is kept."""
+    return folder / f"{JOURNAL}.v{version}"
+
+
+def write_migrated(
+    folder: Path, data: bytes, found: frames.Scan, version: int, payloads: list[bytes]
+) -> None:
+    """
+    Keep the original beside, then replace the journal in one step; only for the holder of the lock.
+
+    Raises
+    ------
+    SessionError
+        It cannot be written: the old journal is still the journal.
+    """
+    records_of_payloads(payloads)  # what could not be read again is not written
+    try:
+        write_durably(original_of(folder, version), data[: found.end])
+        write_durably(folder / JOURNAL, frames.encode_all(payloads))
+    except OSError as error:
+        raise SessionError(
+            f"{folder}: the session cannot be migrated to version {VERSION} ({error}): free space or check the"
+            " rights; the original is untouched."
+        ) from error
+
+
+def origin_problems(folder: Path, origins: Mapping[int, str]) -> list[str]:
+    """Say which kept originals are missing or changed; `origins` maps versions to hashes."""
+    problems = []
+    for version, sha256 in origins.items():
+        file = original_of(folder, version)
+        try:
+            digest = hashlib.sha256(file.read_bytes()).hexdigest()
+        except OSError as error:
+            problems.append(f"{file.name}, the journal before its migration, cannot be read ({error})")
+            continue
+        if digest != sha256:
+            problems.append(f"{file.name}, the journal before its migration, was changed")
+    return problems

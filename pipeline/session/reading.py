@@ -1,0 +1,78 @@
+"""Reading a session without changing it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pipeline.session import frames
+from pipeline.session.actions import VERSION, Record, records_of
+from pipeline.session.journal import JOURNAL, read_journal, refuse_damage
+from pipeline.session.migrate import migrated, original_of, records_of_payloads, version_of, write_migrated
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Content:
+    """
+    What a journal says.
+
+    Attributes
+    ----------
+    records : tuple of Record
+    notes : tuple of str
+        What was noticed, in sentences.
+    found : Scan
+        Of the file as it is now.
+    """
+
+    records: tuple[Record, ...]
+    notes: tuple[str, ...]
+    found: frames.Scan
+
+
+def read_content(folder: Path, *, settle: bool = False) -> Content:
+    """
+    Read a journal; one of an older version as this version would write it.
+
+    Parameters
+    ----------
+    folder : path
+    settle : bool
+        Write the migrated journal, and keep the old one; only for the holder of the lock. A torn record at the
+        end is left to `JournalWriter`.
+
+    Raises
+    ------
+    SessionError
+        No session, a damaged one, of a newer version or of one that cannot be migrated.
+    """
+    data = read_journal(folder)
+    found = frames.scan(data)
+    refuse_damage(folder, found)
+    notes = [f"{folder / JOURNAL}: {found.torn}: {_fate(settle)}"] if found.torn else []
+    version = version_of(folder, found)
+    if version == VERSION:
+        return Content(records_of(found.frames), tuple(notes), found)
+    payloads = migrated(folder, data, found, version)
+    records = records_of_payloads(payloads)
+    if settle:
+        write_migrated(folder, data, found, version, payloads)
+        notes.append(
+            f"{folder}: migrated from version {version} to {VERSION}; the journal as it was is kept as"
+            f" {original_of(folder, version).name}."
+        )
+        found = frames.scan(frames.encode_all(payloads))
+    else:
+        notes.append(f"{folder}: of the older version {version}: it is migrated when it is next written.")
+    return Content(records, tuple(notes), found)
+
+
+def _fate(settle: bool) -> str:
+    return (
+        "it was never acknowledged, and is cut off."
+        if settle
+        else "it was never acknowledged, and is left out."
+    )

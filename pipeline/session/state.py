@@ -1,0 +1,244 @@
+"""What a session amounts to: a pure fold over its records."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from pipeline.session.actions import (
+    DeviceRezeroed,
+    FileRef,
+    InputAdded,
+    MeshChanged,
+    Note,
+    ParameterSet,
+    Record,
+    ResultAdded,
+    ResultMarked,
+    SessionCreated,
+)
+from pipeline.session.identity import content_hash, main_file
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+MESH = "mesh"
+
+
+@dataclass(frozen=True)
+class Input:
+    """
+    A raw input or a mesh.
+
+    Attributes
+    ----------
+    kind, name : str
+        A mesh is of the kind ``mesh``; the session has one at a time, whatever its name.
+    file : FileRef
+    sensor : str or None
+        Serial number of the sensor that it was recorded with; None if nobody said.
+    number : int
+        Of its record.
+    at : str
+        When, UTC.
+    """
+
+    kind: str
+    name: str
+    file: FileRef
+    sensor: str | None
+    number: int
+    at: str
+
+    @property
+    def slot(self) -> tuple[str, str]:
+        """What a later input must have in common with this one to take its place."""
+        return (self.kind, "" if self.kind == MESH else self.name)
+
+
+@dataclass(frozen=True)
+class Result:
+    """
+    A result as it was recorded.
+
+    Attributes
+    ----------
+    action : ResultAdded
+    number : int
+        Of its record.
+    at : str
+        When, UTC.
+    tool : str
+        Which version made it.
+    marks : tuple of ResultMarked
+        What people said of it, oldest first.
+    """
+
+    action: ResultAdded
+    number: int
+    at: str
+    tool: str
+    marks: tuple[ResultMarked, ...] = ()
+
+    @property
+    def slot(self) -> tuple[str, str]:
+        """Kind and name: a later result with the same ones takes its place."""
+        return (self.action.kind, self.action.name)
+
+    @property
+    def title(self) -> str:
+        """For people."""
+        return f"{self.action.kind} {self.action.name}"
+
+    @property
+    def file(self) -> FileRef:
+        """Its main file: the one that others refer to."""
+        return self.action.files[main_file(self.action)]
+
+    @property
+    def content(self) -> str:
+        """Its hash: of kind, name, inputs, parameters and files, without any time."""
+        return content_hash(self.action)
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A parameter's value, and since which record, when."""
+
+    value: Any
+    number: int
+    at: str
+
+
+@dataclass(frozen=True)
+class Rezero:
+    """A sensor's zero was moved."""
+
+    sensor: str
+    reason: str
+    number: int
+    at: str
+
+
+@dataclass(frozen=True)
+class State:
+    """
+    Everything that the records say, newest word on each thing.
+
+    Attributes
+    ----------
+    id : str
+        Of the session.
+    migrated_from : int or None
+        Version of the journal that it was migrated from.
+    inputs : tuple of Input
+        All, oldest first, also those that others took the place of.
+    results : tuple of Result
+        The same of results.
+    settings : dict
+        Key -> Setting.
+    rezeros : tuple of Rezero
+    notes : tuple of Note
+    count : int
+        Of records.
+    """
+
+    id: str = ""
+    origins: dict[int, str] = field(default_factory=dict)
+    inputs: tuple[Input, ...] = ()
+    results: tuple[Result, ...] = ()
+    settings: dict[str, Setting] = field(default_factory=dict)
+    rezeros: tuple[Rezero, ...] = ()
+    notes: tuple[Note, ...] = ()
+    count: int = 0
+
+    @property
+    def current_inputs(self) -> dict[tuple[str, str], Input]:
+        """Slot -> the newest input of it."""
+        return {each.slot: each for each in self.inputs}
+
+    @property
+    def current_results(self) -> dict[tuple[str, str], Result]:
+        """Slot -> the newest result of it."""
+        return {each.slot: each for each in self.results}
+
+    @property
+    def mesh(self) -> Input | None:
+        """The mesh in use."""
+        return self.current_inputs.get((MESH, ""))
+
+    def input_with(self, sha256: str) -> Input | None:
+        """Return the newest input of this content."""
+        return next((each for each in reversed(self.inputs) if each.file.sha256 == sha256), None)
+
+    def result_with(self, sha256: str) -> Result | None:
+        """Return the newest result that has a file of this content."""
+        for each in reversed(self.results):
+            if any(file.sha256 == sha256 for file in each.action.files.values()):
+                return each
+        return None
+
+
+def fold(records: Iterable[Record]) -> State:
+    """Return what records amount to; the same records always give the same state."""
+    gathered = _Gathered()
+    for record in records:
+        gathered.add(record)
+    return gathered.state()
+
+
+class _Gathered:
+    """The fold's accumulator: lists that grow, so that long journals take linear time."""
+
+    def __init__(self) -> None:
+        self._id, self._count = "", 0
+        self._origins: dict[int, str] = {}
+        self._inputs: list[Input] = []
+        self._results: list[Result] = []
+        self._marks: dict[int, list[ResultMarked]] = {}
+        self._newest: dict[tuple[str, str], int] = {}
+        self._settings: dict[str, Setting] = {}
+        self._rezeros: list[Rezero] = []
+        self._notes: list[Note] = []
+
+    def add(self, record: Record) -> None:
+        number, at = record.number, record.entry.at
+        self._count = number
+        match record.action:
+            case SessionCreated() as action:
+                self._id = action.id
+                if action.migrated_from is not None:
+                    self._origins = {action.migrated_from.version: action.migrated_from.sha256}
+            case InputAdded(kind=kind, name=name, file=file, sensor=sensor):
+                self._inputs.append(Input(kind, name, file, sensor, number, at))
+            case MeshChanged(name=name, file=file):
+                self._inputs.append(Input(MESH, name, file, None, number, at))
+            case ResultAdded() as action:
+                self._newest[action.kind, action.name] = len(self._results)
+                self._results.append(Result(action, number, at, record.entry.tool))
+            case ResultMarked() as action:
+                newest = self._newest.get((action.kind, action.name))
+                if newest is not None:
+                    self._marks.setdefault(newest, []).append(action)
+            case ParameterSet(key=key, value=value):
+                self._settings[key] = Setting(value, number, at)
+            case DeviceRezeroed(sensor=sensor, reason=reason):
+                self._rezeros.append(Rezero(sensor, reason, number, at))
+            case Note() as note:
+                self._notes.append(note)
+
+    def state(self) -> State:
+        results = tuple(
+            Result(each.action, each.number, each.at, each.tool, tuple(self._marks.get(index, ())))
+            for index, each in enumerate(self._results)
+        )
+        return State(
+            self._id,
+            self._origins,
+            tuple(self._inputs),
+            results,
+            self._settings,
+            tuple(self._rezeros),
+            tuple(self._notes),
+            self._count,
+        )

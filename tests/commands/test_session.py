@@ -1,0 +1,106 @@
+"""The ``session`` commands, as a technician types them."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+from weighing_files import weighed, write_euler
+
+from pipeline.commands.session import session_app
+from pipeline.session import Session, SessionError
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(session_app, list(map(str, arguments)))
+
+
+def facts(*arguments, code=0):
+    result = invoke(*arguments, "--json")
+    assert result.exit_code == code, result.output
+    return json.loads(result.stdout)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    assert invoke("new", tmp_path / "s").exit_code == 0
+    return tmp_path / "s"
+
+
+@pytest.fixture(scope="module")
+def poses(tmp_path_factory):
+    return write_euler(tmp_path_factory.mktemp("weighed") / "poses.csv", weighed())
+
+
+@pytest.fixture
+def weighed_session(folder, poses):
+    facts("add", folder, poses, "--kind", "poses", "--sensor", "42")
+    facts("compute", folder, "calibration", "c.json", "--set", "euler=xyz", "--set", "contact_force=8")
+    return folder
+
+
+def test_from_poses_to_a_calibration_that_is_the_same_again(weighed_session):
+    found = facts("info", weighed_session)
+    assert found["records"] == 3
+    assert found["inputs"][0]["sensor"] == "42"
+    assert [(each["kind"], each["stale"]) for each in found["results"]] == [("calibration", [])]
+    assert facts("replay", weighed_session)["same"] == 1
+    assert facts("verify", weighed_session)["sound"] is True
+
+
+def test_other_poses_make_it_stale(weighed_session, tmp_path):
+    (tmp_path / "new").mkdir()
+    file = write_euler(tmp_path / "new" / "poses.csv", weighed(seed=5))
+    assert facts("add", weighed_session, file, "--kind", "poses")["stale"] == ["calibration c.json"]
+    result = invoke("info", weighed_session)
+    assert "STALE" in result.stderr
+    assert "was replaced by poses.csv" in result.stderr
+
+
+def test_a_result_that_cannot_be_computed_again_ends_with_1(weighed_session):
+    with Session.open(weighed_session) as session:
+        made = session.state.results[0].action
+        session.add_result(
+            "calibration", "c.json", {"c.json": b"{}"}, made.inputs, made.parameters, created=made.created
+        )
+    assert [each["outcome"] for each in facts("replay", weighed_session, code=1)["results"]] == [
+        "same",
+        "different",
+    ]
+
+
+def test_verify_ends_with_1_and_repair_mends_a_damaged_end(folder):
+    with Session.open(folder) as session:
+        session.note("last")
+    data = bytearray((folder / "journal").read_bytes())
+    data[-2] ^= 4
+    (folder / "journal").write_bytes(data)
+    assert "record 2 at byte" in facts("verify", folder, code=1)["problems"][0]
+    done = facts("repair", folder)
+    assert (folder / done["kept_as"]).read_bytes() == data
+    assert facts("verify", folder)["records"] == 1
+
+
+def test_there_and_back_as_an_archive(weighed_session, tmp_path):
+    assert facts("export-archive", weighed_session, "--out", tmp_path / "s.zip")["files"] == 3
+    assert invoke("import-archive", tmp_path / "s.zip", "--out", tmp_path / "back").exit_code == 0
+    assert facts("info", tmp_path / "back") == facts("info", weighed_session)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("compute", "{}", "photo", "p.png"), "nothing here computes"),
+        (("compute", "{}", "probe", "p.ply"), "add them with --kind mesh"),
+        (("add", "{}", "none.csv", "--kind", "poses"), "cannot be read"),
+        (("add", "{}", __file__, "--kind", "Not a word"), "kind"),
+        (("new", "{}"), "a session already"),
+    ],
+)
+def test_what_cannot_be_is_said(folder, arguments, said):
+    result = invoke(*(each.format(folder) for each in arguments))
+    assert isinstance(result.exception, SessionError)
+    assert said in str(result.exception)
+
+
+def test_a_setting_needs_a_value(folder):
+    assert invoke("compute", folder, "calibration", "c.json", "--set", "euler").exit_code == 2

@@ -1,0 +1,168 @@
+"""Archives: there and back, and those that want to write elsewhere."""
+
+import io
+import stat
+import zipfile
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pipeline.session import ArchiveError, Session, SessionError
+from pipeline.session.archive import ArchiveLimits, export_archive, import_archive
+from pipeline.session.check import check
+
+
+@pytest.fixture
+def folder(tmp_path):
+    with Session.create(tmp_path / "s", by="a") as session:
+        session.change_mesh("m.stl", (b"solid" * 100,))
+        session.add_result("test", "r", {"r": b"1"}, {"mesh": session.state.mesh.file.sha256}, {})
+    return tmp_path / "s"
+
+
+@pytest.fixture
+def archive(folder, tmp_path):
+    export_archive(folder, tmp_path / "s.zip")
+    return tmp_path / "s.zip"
+
+
+def test_there_and_back(folder, archive, tmp_path):
+    (folder / "raw" / "orphan").write_bytes(b"stays at home")
+    import_archive(archive, tmp_path / "back")
+    assert check(tmp_path / "back").notes == ()
+    with Session.open(tmp_path / "back") as back, Session.open(folder) as session:
+        assert back.state == session.state
+        back.note("goes on")
+    export_archive(folder, tmp_path / "again.zip")
+    assert (tmp_path / "again.zip").read_bytes() == archive.read_bytes()
+
+
+def test_it_is_packed_while_it_is_written_but_not_into_itself(folder, tmp_path):
+    with Session.open(folder) as session:
+        session.note("open")
+        assert export_archive(folder, tmp_path / "x.zip") == 3
+    with pytest.raises(SessionError, match="inside the session"):
+        export_archive(folder, folder / "x.zip")
+
+
+def test_a_session_that_lost_a_file_is_not_packed(folder, tmp_path):
+    next((folder / "meshes").iterdir()).unlink()
+    with pytest.raises(SessionError, match="is missing"):
+        export_archive(folder, tmp_path / "x.zip")
+    assert not (tmp_path / "x.zip").exists()
+
+
+def members(archive):
+    with zipfile.ZipFile(archive) as packed:
+        return {name: packed.read(name) for name in packed.namelist()}
+
+
+def refused(tmp_path, content, said, limits=None):
+    outside = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    file = tmp_path / "evil.zip"
+    file.write_bytes(content)
+    with pytest.raises(ArchiveError, match=said):
+        import_archive(file, tmp_path / "in" / "out", limits)
+    file.unlink()
+    assert list((tmp_path / "in").iterdir()) == []
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == outside
+
+
+@pytest.fixture
+def inside(tmp_path):
+    (tmp_path / "in").mkdir()
+
+
+def packed_with(archive, name, data=b"evil", mode=stat.S_IFREG | 0o644, method=zipfile.ZIP_STORED):
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as packed:
+        for known, content in members(archive).items():
+            packed.writestr(known, content)
+        info = zipfile.ZipInfo(name)
+        info.external_attr, info.create_system, info.compress_type = mode << 16, 3, method
+        packed.writestr(info, data)
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "../evil",
+        "../../evil",
+        "raw/../../evil",
+        "/etc/evil",
+        "raw/000000000000-x/../../../evil",
+        "C:\\evil",
+        "raw\\000000000000-x",
+        "\\\\host\\evil",
+        "evil",
+        "lock",
+        "raw/.hidden",
+        "raw/000000000000-x:stream",
+        "JOURNAL",
+        "journal/",
+        "raw/000000000000-x/",
+    ],
+)
+@pytest.mark.usefixtures("inside")
+def test_names_of_no_session_are_refused(tmp_path, archive, name):
+    refused(tmp_path, packed_with(archive, name), "no name of a session's file")
+
+
+@pytest.mark.usefixtures("inside")
+def test_links_bombs_doubles_and_strangers_are_refused(tmp_path, archive):
+    name = "raw/000000000000-x"
+    refused(tmp_path, packed_with(archive, name, b"/etc/passwd", stat.S_IFLNK | 0o777), "a link")
+    bomb = packed_with(archive, name, bytes(4 * 2**20), method=zipfile.ZIP_DEFLATED)
+    refused(tmp_path, bomb, "times its packed size")
+    refused(tmp_path, packed_with(archive, name), "belongs to no record")
+    refused(tmp_path, packed_with(archive, name, b"x" * 100), "larger than", ArchiveLimits(size=50))
+    refused(tmp_path, packed_with(archive, name), "files, more than 3", ArchiveLimits(members=3))
+    refused(tmp_path, packed_with(archive, name, method=zipfile.ZIP_LZMA), "unusual")
+    with pytest.warns(UserWarning, match="Duplicate"):
+        double = packed_with(archive, "journal")
+    refused(tmp_path, double, "twice")
+    refused(tmp_path, b"no zip", "no sound zip")
+
+
+@pytest.mark.usefixtures("inside")
+def test_sizes_that_lie_and_changed_files_are_refused(tmp_path, archive):
+    data = packed_with(archive, "raw/000000000000-x", b"x" * 500, method=zipfile.ZIP_DEFLATED)
+    lying = data.replace((500).to_bytes(4, "little"), (5).to_bytes(4, "little"))
+    refused(tmp_path, lying, "sound zip|larger than the archive says|belongs to no record")
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w") as packed:
+        for name, content in members(archive).items():
+            packed.writestr(
+                name, content.replace(b"solid", b"s0lid") if name.startswith("meshes") else content
+            )
+    refused(tmp_path, stream.getvalue(), "another content")
+
+
+def test_an_existing_place_is_left_alone(archive, folder):
+    with pytest.raises(SessionError, match="something already"):
+        import_archive(archive, folder)
+    assert check(folder).sound
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(st.data())
+def test_flipped_bytes_give_a_whole_session_or_none(tmp_path_factory, data):
+    base = tmp_path_factory.getbasetemp() / "flips"
+    if not base.exists():
+        base.mkdir()
+        with Session.create(base / "s", by="a") as session:
+            session.change_mesh("m.stl", (b"solid" * 20,))
+        export_archive(base / "s", base / "s.zip")
+    content = bytearray((base / "s.zip").read_bytes())
+    for _ in range(data.draw(st.integers(1, 3))):
+        content[data.draw(st.integers(0, len(content) - 1))] = data.draw(st.integers(0, 255))
+    work = tmp_path_factory.mktemp("flip")
+    (work / "x.zip").write_bytes(content)
+    try:
+        import_archive(work / "x.zip", work / "out")
+    except SessionError:
+        assert [each.name for each in work.iterdir()] == ["x.zip"]
+    else:
+        assert check(work / "out").sound

@@ -1,0 +1,102 @@
+"""A disk that fails at each write, fsync, rename and truncation: what was acknowledged stays, nothing is half there."""
+
+import errno
+import os
+
+import pytest
+
+from pipeline.errors import InputError
+from pipeline.session import Session, SessionError
+from pipeline.session.check import check
+
+CALLS = ("write", "fsync", "replace", "ftruncate")
+
+
+class Failing:
+    """The n-th of the calls fails; a write that fails may have written a part."""
+
+    def __init__(self, monkeypatch, at, code, forever):
+        self.count, self.at, self.code, self.forever = 0, at, code, forever
+        for name in CALLS:
+            monkeypatch.setattr(os, name, self.wrap(name, getattr(os, name)))
+
+    def wrap(self, name, real):
+        def call(*arguments, **named):
+            self.count += 1
+            if self.count == self.at or (self.forever and self.count > self.at):
+                if name == "write":
+                    real(arguments[0], bytes(arguments[1])[: len(arguments[1]) // 2])
+                raise OSError(self.code, os.strerror(self.code))
+            return real(*arguments, **named)
+
+        return call
+
+
+def work(folder, acknowledged):
+    with Session.create(folder, by="a") as session:
+        acknowledged.append(session.records[0].hash)
+        acknowledged.append(session.note("n" * 100).hash)
+        acknowledged.append(session.change_mesh("m.stl", (b"solid" * 1000, b"end")).hash)
+        mesh = session.state.mesh.file.sha256
+        acknowledged.append(session.add_result("test", "r", {"r": b"1", "s": b"2"}, {"mesh": mesh}, {}).hash)
+    with Session.open(folder, by="a") as session:
+        acknowledged.append(session.rezeroed("42").hash)
+
+
+def calls_needed(tmp_path):
+    with pytest.MonkeyPatch.context() as patch:
+        counter = Failing(patch, at=-1, code=0, forever=False)
+        work(tmp_path / "dry", [])
+        return counter.count
+
+
+@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EIO])
+@pytest.mark.parametrize("forever", [False, True])
+def test_each_call_may_fail(tmp_path, code, forever):
+    needed = calls_needed(tmp_path)
+    assert needed > 30
+    for at in range(1, needed + 1):
+        folder, acknowledged = tmp_path / f"{at}", []
+        with pytest.MonkeyPatch.context() as patch:
+            Failing(patch, at, code, forever)
+            said = ""
+            try:
+                work(folder, acknowledged)
+            except InputError as error:
+                said = str(error)
+        # Only who holds the lock may go unsaid.
+        assert os.strerror(code) in said or (len(acknowledged) == 5 and not forever)
+        if not acknowledged and not (folder / "journal").exists():
+            Session.create(folder).close()  # what is left of a session that was never made is in nobody's way
+            assert check(folder).sound
+            continue
+        with Session.open(folder, by="a") as session:
+            hashes = [record.hash for record in session.records]
+            assert hashes[: len(acknowledged)] == acknowledged
+            assert len(hashes) <= len(acknowledged) + bool(said)
+            session.note("and on")
+        assert check(folder).sound
+        assert not list(folder.rglob("*.tmp"))
+
+
+def test_after_a_failed_write_nothing_more_is_accepted_until_it_is_read_again(tmp_path, monkeypatch):
+    with Session.create(tmp_path / "s") as session:
+        with monkeypatch.context() as patch:
+            Failing(patch, 1, errno.EIO, forever=False)
+            with pytest.raises(SessionError, match="the action is not recorded"):
+                session.note("lost")
+        with pytest.raises(SessionError, match="open the session again"):
+            session.note("refused")
+    with Session.open(tmp_path / "s") as session:
+        assert len(session.records) == 1
+
+
+def test_files_are_there_before_the_record_that_names_them(tmp_path, monkeypatch):
+    order = []
+    with Session.create(tmp_path / "s") as session:
+        for name in ("fsync", "replace"):
+            real = getattr(os, name)
+            monkeypatch.setattr(os, name, lambda *a, name=name, real=real: (order.append(name), real(*a))[1])
+        session.change_mesh("m.stl", (b"x",))
+    # file, its name, its folder, and only then the record
+    assert order == ["fsync", "replace", "fsync", "fsync"]

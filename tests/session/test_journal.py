@@ -1,0 +1,71 @@
+"""The journal's bytes: cut anywhere, flipped anywhere, chained."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from pipeline.session import frames
+from pipeline.session.errors import JournalError
+
+PAYLOADS = [frames.canonical({"n": n, "text": "µ" * n}) for n in range(6)]
+DATA = frames.encode_all(PAYLOADS)
+ENDS = [0, *(frame.end for frame in frames.scan(DATA).frames)]
+
+
+def test_what_was_written_is_read():
+    found = frames.scan(DATA)
+    assert [frame.payload for frame in found.frames] == PAYLOADS
+    assert (found.torn, found.damage, found.end) == ("", "", len(DATA))
+
+
+def test_cut_at_every_byte_the_whole_records_stay_and_the_rest_is_torn():
+    for cut in range(len(DATA)):
+        found = frames.scan(DATA[:cut])
+        whole = max(n for n, end in enumerate(ENDS) if end <= cut)
+        assert len(found.frames) == whole
+        assert found.end == ENDS[whole]
+        assert bool(found.torn) == (cut not in ENDS)
+        assert not found.damage
+
+
+def test_blocks_of_zeros_at_the_end_are_torn():
+    for cut in range(ENDS[-2], len(DATA)):
+        padded = DATA[:cut] + bytes(5000)
+        found = frames.scan(padded)
+        assert len(found.frames) == len(PAYLOADS) - 1
+        # A header that was half written has no length to trust: then a person decides, nothing is dropped.
+        assert found.torn or (found.damage and found.last and ENDS[-2] < cut < ENDS[-2] + 48)
+
+
+def test_every_flipped_bit_is_found_and_nothing_acknowledged_is_called_torn():
+    for bit in range(8 * len(DATA)):
+        changed = bytearray(DATA)
+        changed[bit // 8] ^= 1 << bit % 8
+        found = frames.scan(bytes(changed))
+        assert found.damage
+        assert not found.torn
+        record = max(n for n, end in enumerate(ENDS) if end <= bit // 8)
+        assert len(found.frames) == record
+        assert found.last == (record == len(PAYLOADS) - 1)
+
+
+@pytest.mark.parametrize("order", [[0, 2, 1], [0, 2], [1, 2], [0, 1, 1]])
+def test_records_that_were_moved_or_removed_break_the_chain(order):
+    parts = [DATA[ENDS[n] : ENDS[n + 1]] for n in order]
+    found = frames.scan(b"".join(parts))
+    assert "does not follow the one before" in found.damage
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(st.binary(max_size=300), st.integers(0, len(DATA)))
+def test_any_bytes_are_read_without_an_error(junk, cut):
+    found = frames.scan(DATA[:cut] + junk)
+    assert found.end <= cut + len(junk)
+    assert frames.encode_all(frame.payload for frame in found.frames) == (DATA[:cut] + junk)[: found.end]
+
+
+def test_what_json_cannot_hold_is_refused():
+    with pytest.raises(JournalError, match="cannot be written"):
+        frames.canonical({"x": float("nan")})
+    with pytest.raises(JournalError, match="put large data into a file"):
+        frames.encode(b" " * (2**20 + 1), frames.GENESIS)

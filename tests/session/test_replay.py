@@ -1,0 +1,134 @@
+"""Results computed again from raw inputs, and compared with what the commands write."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+from weighing_files import weighed, write_euler
+
+from pipeline import cli
+from pipeline.session import Session, SessionError
+from pipeline.session.recompute import compute
+from pipeline.session.replay import Outcome, replay
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(cli.app, list(map(str, arguments)))
+
+
+@pytest.fixture(scope="module")
+def poses(tmp_path_factory):
+    return write_euler(tmp_path_factory.mktemp("weighed") / "poses.csv", weighed())
+
+
+@pytest.fixture
+def mesh(tmp_path):
+    import trimesh
+
+    file = tmp_path / "ball.stl"
+    file.write_bytes(trimesh.creation.icosphere(2, 30.0).export(file_type="stl"))
+    return file
+
+
+@pytest.fixture
+def session(tmp_path):
+    with Session.create(tmp_path / "s", by="a") as session:
+        yield session
+
+
+def calibrated(session, poses, **parameters):
+    sha256 = session.add_input(poses, "poses").action.file.sha256
+    return compute(
+        session, "calibration", "calibration.json", {"poses": sha256}, {"euler": "xyz", **parameters}
+    )
+
+
+def test_a_calibration_has_the_bytes_of_the_command(session, poses, tmp_path, monkeypatch):
+    record = calibrated(session, poses, tip=[0, 0, 120], noise_force=0.05, noise_torque=0.002)
+    created = np.datetime64(record.action.created[:-1]).astype("datetime64[s]").astype(int)
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", str(created))
+    options = ("--euler", "xyz", "--tip", "0,0,120", "--noise-force", 0.05, "--noise-torque", 0.002)
+    assert invoke("calibrate", poses, *options, "--out", tmp_path / "c.json").exit_code == 0
+    stored = session.folder / record.action.files["calibration.json"].path
+    assert stored.read_bytes() == (tmp_path / "c.json").read_bytes()
+    assert [each.outcome for each in replay(session)] == [Outcome.SAME]
+
+
+def test_a_probe_of_the_command_is_made_again_to_the_byte(session, mesh, tmp_path):
+    out = tmp_path / "probe.ply"
+    options = (
+        "--facets",
+        100,
+        "--engine",
+        "fast-simplification",
+        "--mount",
+        "0,0,40,0,0,90",
+        "--units",
+        "mm",
+    )
+    result = invoke("probe", "prepare", mesh, *options, "--out", out)
+    assert result.exit_code == 0, result.stderr
+    inputs = {"mesh": session.add_input(mesh, "mesh").action.file.sha256}
+    parameters = {
+        "facets": 100,
+        "engine": "fast-simplification",
+        "mount": [0, 0, 40, 0, 0, 90],
+        "units": "mm",
+    }
+    files = {file.name: file.read_bytes() for file in (out, out.with_suffix(".json"))}
+    session.add_result("probe", "probe.ply", files, inputs, parameters)
+    assert [(each.outcome, each.sentence) for each in replay(session)] == [
+        (Outcome.SAME, "probe probe.ply: the same bytes.")
+    ]
+
+
+def test_what_differs_fails_or_is_unknown_is_said(session, poses):
+    good = calibrated(session, poses).action
+    made = json.loads((session.folder / good.files["calibration.json"].path).read_bytes())
+    made["mass_kg"] *= 2
+    changed = {"calibration.json": json.dumps(made).encode()}
+    session.add_result(
+        "calibration", "calibration.json", changed, good.inputs, good.parameters, created=good.created
+    )
+    wrong = {**good.parameters, "euler": "abc"}
+    session.add_result("calibration", "calibration.json", changed, good.inputs, wrong, created=good.created)
+    session.add_result("photo", "p.png", {"p.png": b""}, {}, {})
+    found = replay(session)
+    assert [each.outcome for each in found] == [
+        Outcome.SAME,
+        Outcome.DIFFERENT,
+        Outcome.FAILED,
+        Outcome.UNKNOWN,
+    ]
+    assert "other bytes in calibration.json" in found[1].sentence
+    assert "Euler order" in found[2].sentence
+    assert len(session.records) == 6
+
+
+@pytest.mark.parametrize(
+    ("parameters", "said"),
+    [
+        ({"noise_force": 1.0}, "give both or none"),
+        ({"colour": "red"}, "parameter colour"),
+        ({"robot": "elfin3"}, "contradict"),
+        ({"contact_force": "strong"}, "parameter contact_force"),
+    ],
+)
+def test_wrong_parameters_are_named_and_nothing_is_recorded(session, poses, parameters, said):
+    with pytest.raises(SessionError, match=said):
+        calibrated(session, poses, **parameters)
+    assert len(session.records) == 2
+
+
+def test_wrong_kinds_names_and_inputs(session, poses):
+    sha256 = session.add_input(poses, "poses").action.file.sha256
+    for kind, name, inputs in (
+        ("photo", "p.png", {}),
+        ("calibration", "../c.json", {"poses": sha256}),
+        ("calibration", "c.txt", {"poses": sha256}),
+        ("calibration", "c.json", {}),
+        ("calibration", "c.json", {"poses": "0" * 64}),
+    ):
+        with pytest.raises(SessionError):
+            compute(session, kind, name, inputs, {"euler": "xyz"})

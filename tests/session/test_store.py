@@ -1,0 +1,277 @@
+"""Sessions on disk: adding, reopening, two writers, versions, repair."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pipeline.session import (
+    JournalError,
+    SchemaError,
+    Session,
+    SessionError,
+    SessionLockedError,
+    frames,
+    migrate,
+)
+from pipeline.session.check import check, repair
+from pipeline.session.crash import kill_writers
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def folder(tmp_path):
+    with Session.create(tmp_path / "s", by="ada") as session:
+        session.note("first")
+    return tmp_path / "s"
+
+
+@pytest.fixture
+def poses(tmp_path):
+    file = tmp_path / "poses µ.csv"
+    file.write_bytes(b"t,fx\n0,1\n")
+    return file
+
+
+def test_what_was_added_is_there_after_reopening(folder, poses):
+    with Session.open(folder, by="ada") as session:
+        record = session.add_input(poses, "poses", sensor="42")
+        session.set_parameter("calibration.noise_force", 0.1)
+        session.add_result(
+            "report", "r.txt", {"r.txt": b"!"}, {"poses": record.action.file.sha256}, {"a": [1, None]}
+        )
+        state = session.state
+    with Session.open(folder, write=False) as again:
+        assert again.state == state
+        assert again.records[0].action.version == 1
+        assert again.records[2].entry.by == "ada"
+        assert again.records[2].entry.sensor == "42"
+        assert again.records[2].entry.tool.startswith("contactbench ")
+        assert again.records[2].entry.at.endswith("+00:00")
+        [stored] = again.state.inputs
+        assert stored.name == "poses µ.csv"
+        assert (folder / stored.file.path).read_bytes() == poses.read_bytes()
+    assert check(folder).sound
+
+
+def test_times_are_in_no_results_hash(folder):
+    with Session.open(folder) as session:
+        for created in ("2026-01-01T00:00:00Z", "2027-01-01T00:00:00Z"):
+            session.add_result("report", "r.txt", {"r.txt": b"!"}, {}, {}, created=created)
+        first, second = session.state.results
+    assert first.content == second.content
+    assert first.at != second.at
+
+
+@pytest.mark.parametrize("name", ["", ".", "..", "a/b", "a\\b", ".hidden", "c:x", "a\nb", "x" * 300])
+def test_names_that_lead_elsewhere_are_refused_before_anything_is_copied(folder, poses, name):
+    with Session.open(folder) as session, pytest.raises(SessionError, match="name"):
+        session.add_input(poses, "poses", name=name)
+    assert list((folder / "raw").iterdir()) == []
+
+
+def test_what_is_wrong_is_refused(folder, tmp_path):
+    with Session.open(folder) as session:
+        with pytest.raises(SessionError, match="not a regular file"):
+            session.add_input(tmp_path, "poses")
+        with pytest.raises(SessionError, match="cannot be read"):
+            session.add_input(tmp_path / "none", "poses")
+        with pytest.raises(SessionError, match="holds nothing with the hash"):
+            session.add_result("report", "r", {"r": b""}, {"poses": "0" * 64}, {})
+        with pytest.raises(SessionError, match="cannot be written"):
+            session.set_parameter("a.b", float("nan"))
+        with pytest.raises(SessionError, match="no result"):
+            session.mark("report", "r", "stale")
+        assert len(session.records) == 2
+        session.note("still works")
+    with Session.open(folder, write=False) as session, pytest.raises(SessionError, match="reading only"):
+        session.note("no")
+    with pytest.raises(SessionError, match="there is a session already"):
+        Session.create(folder)
+    with pytest.raises(SessionError, match="the folder holds"):
+        Session.create(tmp_path)
+    with pytest.raises(SessionError, match="holds no session"):
+        Session.open(tmp_path)
+
+
+# ---- two writers -------------------------------------------------------------------------------
+
+HOLD = "import sys; from pathlib import Path; from pipeline.session import Session\n"
+HOLD += "s = Session.open(Path(sys.argv[1])); s.note('held'); print('ready', flush=True); sys.stdin.read()"
+
+
+def test_two_cannot_write_reading_is_possible_and_a_dead_writer_blocks_nobody(folder):
+    command = [sys.executable, "-c", HOLD, str(folder)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=ROOT) as other:
+        assert other.stdout.readline() == b"ready\n"
+        with pytest.raises(SessionLockedError, match=f"process {other.pid}"):
+            Session.open(folder)
+        with pytest.raises(SessionLockedError):
+            repair(folder)
+        with Session.open(folder, write=False) as reader:
+            assert reader.records[-1].action.text == "held"
+        other.kill()
+    with Session.open(folder) as session:
+        session.note("after")
+    assert (folder / "lock").exists()
+
+
+def test_one_process_cannot_write_twice_either(folder):
+    with Session.open(folder), pytest.raises(SessionLockedError):
+        Session.open(folder)
+
+
+# ---- torn, damaged -----------------------------------------------------------------------------
+
+
+def test_a_torn_record_is_cut_off_with_a_sentence(folder):
+    data = (folder / "journal").read_bytes()
+    with Session.open(folder) as session:
+        session.note("torn")
+    longer = (folder / "journal").read_bytes()
+    for cut in (len(data) + 1, len(data) + 47, len(data) + 48, len(longer) - 1):
+        (folder / "journal").write_bytes(longer[:cut])
+        with Session.open(folder, write=False) as session:
+            assert "never acknowledged" in session.notes[0]
+        assert (folder / "journal").stat().st_size == cut
+        assert check(folder).sound
+        with Session.open(folder) as session:
+            assert "is cut off" in session.notes[0]
+            assert len(session.records) == 2
+        assert (folder / "journal").read_bytes() == data
+
+
+def test_repair_cuts_a_torn_tail_and_keeps_the_original(folder):
+    data = (folder / "journal").read_bytes()
+    (folder / "journal").write_bytes(data + b"\x93CBJ")
+    done = repair(folder)
+    assert done.removed == 4
+    assert (folder / done.kept_as).read_bytes() == data + b"\x93CBJ"
+    assert (folder / "journal").read_bytes() == data
+    assert repair(folder).removed == 0
+
+
+def test_repair_sets_a_damaged_last_record_aside_but_opening_does_not(folder):
+    data = bytearray((folder / "journal").read_bytes())
+    data[-1] ^= 1
+    (folder / "journal").write_bytes(data)
+    with pytest.raises(JournalError, match=r"record 2 at byte .* is damaged.*session repair"):
+        Session.open(folder)
+    assert (folder / "journal").read_bytes() == data
+    assert (folder / repair(folder).kept_as).read_bytes() == data
+    assert len(Session.open(folder, write=False).records) == 1
+
+
+def test_damage_in_the_middle_is_named_and_never_repaired(folder):
+    data = bytearray((folder / "journal").read_bytes())
+    data[60] ^= 1
+    (folder / "journal").write_bytes(data)
+    for attempt in (repair, Session.open):
+        with pytest.raises(JournalError, match=r"record 1 at byte 0 is damaged.*whole records follow"):
+            attempt(folder)
+    assert not check(folder).sound
+    assert (folder / "journal").read_bytes() == data
+
+
+def test_missing_changed_and_longer_files_are_found(folder, poses):
+    with Session.open(folder) as session:
+        ref = session.add_input(poses, "poses").action.file
+    file = folder / ref.path
+    for content, said in (
+        (b"t,fx\n0,2\n", "another content"),
+        (b"", "has 0 bytes, not 9"),
+        (None, "is missing"),
+    ):
+        file.unlink() if content is None else file.write_bytes(content)
+        assert said in check(folder).problems[0]
+    with Session.open(folder) as session:  # adding the original again mends it
+        session.add_input(poses, "poses")
+    assert check(folder).sound
+    (folder / "raw" / "orphan").write_bytes(b"")
+    assert "belong to no record" in check(folder).notes[0]
+
+
+# ---- versions ----------------------------------------------------------------------------------
+
+
+def rewrite(folder, change):
+    found = frames.scan((folder / "journal").read_bytes())
+    payloads = [json.loads(frame.payload) for frame in found.frames]
+    change(payloads)
+    (folder / "journal").write_bytes(frames.encode_all(map(frames.canonical, payloads)))
+    return (folder / "journal").read_bytes()
+
+
+def test_a_newer_version_is_refused_and_left_alone(folder):
+    data = rewrite(folder, lambda payloads: payloads[0]["action"].update(version=2, news=True))
+    for write in (True, False):
+        with pytest.raises(SchemaError, match="use a newer contactbench"):
+            Session.open(folder, write=write)
+    assert (folder / "journal").read_bytes() == data
+
+
+def older(payloads):
+    payloads[0]["action"]["version"] = 0
+    for payload in payloads:
+        payload["who"] = payload.pop("by")
+
+
+def newer(payloads):
+    return [{**{k: v for k, v in each.items() if k != "who"}, "by": each["who"]} for each in payloads]
+
+
+def test_an_older_version_is_migrated_and_the_original_kept(folder, monkeypatch):
+    old = rewrite(folder, older)
+    with pytest.raises(SchemaError, match="too old"):
+        Session.open(folder)
+    monkeypatch.setitem(migrate.MIGRATIONS, 0, newer)
+    with Session.open(folder, write=False) as session:
+        assert session.records[1].entry.by == "ada"
+    assert (folder / "journal").read_bytes() == old
+    with Session.open(folder) as session:
+        assert "migrated from version 0 to 1" in session.notes[0]
+        session.note("after")
+    assert (folder / "journal.v0").read_bytes() == old
+    assert check(folder).sound
+    with Session.open(folder, write=False) as session:
+        assert session.notes == ()
+        assert [record.entry.by for record in session.records][:2] == ["ada", "ada"]
+    (folder / "journal.v0").write_bytes(b"")
+    assert "was changed" in check(folder).problems[0]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda p: p[1].update(at="yesterday"),
+        lambda p: p[1].update(at="2026-01-01T00:00:00+02:00"),
+        lambda p: p[1].update(action=p[0]["action"]),
+        lambda p: p[1]["action"].update(type="other"),
+        lambda p: p[1].update(
+            action={
+                "type": "mesh_changed",
+                "name": "m",
+                "file": {"path": "../x", "sha256": "0" * 64, "size": 1},
+            }
+        ),
+        lambda p: p.pop(0),
+    ],
+)
+def test_records_that_cannot_be_are_named(folder, change):
+    rewrite(folder, change)
+    with pytest.raises(SessionError, match="record"):
+        Session.open(folder)
+
+
+# ---- kill -9 -----------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(os.name == "nt", reason="kill is TerminateProcess there, the same by another name")
+def test_killed_at_twenty_moments_nothing_acknowledged_is_lost(tmp_path):
+    report = kill_writers(tmp_path / "s", 20, seed=5)
+    assert report.problems == ()
+    assert report.acknowledged > 20

@@ -16,11 +16,14 @@ import typer
 from typer.core import TyperGroup
 
 from pipeline import __version__
+from pipeline.commands.emulate import emulate_app
 from pipeline.commands.gravity import gravity_app
 from pipeline.commands.locate import locate_app
 from pipeline.commands.poses import poses_app
 from pipeline.commands.probe import probe_app
+from pipeline.commands.recording import recording_app
 from pipeline.commands.region import region_app
+from pipeline.commands.session import session_app
 from pipeline.console import JsonOption, print_json, report_error, say, wants_json
 from pipeline.errors import InputError
 from pipeline.study.commands import study_app
@@ -202,6 +205,9 @@ app.add_typer(gravity_app)
 app.add_typer(poses_app)
 app.add_typer(probe_app, name="probe")
 app.add_typer(region_app, name="region")
+app.add_typer(emulate_app)
+app.add_typer(recording_app, name="recording")
+app.add_typer(session_app, name="session")
 app.add_typer(study_app, name="study")
 
 

@@ -21,6 +21,7 @@ from pipeline.commands.gravity import gravity_app
 from pipeline.commands.locate import locate_app
 from pipeline.commands.poses import poses_app
 from pipeline.commands.probe import probe_app
+from pipeline.commands.record import record_app
 from pipeline.commands.recording import recording_app
 from pipeline.commands.region import region_app
 from pipeline.commands.session import session_app
@@ -206,6 +207,7 @@ app.add_typer(poses_app)
 app.add_typer(probe_app, name="probe")
 app.add_typer(region_app, name="region")
 app.add_typer(emulate_app)
+app.add_typer(record_app)
 app.add_typer(recording_app, name="recording")
 app.add_typer(session_app, name="session")
 app.add_typer(study_app, name="study")

@@ -6,7 +6,7 @@ import signal
 import threading
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -14,10 +14,10 @@ from pipeline.console import JsonOption, print_json, say
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from pipeline.devices.drive import Health
-    from pipeline.devices.sample import WrenchSample
+    from pipeline.devices.sample import FlangeSample, WrenchSample
     from pipeline.recording import RecordingWriter
 
 record_app = typer.Typer(rich_markup_mode=None)
@@ -37,32 +37,45 @@ _FLUSH_S = 0.5
 def record(
     address: Annotated[str, typer.Argument(metavar="ADDRESS", help="Of the sensor.")],
     out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
+    pose: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Also the flange of a robot: elfin+tcp:// or ur+tcp://."),
+    ] = None,
     seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
     note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
     as_json: JsonOption = False,
 ) -> None:
     """Record a force/torque sensor."""
-    from pipeline.devices.drive import SensorStream
+    from contextlib import ExitStack
+
+    from pipeline.devices.drive import SensorStream, poses_from
     from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
     taken: _Taken
-    stream = SensorStream(
-        address, lambda samples: taken.samples(samples), lambda health: taken.health(health)
+    sensor = SensorStream(
+        address, lambda samples: taken.samples(samples), lambda health: taken.health("sensor", health)
     )
-    about = RecordingInfo.now(
-        (DeviceInfo("wrench", "/wrench", str(stream.address), rate=stream.address.rate),), note
-    )
-    with RecordingWriter(out, about) as writer:
+    devices = [DeviceInfo("wrench", "/wrench", str(sensor.address), rate=sensor.address.rate)]
+    robot = None
+    if pose is not None:
+        robot = poses_from(
+            pose, lambda samples: taken.poses(samples), lambda health: taken.health("robot", health)
+        )
+        devices.append(DeviceInfo("flange", "/flange", str(robot.address), rate=robot.address.rate))
+    with RecordingWriter(out, RecordingInfo.now(tuple(devices), note)) as writer:
         taken = _Taken(writer)
-        with stream:
+        with ExitStack() as streams:
+            streams.enter_context(sensor)
+            if robot is not None:
+                streams.enter_context(robot)
             _wait(seconds, taken.failed)
-        health = stream.health
     if taken.error is not None:
         raise taken.error
-    _tell(out, health, as_json)
-    if not health.samples:
+    given = {"sensor": sensor.health} | ({} if robot is None else {"robot": robot.health})
+    _tell(out, given, as_json)
+    if not all(health.samples for health in given.values()):
         raise typer.Exit(1)
 
 
@@ -103,11 +116,19 @@ class _Taken:
         for sample in samples:
             self._writer.wrench(sample)
 
-    def health(self, health: Health) -> None:
-        """Keep changes of the stream with the samples, and say them."""
+    def poses(self, samples: Sequence[FlangeSample]) -> None:
+        self._do(lambda: self._write_poses(samples))
+
+    def _write_poses(self, samples: Sequence[FlangeSample]) -> None:
+        for sample in samples:
+            self._writer.flange(sample)
+
+    def health(self, device: str, health: Health) -> None:
+        """Keep changes of a stream with the samples, and say them."""
         found = " ".join(health.findings)
-        say(f"{health.state}: {found}" if found else str(health.state), "yellow" if found else "")
-        fields = {"state": health.state.value, "findings": list(health.findings)}
+        words = f"{device}: {health.state}"
+        say(f"{words}: {found}" if found else words, "yellow" if found else "")
+        fields = {"device": device, "state": health.state.value, "findings": list(health.findings)}
         self._do(lambda: self._writer.event("stream", fields, time.monotonic()))
 
     def _do(self, write: Callable[[], None]) -> None:
@@ -129,25 +150,27 @@ def _wait(seconds: float | None, failed: threading.Event) -> None:
         signal.signal(signal.SIGINT, before)
 
 
-def _tell(out: Path, health: Health, as_json: bool) -> None:
-    counters = health.counters
-    rate = "unknown" if health.rate is None else f"{health.rate:.1f} Hz"
-    jitter = "" if health.jitter is None else f", jitter {1e3 * health.jitter:.2f} ms"
-    say(
-        f"{health.samples:,} samples at {rate}{jitter}; lost {counters.lost}, damaged {counters.bad_checksums},"
-        f" reconnected {health.reconnected} times. Wrote {out}."
-    )
-    if as_json:
-        print_json(
-            {
-                "out": str(out),
-                "samples": health.samples,
-                "rate_hz": health.rate,
-                "jitter_s": health.jitter,
-                "lost": counters.lost,
-                "bad_checksums": counters.bad_checksums,
-                "skipped_bytes": counters.skipped_bytes,
-                "reconnected": health.reconnected,
-                "findings": list(health.findings),
-            }
+def _tell(out: Path, given: Mapping[str, Health], as_json: bool) -> None:
+    for device, health in given.items():
+        counters = health.counters
+        rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"
+        jitter = "" if health.jitter is None else f", jitter {1e3 * health.jitter:.2f} ms"
+        say(
+            f"{device}: {health.samples:,} samples at {rate}{jitter}; lost {counters.lost}, damaged"
+            f" {counters.bad_checksums}, reconnected {health.reconnected} times."
         )
+    say(f"Wrote {out}.")
+    if as_json:
+        print_json({"out": str(out), **{device: _facts(health) for device, health in given.items()}})
+
+
+def _facts(health: Health) -> dict[str, Any]:
+    return {
+        "samples": health.samples,
+        "rate_hz": health.rate,
+        "jitter_s": health.jitter,
+        "lost": health.counters.lost,
+        "bad_checksums": health.counters.bad_checksums,
+        "skipped_bytes": health.counters.skipped_bytes,
+        "reconnected": health.reconnected,
+    }

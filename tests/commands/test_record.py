@@ -29,14 +29,28 @@ def test_what_a_sensor_sends_is_in_the_file(tmp_path):
     facts = json.loads(result.stdout)
     recording = read_recording(out)
     track = recording.wrenches["/wrench"]
-    assert facts["samples"] == len(track.times) > 100
-    assert facts["lost"] == facts["bad_checksums"] == 0
+    assert facts["sensor"]["samples"] == len(track.times) > 100
+    assert facts["sensor"]["lost"] == facts["sensor"]["bad_checksums"] == 0
     assert recording.complete
     assert recording.info.note == "bench 3"
     assert (np.diff(track.sequence) == 1).all()
     sent = {entry.frame[6:30] for entry in device.intact()}
     given = {row.astype("<f4").tobytes() for row in track.wrenches}
     assert given <= sent
+
+
+def test_a_robot_beside_the_sensor(tmp_path):
+    out = tmp_path / "a.mcap"
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device, emulator("elfin") as arm:
+        result = invoke("record", device.url, "--pose", arm.url, "--out", out, "--seconds", 1, "--json")
+    assert result.exit_code == 0, result.stderr
+    recording = read_recording(out)
+    track = recording.flanges["/flange"]
+    assert json.loads(result.stdout)["robot"]["samples"] == len(track.times) > 10
+    assert track.joints.shape == (len(track.times), 6)
+    converted = invoke("recording", "convert", out, "--out", tmp_path / "a.csv")
+    assert converted.exit_code == 0, converted.stderr
+    assert (tmp_path / "a.csv").read_text().startswith("t,fx,fy,fz,mx,my,mz,qw,qx,qy,qz")
 
 
 def test_a_gap_stays_a_gap_and_is_kept_as_an_event(tmp_path):

@@ -10,12 +10,12 @@ from statistics import median
 from typing import TYPE_CHECKING
 
 from pipeline.devices.protocols import Counters
-from pipeline.devices.sample import Status
+from pipeline.devices.sample import Status, WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.sample import WrenchSample
+    from pipeline.devices.sample import FlangeSample
 
 # A silence is a fault after this, or after two frames of a slow device.
 SILENCE_S = 0.15
@@ -84,7 +84,7 @@ class Watch:
     def __init__(self, rate: float) -> None:
         self._rate = rate
         self._times: deque[float] = deque(maxlen=_WINDOW)
-        self._last: WrenchSample | None = None
+        self._last: WrenchSample | FlangeSample | None = None
         self._same = 0
         self._same_since = 0.0
         self.samples = 0
@@ -94,11 +94,10 @@ class Watch:
         """Seconds without a sample after which the stream is silent."""
         return max(SILENCE_S, 2.0 / self._rate)
 
-    def see(self, samples: Sequence[WrenchSample]) -> None:
+    def see(self, samples: Sequence[WrenchSample] | Sequence[FlangeSample]) -> None:
         """Take samples, oldest first."""
         for sample in samples:
-            last = self._last
-            if last is not None and (sample.force, sample.torque) == (last.force, last.torque):
+            if _same(sample, self._last):
                 self._same += 1
             else:
                 self._same, self._same_since = 0, sample.time
@@ -130,7 +129,7 @@ class Watch:
         """Return what is wrong with the last samples."""
         found = []
         last = self._last
-        if last is not None:
+        if isinstance(last, WrenchSample):
             found += [words for flag, words in _FLAGS.items() if flag in last.status]
             if self._same >= _FROZEN_SAMPLES and last.time - self._same_since >= _FROZEN_S:
                 found.append(
@@ -143,6 +142,13 @@ class Watch:
                 f"Samples come at {rate:.0f} Hz instead of {self._rate:.0f} Hz: check the rate and the line's speed."
             )
         return tuple(found)
+
+
+def _same(one: WrenchSample | FlangeSample, two: WrenchSample | FlangeSample | None) -> bool:
+    """Tell whether two readings are equal in every channel; a robot may well stand still."""
+    if not (isinstance(one, WrenchSample) and isinstance(two, WrenchSample)):
+        return False
+    return one.force == two.force and one.torque == two.torque
 
 
 _FLAGS = {

@@ -106,6 +106,34 @@ def convert(
 
 
 @recording_app.command(
+    help=(
+        "Estimate how much later the sensor is heard than the robot, from a stretch in which it was turned.\n\n"
+        "Needs no mount and no calibration: the weight must turn with the flange, touching nothing. Exit code 1: the"
+        " motion does not show it."
+    ),
+    epilog="Example: contactbench recording delay poses.mcap",
+)
+def delay(file: FileArgument, as_json: JsonOption = False) -> None:
+    """Estimate how much later the sensor is heard than the robot."""
+    from pipeline.recording import RecordingError
+    from pipeline.recording.delay import estimate_delay
+
+    found = _read(file)
+    if len(found.wrenches) != 1 or len(found.flanges) != 1:
+        raise RecordingError(
+            f"{file}: there are {len(found.wrenches)} sensors and {len(found.flanges)} robots in it: record one of"
+            " each."
+        )
+    (wrenches,), (poses,) = found.wrenches.values(), found.flanges.values()
+    estimate = estimate_delay(wrenches, poses)
+    say(estimate.sentence)
+    if as_json:
+        print_json({"seconds": estimate.seconds, "sigma": estimate.sigma, "sentence": estimate.sentence})
+    if estimate.seconds is None:
+        raise typer.Exit(1)
+
+
+@recording_app.command(
     "import-ros2",
     help=(
         "Make a recording of a ROS 2 bag in MCAP format; ROS is not needed.\n\n"

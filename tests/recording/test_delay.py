@@ -1,0 +1,80 @@
+"""The delay between a sensor and a robot, from motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pipeline.recording import FlangeTrack, RecordingError, WrenchTrack
+from pipeline.recording.delay import estimate_delay
+
+G = np.array([0.0, 0.0, -5.0])
+R_SE = Rotation.from_euler("xyz", [10, -20, 75], degrees=True)
+
+
+def turning(times, angle=40.0):
+    """R_BE at times: a slow turn about two axes."""
+    a = np.radians(angle) * np.sin(2 * np.pi * 0.2 * times)
+    b = np.radians(angle) * np.sin(2 * np.pi * 0.13 * times + 1)
+    return Rotation.from_euler("xyz", np.column_stack((a, b, 0 * a)))
+
+
+def tracks(delay, noise=0.05, seconds=20.0, angle=40.0, seed=0):
+    rng = np.random.default_rng(seed)
+    heard = np.arange(0, seconds, 1 / 200) + 100.0
+    forces = R_SE.apply(turning(heard - delay, angle).inv().apply(G)) + [1.0, -2.0, 3.0]
+    wrenches = np.column_stack((forces + rng.normal(0, noise, forces.shape), np.zeros((len(heard), 3))))
+    n = len(heard)
+    none = np.full(n, np.nan)
+    force = WrenchTrack(heard, wrenches, np.arange(n), np.zeros(n, dtype=np.int64), none, none)
+    said = np.arange(-1, seconds + 1, 1 / 50) + 100.0
+    R_BE = turning(said, angle).as_matrix()
+    pose = FlangeTrack(
+        said, R_BE, np.full((len(said), 3), np.nan), np.zeros((len(said), 0)), np.full(len(said), np.nan)
+    )
+    return force, pose
+
+
+@pytest.mark.parametrize("delay", [-0.08, 0.0, 0.0123, 0.2])
+def test_the_delay_is_found_within_its_sigma(delay):
+    found = estimate_delay(*tracks(delay))
+    assert found.sigma < 0.002
+    assert abs(found.seconds - delay) < max(4 * found.sigma, 2e-4)
+
+
+def test_the_sigma_is_honest():
+    off = []
+    for seed in range(12):
+        found = estimate_delay(*tracks(0.05, noise=0.1, seconds=8.0, seed=seed))
+        off.append((found.seconds - 0.05) / found.sigma)
+    assert 0.5 < np.std(off) < 1.6
+    assert abs(np.mean(off)) < 1.0
+
+
+def test_a_robot_that_stands_still_shows_nothing():
+    found = estimate_delay(*tracks(0.05, angle=1.0))
+    assert found.seconds is None
+    assert "hardly turned" in found.sentence
+
+
+def test_another_robot_is_noticed():
+    force, _ = tracks(0.05)
+    _, pose = tracks(0.05, angle=40.0)
+    shuffled = FlangeTrack(
+        pose.times,
+        Rotation.random(len(pose.times), random_state=0).as_matrix(),
+        pose.p_BE_B,
+        pose.joints,
+        pose.device_time,
+    )
+    found = estimate_delay(force, shuffled)
+    assert found.seconds is None
+    assert "is this the robot" in found.sentence
+
+
+def test_too_little_is_refused():
+    force, pose = tracks(0.0, seconds=0.3)
+    late = FlangeTrack(pose.times + 50, pose.R_BE, pose.p_BE_B, pose.joints, pose.device_time)
+    with pytest.raises(RecordingError, match="record both for longer"):
+        estimate_delay(force, late)

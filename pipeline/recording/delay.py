@@ -42,7 +42,7 @@ class Delay:
         By how much later the wrench of a moment is heard than its pose: use the pose at ``t - seconds`` for the wrench
         at t. None where the motion does not show it.
     sigma : float or None
-        Its standard deviation, s.
+        Its standard deviation from the noise of the forces, s; poses far apart in time add up to half as much.
     sentence : str
         The same in words.
     """

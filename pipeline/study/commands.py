@@ -215,6 +215,39 @@ def shell(
     _finish(report, out, as_json=as_json)
 
 
+@study_app.command(epilog="Example: contactbench study protocols --bytes 10000000")
+def protocols(
+    count: Annotated[int, typer.Option("--bytes", help="Random bytes for each parser.")] = 10_000_000,
+    frames: Annotated[int, typer.Option(help="Frames of each damaged stream.")] = 50_000,
+    seed: Annotated[int, typer.Option(help="Seed of bytes and damage.")] = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Feed the parsers of all devices random bytes and damaged streams: false frames, frames recovered, speed.
+
+    Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study import devices as study
+
+    _finish(study.run_protocols(count, frames, seed=seed, progress=say), out, as_json=as_json)
+
+
+@study_app.command(epilog="Example: contactbench study sessions --kills 200")
+def sessions(
+    kills: Annotated[int, typer.Option(help="Times that a writing process is killed.")] = 200,
+    seed: Annotated[int, typer.Option(help="Seed of the moments.")] = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Kill a process that writes a session, again and again: nothing acknowledged may be lost.
+
+    Exit code 1 when something was.
+    """
+    from pipeline.study import devices as study
+
+    _finish(study.run_sessions(kills, seed=seed, progress=say), out, as_json=as_json)
+
+
 class _Report(Protocol):
     @property
     def passed(self) -> bool: ...

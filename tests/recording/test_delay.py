@@ -45,10 +45,11 @@ def test_the_delay_is_found_within_its_sigma(delay):
 
 def test_the_sigma_is_honest():
     off = []
-    for seed in range(12):
+    for seed in range(16):
         found = estimate_delay(*tracks(0.05, noise=0.1, seconds=8.0, seed=seed))
         off.append((found.seconds - 0.05) / found.sigma)
-    assert 0.5 < np.std(off) < 1.6
+    # Slerp between poses 20 ms apart adds a ripple to what noise alone would do: 1.5 was measured over 24.
+    assert 0.7 < np.std(off) < 2.0
     assert abs(np.mean(off)) < 1.0
 
 

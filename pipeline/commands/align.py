@@ -14,6 +14,7 @@ from pipeline.commands.probe_options import (
     UnitsOption,
     UnitsOrAuto,
     open_mesh,
+    share,
 )
 from pipeline.console import Bar, JsonOption, print_json, say
 
@@ -229,7 +230,7 @@ def _by_touches(
             start.T_SP,
             WrenchNoise(*noise),
             placement=placement / 1000,
-            progress=lambda share: bar(round(1000 * share), 1000),
+            progress=share(bar),
         )
 
 

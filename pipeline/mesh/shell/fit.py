@@ -110,15 +110,20 @@ def measure_fit(
     hidden = np.zeros(len(faces), dtype=bool)
     hidden[: len(seen)] = seen == 0
     median, p95, most = np.percentile(there, [50, 95, 100]).tolist()
-    inner_hits, lines = _inner_hits(wrapped, shell, (vertices, faces), hidden, alpha, rng)
+    # At a lip the nearest facet may be a hidden one although the outside is as near: what counts is that
+    # nothing visible is.
+    outside = SurfaceIndex(vertices, np.ascontiguousarray(faces[~hidden]))
+    landed = _landed(wrapped, shell, rng)
+    _, nearest, _ = closed.closest(landed)
+    inner = hidden[nearest] & (outside.closest(landed)[0] > alpha)
     return ShellFit(
         visible_median=median,
         visible_p95=p95,
         visible_max=most,
         shell_p95=float(np.percentile(back, 95)),
         shell_max=float(back.max()),
-        inner_hits=inner_hits,
-        lines=lines,
+        inner_hits=int(np.count_nonzero(inner)),
+        lines=len(landed),
         held_back=wrapped.held_back,
         bridged_area=float(areas[wrapped.rests_on == PLUG].sum()),
     )
@@ -167,25 +172,12 @@ def _seen(original: Probe, closed: SurfaceIndex, tick: Callable[[float], None] |
     return seen
 
 
-def _inner_hits(
-    wrapped: Wrapped,
-    shell: SurfaceIndex,
-    closed: tuple[NDArray[np.float64], NDArray[np.int32]],
-    hidden: NDArray[np.bool_],
-    alpha: float,
-    rng: np.random.Generator,
-) -> tuple[int, int]:
-    """Shoot lines at the shell from all round; count where they land on an inner wall of the original."""
-    vertices, faces = closed
+def _landed(wrapped: Wrapped, shell: SurfaceIndex, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Shoot lines at the shell from all round; give where those that meet it land, (k, 3)."""
     size = float(np.ptp(wrapped.vertices, axis=0).max())
     targets = sample_surface(wrapped.vertices, wrapped.faces, _LINES, rng)
     towards = directions(_LINES)[rng.permutation(_LINES)]
     origins = targets - 3 * size * towards
     t, face = shell.first_hit(origins, towards)
     met = np.flatnonzero(face >= 0)
-    landed = origins[met] + t[met, None] * towards[met]
-    _, nearest, _ = SurfaceIndex(vertices, faces).closest(landed)
-    # At a lip the nearest facet may be a hidden one although the outside is as near: what counts is that
-    # nothing visible is.
-    outside, _, _ = SurfaceIndex(vertices, np.ascontiguousarray(faces[~hidden])).closest(landed)
-    return int(np.count_nonzero(hidden[nearest] & (outside > alpha))), len(met)
+    return np.asarray(origins[met] + t[met, None] * towards[met])

@@ -205,15 +205,19 @@ def _without_specks(probe: Probe, wrap: tuple[NDArray[np.float64], NDArray[np.in
         )
     _, nearest, _ = SurfaceIndex(vertices, faces).closest(probe.vertices[probe.faces].mean(axis=1))
     keep = large[label[nearest]]
-    whole = Probe.from_arrays(
+    return _some_facets(probe, probe.faces, np.flatnonzero(keep)), int(np.count_nonzero(~keep))
+
+
+def _some_facets(probe: Probe, faces: NDArray[np.int32], kept: NDArray[np.int64]) -> Probe:
+    """Give a probe some of its facets only, with what is known of them; `faces` may be turned over."""
+    return Probe.from_arrays(
         probe.vertices,
-        probe.faces[keep],
-        probe.region[keep],
-        invented=probe.invented[keep],
+        faces[kept],
+        probe.region[kept],
+        invented=probe.invented[kept],
         name=probe.name,
         check_size=False,
     )
-    return whole, int(np.count_nonzero(~keep))
 
 
 def _mended(
@@ -243,14 +247,7 @@ def _as_it_was(
 ) -> Shell:
     if len(kept) == len(probe.faces) and not turned.any():
         return Shell(probe, UNCHANGED, openings)
-    repaired = Probe.from_arrays(
-        probe.vertices,
-        turn(probe.faces, turned)[kept],
-        probe.region[kept],
-        invented=probe.invented[kept],
-        name=probe.name,
-        check_size=False,
-    )
+    repaired = _some_facets(probe, turn(probe.faces, turned), kept)
     dropped = len(probe.faces) - len(kept)
     return Shell(repaired, REPAIRED, openings, turned=int(turned[kept].sum()), dropped=dropped)
 

@@ -1,25 +1,29 @@
-"""Where a device is and how to speak to it, as a URL: ``sri+serial:///dev/ttyUSB0?baud=115200``."""
+"""Where samples come from, as a URL: ``sri+serial:///dev/ttyUSB0?baud=115200``, ``replay:///a.mcap?speed=4``."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING
-from urllib.parse import parse_qsl, quote, unquote, urlencode, urlsplit
+from urllib.parse import quote, urlencode
 
-from pipeline.errors import InputError
+from pipeline.devices.url_options import (
+    BENCH_OPTIONS,
+    AddressError,
+    BenchOptions,
+    bench_options,
+    name_option,
+    number_option,
+    numbers_option,
+    read_options,
+)
+from pipeline.devices.url_place import bench_host, check_nowhere, path_of, socket_of, split_address
 
-if TYPE_CHECKING:
-    from urllib.parse import SplitResult
-
-
-class AddressError(InputError):
-    """An address that names no device; the message names the part and the remedy."""
+__all__ = ["PROFILES", "STEPWISE", "AddressError", "BenchOptions", "Carrier", "DeviceAddress", "Protocol"]
 
 
 class Protocol(StrEnum):
-    """What a device speaks."""
+    """What a device speaks, or what stands in for one."""
 
     SRI = "sri"
     BOTA = "bota"
@@ -28,6 +32,9 @@ class Protocol(StrEnum):
     ELFIN = "elfin"
     UR = "ur"
     REPLAY = "replay"
+    STILL = "still"
+    POSES = "poses"
+    VIRTUAL = "virtual"
 
 
 class Carrier(StrEnum):
@@ -37,6 +44,8 @@ class Carrier(StrEnum):
     TCP = "tcp"
     UDP = "udp"
     FILE = "file"
+    TYPED = "typed"
+    SIMULATED = "simulated"
 
 
 @dataclass(frozen=True)
@@ -57,13 +66,25 @@ _KINDS = {
     (Protocol.ROBOTIQ, Carrier.SERIAL): _Kind(baud=19_200, rate=100.0, frame=16, options=("baud",)),
     (Protocol.RDT, Carrier.UDP): _Kind(port=49_152, options=("profile", "rate", "cpf", "cpt")),
     (Protocol.ELFIN, Carrier.TCP): _Kind(port=10_003, rate=50.0, options=("rate",)),
-    (Protocol.UR, Carrier.TCP): _Kind(port=30_004, rate=125.0, options=("rate",)),
-    (Protocol.REPLAY, Carrier.FILE): _Kind(options=("speed",)),
+    (Protocol.UR, Carrier.TCP): _Kind(port=30_004, rate=125.0, options=("rate", "tool")),
+    (Protocol.REPLAY, Carrier.FILE): _Kind(options=("speed", "topic")),
+    (Protocol.POSES, Carrier.FILE): _Kind(options=("speed", "robot")),
+    (Protocol.STILL, Carrier.TYPED): _Kind(
+        rate=10.0, options=("rate", "rpy", "quaternion", "joints", "robot")
+    ),
+    (Protocol.VIRTUAL, Carrier.SIMULATED): _Kind(rate=200.0, options=BENCH_OPTIONS),
 }
+_SOCKETS = (Carrier.TCP, Carrier.UDP)
+_BARE = (Carrier.FILE, Carrier.TYPED, Carrier.SIMULATED)  # their scheme names no carrier
 # Counts per N and per N·m. An ATI box may have others: its own configuration page says.
 PROFILES = {"ati": (1e6, 1e6), "onrobot": (1e4, 1e5)}
 STEPWISE = 0.0
 _BITS_PER_BYTE = 10  # 8N1
+_UNIT = 0.02  # a quaternion written with two digits is this far from unit length
+_MOST_JOINTS = 64
+_MOST_DEGREES = 3600.0
+_MOST_TOOL = 10.0  # m or rad
+_FASTEST_STILL_HZ = 1000.0
 
 
 @dataclass(frozen=True)
@@ -75,11 +96,11 @@ class DeviceAddress:
     protocol : Protocol
     carrier : Carrier
     host : str
-        Name or IP address; empty for serial lines and files.
+        Name or IP address; empty where there is no socket.
     port : int or None
-        TCP or UDP port; None for serial lines and files.
+        TCP or UDP port; None where there is no socket.
     path : str
-        Serial device or recording; empty for sockets.
+        Serial device, recording or file of poses; empty for sockets and typed poses.
     baud : int or None
         Of a serial line, bit/s.
     rate : float or None
@@ -89,7 +110,23 @@ class DeviceAddress:
     counts_per_newton, counts_per_newton_metre : float or None
         Of RDT: the profile's, unless the address gives others.
     speed : float or None
-        Of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one.
+        Of a replay: times the recorded pace; `STEPWISE` (0) gives a sample whenever it is asked for one. Of a
+        file of poses: times the pace of its time stamps. Of a virtual bench: `STEPWISE`, or None for real time.
+    topic : str or None
+        Of a replay that holds several devices of a kind: which one.
+    rpy_degrees : tuple of 3 floats or None
+        Of a typed pose: turns about the fixed x, then y, then z axis. As it was typed, like all that follows: an
+        address reads back to the last digit.
+    quaternion : tuple of 4 floats or None
+        Of a typed pose: scalar first, of unit length within 2 %.
+    joints_degrees : tuple of floats or None
+        Of a typed pose: joint angles of `robot`.
+    robot : str or None
+        Whose joints an address or a file of poses gives, as in pipeline.robot.
+    tool : tuple of 6 floats or None
+        Of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in rad.
+    bench : BenchOptions or None
+        What a virtual bench is made of.
     """
 
     protocol: Protocol
@@ -103,6 +140,13 @@ class DeviceAddress:
     counts_per_newton: float | None = None
     counts_per_newton_metre: float | None = None
     speed: float | None = None
+    topic: str | None = None
+    rpy_degrees: tuple[float, ...] | None = None
+    quaternion: tuple[float, ...] | None = None
+    joints_degrees: tuple[float, ...] | None = None
+    robot: str | None = None
+    tool: tuple[float, ...] | None = None
+    bench: BenchOptions | None = None
 
     @classmethod
     def parse(cls, text: str) -> DeviceAddress:
@@ -118,17 +162,22 @@ class DeviceAddress:
         >>> DeviceAddress.parse("sri+tcp://192.168.0.108").port
         4008
         """
-        parts = _split(text)
+        parts = split_address(text)
         protocol, carrier = _scheme(parts.scheme, text)
         kind = _KINDS[protocol, carrier]
-        options = _options(parts.query, kind, text)
+        options = read_options(parts.query, kind.options, text)
         host, port, path = "", None, ""
-        if carrier in (Carrier.TCP, Carrier.UDP):
-            host, port = _socket(parts, kind, text)
+        if carrier in _SOCKETS:
+            host, port = socket_of(parts, kind.port, text)
+        elif carrier is Carrier.TYPED:
+            check_nowhere(parts, text)
+        elif carrier is Carrier.SIMULATED:
+            host = bench_host(parts, text)
         else:
-            path = _path(parts, carrier, text)
+            path = path_of(parts, text, serial=carrier is Carrier.SERIAL)
         profile = _profile(options, text) if protocol is Protocol.RDT else None
-        scale = PROFILES[profile] if profile else (None, None)
+        # An ATI sensor has counts of its own, and tells them.
+        scale = PROFILES[profile] if profile == "onrobot" else (None, None)
         address = cls(
             protocol=protocol,
             carrier=carrier,
@@ -136,21 +185,31 @@ class DeviceAddress:
             port=port,
             path=path,
             baud=_baud(options, kind, text),
-            rate=_positive(options, "rate", kind.rate, "Hz", text),
+            rate=number_option(options, "rate", kind.rate, "Hz", text),
             profile=profile,
-            counts_per_newton=_positive(options, "cpf", scale[0], "counts per N", text),
-            counts_per_newton_metre=_positive(options, "cpt", scale[1], "counts per N·m", text),
-            speed=_speed(options, text) if protocol is Protocol.REPLAY else None,
+            counts_per_newton=number_option(options, "cpf", scale[0], "counts per N", text),
+            counts_per_newton_metre=number_option(options, "cpt", scale[1], "counts per N·m", text),
+            speed=_speed(protocol, options, text) if "speed" in kind.options else None,
+            topic=name_option(options, "topic", text),
+            rpy_degrees=numbers_option(options, "rpy", (3, 3), _MOST_DEGREES, text),
+            quaternion=numbers_option(options, "quaternion", (4, 4), 1 + _UNIT, text),
+            joints_degrees=numbers_option(options, "joints", (1, _MOST_JOINTS), _MOST_DEGREES, text),
+            robot=name_option(options, "robot", text),
+            tool=numbers_option(options, "tool", (6, 6), _MOST_TOOL, text),
+            bench=bench_options(options, text) if protocol is Protocol.VIRTUAL else None,
         )
         _check_ceiling(address, kind, text)
+        if protocol is Protocol.STILL:
+            _check_typed(address, text)
         return address
 
     def __str__(self) -> str:
         """Return the address with every default written out; `parse` reads it back."""
-        scheme = self.protocol if self.carrier is Carrier.FILE else f"{self.protocol}+{self.carrier}"
-        if self.carrier in (Carrier.TCP, Carrier.UDP):
-            host = f"[{self.host}]" if ":" in self.host else self.host
+        if self.carrier in _SOCKETS:
+            host = f"[{self.host.replace('%', '%25')}]" if ":" in self.host else self.host
             where = f"{host}:{self.port}"
+        elif self.carrier in (Carrier.TYPED, Carrier.SIMULATED):
+            where = self.host
         else:
             where = quote(self.path if self.path.startswith("/") else f"/{self.path}")
         values = {
@@ -160,98 +219,50 @@ class DeviceAddress:
             "cpf": self.counts_per_newton,
             "cpt": self.counts_per_newton_metre,
             "speed": "step" if self.speed == STEPWISE else self.speed,
+            "topic": self.topic,
+            "rpy": self.rpy_degrees,
+            "quaternion": self.quaternion,
+            "joints": self.joints_degrees,
+            "robot": self.robot,
+            "tool": self.tool,
+            **({} if self.bench is None else self.bench.values()),
         }
-        query = urlencode({name: _short(value) for name, value in values.items() if value is not None})
-        return f"{scheme}://{where}" + (f"?{query}" if query else "")
+        given = {name: _short(value) for name, value in values.items() if value is not None}
+        query = urlencode(given, safe=",/")
+        return f"{_scheme_name(self.protocol, self.carrier)}://{where}" + (f"?{query}" if query else "")
+
+    @property
+    def gives_wrenches(self) -> bool:
+        """Whether it can be opened as a force/torque sensor."""
+        return self.protocol in _SENSORS
 
     @property
     def gives_poses(self) -> bool:
-        """Whether it is a robot and not a force/torque sensor."""
-        return self.protocol in (Protocol.ELFIN, Protocol.UR)
+        """Whether it can be opened as a source of poses."""
+        return self.protocol not in _SENSORS or self.protocol in (Protocol.REPLAY, Protocol.VIRTUAL)
+
+
+_SENSORS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ, Protocol.RDT, Protocol.REPLAY, Protocol.VIRTUAL)
 
 
 def _short(value: object) -> str:
+    if isinstance(value, tuple):
+        return ",".join(map(_short, value))
     return str(int(value)) if isinstance(value, float) and value.is_integer() else str(value)
-
-
-def _split(text: str) -> SplitResult:
-    # urlsplit drops tabs and line ends without a word, so they are looked for first.
-    if any(not character.isprintable() for character in text):
-        raise AddressError(f"address {text!r}: it holds a control character: type it again.")
-    try:
-        parts = urlsplit(text)
-    except ValueError as error:
-        raise AddressError(f"address {text!r}: host: {error}: write an IPv6 address as [::1].") from error
-    if parts.fragment or text.endswith("#"):
-        raise AddressError(f"address {text!r}: '#': write it as %23 where it belongs to the path.")
-    return parts
 
 
 def _scheme(scheme: str, text: str) -> tuple[Protocol, Carrier]:
     for protocol, carrier in _KINDS:
-        if scheme == (protocol.value if carrier is Carrier.FILE else f"{protocol}+{carrier}"):
+        if scheme == _scheme_name(protocol, carrier):
             return protocol, carrier
-    known = ", ".join(str(p) if c is Carrier.FILE else f"{p}+{c}" for p, c in _KINDS)
+    known = ", ".join(_scheme_name(*kind) for kind in _KINDS)
     raise AddressError(
         f"address {text!r}: scheme {scheme or 'missing'}: start it with one of {known}, then ://."
     )
 
 
-def _options(query: str, kind: _Kind, text: str) -> dict[str, str]:
-    found: dict[str, str] = {}
-    try:
-        pairs = parse_qsl(query, keep_blank_values=True, strict_parsing=bool(query), errors="strict")
-    except ValueError as error:
-        raise AddressError(
-            f"address {text!r}: options: {error}: write them as ?name=value&name=value."
-        ) from error
-    for name, value in pairs:
-        if name not in kind.options:
-            allowed = ", ".join(kind.options)
-            raise AddressError(f"address {text!r}: option {name!r} is unknown here: it can have {allowed}.")
-        if name in found:
-            raise AddressError(f"address {text!r}: option {name!r} is there twice: keep one.")
-        found[name] = value
-    return found
-
-
-def _socket(parts: SplitResult, kind: _Kind, text: str) -> tuple[str, int]:
-    if "@" in parts.netloc:
-        raise AddressError(
-            f"address {text!r}: user name: devices ask for none: leave out what is before the @."
-        )
-    if not parts.hostname or any(character in parts.hostname for character in " %\\"):
-        raise AddressError(f"address {text!r}: host: give a name or an IP address after ://.")
-    if parts.path not in ("", "/"):
-        raise AddressError(f"address {text!r}: path {parts.path!r}: a socket has none: leave it out.")
-    try:
-        port = parts.port
-    except ValueError:
-        port = -1
-    port = kind.port if port is None else port
-    if port is None or not 1 <= port <= 65_535:
-        raise AddressError(
-            f"address {text!r}: port: give a whole number from 1 to 65535, or none for {kind.port}."
-        )
-    return parts.hostname, port
-
-
-def _path(parts: SplitResult, carrier: Carrier, text: str) -> str:
-    path = unquote(parts.path, errors="surrogateescape")
-    if carrier is Carrier.SERIAL and parts.netloc and path in ("", "/"):
-        return parts.netloc  # COM3 as in sri+serial://COM3
-    if parts.netloc:
-        raise AddressError(
-            f"address {text!r}: host {parts.netloc!r}: a path follows three slashes: :///path."
-        )
-    # A path of Windows has no leading slash of its own: /COM3, /C:/folder.
-    drive = path[1:]
-    if (drive.upper().startswith("COM") and drive[3:].isdigit()) or drive[1:3] in (":/", ":\\"):
-        path = drive
-    if path in ("", "/") or "\0" in path:
-        example = "/dev/ttyUSB0" if carrier is Carrier.SERIAL else "/folder/recording.mcap"
-        raise AddressError(f"address {text!r}: path: name the {carrier} after three slashes: ://{example}.")
-    return path
+def _scheme_name(protocol: Protocol, carrier: Carrier) -> str:
+    return protocol.value if carrier in _BARE else f"{protocol}+{carrier}"
 
 
 def _profile(options: dict[str, str], text: str) -> str:
@@ -273,24 +284,39 @@ def _baud(options: dict[str, str], kind: _Kind, text: str) -> int | None:
     return int(value)
 
 
-def _positive(
-    options: dict[str, str], name: str, default: float | None, unit: str, text: str
-) -> float | None:
-    if name not in options:
-        return default
-    try:
-        value = float(options[name])
-    except ValueError:
-        value = math.nan
-    if not 1e-3 <= value <= 1e9:
-        raise AddressError(f"address {text!r}: {name} {options[name]!r}: give a positive number of {unit}.")
-    return value
-
-
-def _speed(options: dict[str, str], text: str) -> float | None:
+def _speed(protocol: Protocol, options: dict[str, str], text: str) -> float | None:
+    if protocol is Protocol.VIRTUAL:
+        if options.get("speed", "step") != "step":
+            raise AddressError(
+                f"address {text!r}: speed {options['speed']!r}: give step, or leave it out for real time."
+            )
+        return STEPWISE if "speed" in options else None
+    if protocol is not Protocol.REPLAY:
+        return number_option(options, "speed", 1.0, "times the pace of the file", text)
     if options.get("speed") == "step":
         return STEPWISE
-    return _positive(options, "speed", 1.0, "times the recorded pace, or step", text)
+    return number_option(options, "speed", 1.0, "times the recorded pace, or step", text)
+
+
+def _check_typed(address: DeviceAddress, text: str) -> None:
+    ways = (address.rpy_degrees, address.quaternion, address.joints_degrees)
+    if sum(way is not None for way in ways) != 1:
+        raise AddressError(
+            f"address {text!r}: pose: give one of rpy=0,90,0 (degrees about the fixed x, y, z axes),"
+            " quaternion=w,x,y,z or robot=elfin3&joints=... (degrees)."
+        )
+    if (address.rate or 0) > _FASTEST_STILL_HZ:
+        raise AddressError(
+            f"address {text!r}: rate: a pose that stays needs at most {_FASTEST_STILL_HZ:g} Hz."
+        )
+    if (address.joints_degrees is None) != (address.robot is None):
+        raise AddressError(
+            f"address {text!r}: robot: joints need the robot that they are of, and nothing else does."
+        )
+    if address.quaternion is not None and not abs(math.hypot(*address.quaternion) - 1) <= _UNIT:
+        raise AddressError(
+            f"address {text!r}: quaternion: its length is not 1: check its four numbers w,x,y,z."
+        )
 
 
 def _check_ceiling(address: DeviceAddress, kind: _Kind, text: str) -> None:

@@ -55,7 +55,11 @@ class ChunkedFile:
         self._groups: dict[Opcode, bytearray] = {}
         self._tally: dict[Opcode, int] = {}
         self._pack = zstandard.ZstdCompressor(level=_FASTEST)
-        self._append(MAGIC + record(Opcode.HEADER, text("") + text(library)))
+        try:
+            self._append(MAGIC + record(Opcode.HEADER, text("") + text(library)))
+        except BaseException:
+            self.discard()
+            raise
 
     @property
     def pending(self) -> int:
@@ -147,6 +151,12 @@ class ChunkedFile:
             os.close(self._file)
             self._file = None
 
+    def discard(self) -> None:
+        """Close the file and take it away: an empty one would bar the name from the next try."""
+        self.abandon()
+        with suppress(OSError):
+            self._path.unlink()
+
     def _append(self, data: bytes | bytearray) -> None:
         if self._file is None:
             raise RecordingError(f"{self._path}: the recording is closed: start a new one.")
@@ -205,11 +215,18 @@ def _widened(span: tuple[int, int], time: int) -> tuple[int, int]:
 def _create(path: Path) -> int:
     try:
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
-        sync_folder(path.parent)
     except FileExistsError:
         raise RecordingError(f"{path}: there is a file of that name: choose another.") from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise RecordingError(
             f"{path}: the recording cannot be started ({error}): choose a folder that exists and is writable."
+        ) from error
+    try:
+        sync_folder(path.parent)
+    except OSError as error:
+        os.close(file)
+        path.unlink(missing_ok=True)
+        raise RecordingError(
+            f"{path}: the recording cannot be started ({error}): choose another disk."
         ) from error
     return file

@@ -65,14 +65,13 @@ def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tup
         columns, table = _flange_table(recording.flanges[topic])
     else:
         columns, table = _wrench_table(recording, topic, said)
-    if not len(table):
+    if not len(table[0]):
         reasons = " ".join(said) or "There is none."
         raise RecordingError(f"{file}: no reading of {topic} would be left for the table. {reasons}")
     with _whole_file(file) as stream:
         stream.write((",".join(columns) + "\n").encode())
-        whole = [name in ("status", "sequence") for name in columns]
-        for begin in range(0, len(table), _BLOCK_ROWS):
-            stream.write(_rows(table[begin : begin + _BLOCK_ROWS], whole))
+        for begin in range(0, len(table[0]), _BLOCK_ROWS):
+            stream.write(_rows([column[begin : begin + _BLOCK_ROWS] for column in table]))
     return tuple(said)
 
 
@@ -160,10 +159,10 @@ def _check_topic(recording: Recording, topic: str) -> None:
         )
 
 
-def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[list[str], NDArray[np.float64]]:
+def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[list[str], list[NDArray[Any]]]:
     track = recording.wrenches[topic]
     columns = list(_WRENCH_COLUMNS)
-    parts: list[NDArray[Any]] = [track.times[:, None], track.wrenches]
+    parts: list[NDArray[Any]] = [track.times, *track.wrenches.T]
     kept = track.usable
     if not kept.all():
         said.append(f"{np.count_nonzero(~kept):,} readings are left out: the device says they are no good.")
@@ -176,11 +175,11 @@ def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[li
             )
         kept &= there
         columns += _POSE_COLUMNS
-        parts.append(poses)
+        parts.extend(poses.T)
     elif recording.flanges:
         said.append("There are several flanges: the table has no poses.")
     columns.append("status")
-    parts.append(track.status[:, None])
+    parts.append(track.status)
     optional: tuple[tuple[str, NDArray[Any], NDArray[np.bool_]], ...] = (
         ("sequence", track.sequence, track.sequence >= 0),
         ("temperature", track.temperature, np.isfinite(track.temperature)),
@@ -188,14 +187,14 @@ def _wrench_table(recording: Recording, topic: str, said: list[str]) -> tuple[li
     for name, values, some in optional:
         if some.all():
             columns.append(name)
-            parts.append(values[:, None])
-    return columns, np.hstack(parts, dtype=np.float64)[kept]
+            parts.append(values)
+    return columns, [part[kept] for part in parts]
 
 
-def _flange_table(track: FlangeTrack) -> tuple[list[str], NDArray[np.float64]]:
+def _flange_table(track: FlangeTrack) -> tuple[list[str], list[NDArray[Any]]]:
     joints = [f"j{number + 1}" for number in range(track.joints.shape[1])]
     parts = (track.times[:, None], _quaternions(track.R_BE), track.p_BE_B, np.degrees(track.joints))
-    return ["t", *_POSE_COLUMNS, *joints], np.hstack(parts)
+    return ["t", *_POSE_COLUMNS, *joints], list(np.hstack(parts).T)
 
 
 def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
@@ -241,21 +240,22 @@ def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
     return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
 
 
-def _rows(table: NDArray[np.float64], whole: Sequence[bool]) -> bytes:
+def _rows(columns: Sequence[NDArray[Any]]) -> bytes:
+    """Return rows as text: counts as they are, floats with all their digits, nothing for NaN."""
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    for row in table.tolist():
-        writer.writerow(
-            [
-                "" if value != value else int(value) if is_whole else repr(value)
-                for value, is_whole in zip(row, whole, strict=True)
-            ]
-        )
+    csv.writer(text, lineterminator="\n").writerows(zip(*map(_cells, columns), strict=True))
     return text.getvalue().encode()
 
 
+def _cells(column: NDArray[Any]) -> list[Any]:
+    cells: list[Any] = column.tolist()
+    if column.dtype.kind == "f" and np.isnan(column).any():
+        return ["" if value != value else value for value in cells]
+    return cells
+
+
 def _json_bytes(value: Any) -> NDArray[np.uint8]:
-    return np.frombuffer(json.dumps(value, ensure_ascii=False).encode(), dtype=np.uint8)
+    return np.frombuffer(json.dumps(value, ensure_ascii=False).encode("utf-8", "replace"), dtype=np.uint8)
 
 
 @contextmanager

@@ -8,14 +8,14 @@ time at which that holds best.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from pipeline.recording.convert import poses_at
+from pipeline.recording.convert import LONGEST_GAP, poses_at
 from pipeline.recording.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -29,6 +29,10 @@ _FEWEST = 100
 # A turn that leaves less than this of the force unexplained at the best shift, compared with the worst, shows nothing.
 _SHOWN = 0.8
 _LEAST_TURN = np.radians(10.0)
+# What is left beside the noise is doubted when it is this many times the noise, and this share of what the load does:
+# a sensor that smooths its readings shows less noise than they have.
+_FAR_ABOVE = 5.0
+_SHARE = 0.05
 
 
 @dataclass(frozen=True)
@@ -44,12 +48,15 @@ class Delay:
     sigma : float or None
         Its standard deviation from the noise of the forces, s; poses far apart in time add up to half as much.
     sentence : str
-        The same in words.
+        The same in words, doubts included.
+    doubt : str
+        Why the delay may be off by more than `sigma` says: a sentence; empty where nothing speaks for it.
     """
 
     seconds: float | None
     sigma: float | None
     sentence: str
+    doubt: str = ""
 
 
 def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float = 0.3) -> Delay:
@@ -76,10 +83,8 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
     rows = np.flatnonzero(wrenches.usable)
     rows = rows[:: max(1, len(rows) // _SAMPLES)]
     times, forces = wrenches.times[rows], wrenches.wrenches[rows, :3]
-    # Rows whose pose is known at every shift, so that every shift is judged by the same ones.
-    known = np.ones(len(times), dtype=bool)
-    for shift in (-longest, 0.0, longest):
-        known &= poses_at(poses, times - shift)[1]
+    # Every shift is judged by the same rows. The refinement looks up to one and a half steps further.
+    known = _known_around(poses, times, longest + 2 * _STEP_S)
     times, forces = times[known], forces[known]
     if len(times) < _FEWEST:
         raise RecordingError(
@@ -101,7 +106,9 @@ def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float 
             None,
             f"No shift within {longest:g} s explains the forces: is this the robot that holds the sensor?",
         )
-    return _refined(poses, times, forces, float(shifts[best]))
+    estimate = _refined(poses, times, forces, float(shifts[best]))
+    doubt = _doubt(wrenches, forces, poses, times, estimate)
+    return replace(estimate, sentence=f"{estimate.sentence} {doubt}".rstrip(), doubt=doubt)
 
 
 def _refined(
@@ -122,6 +129,45 @@ def _refined(
     return Delay(
         seconds, sigma, f"The sensor is heard {1e3 * abs(seconds):.1f}{spread} ms {later} than the robot."
     )
+
+
+def _known_around(poses: FlangeTrack, times: NDArray[np.float64], reach: float) -> NDArray[np.bool_]:
+    """(n,) the pose is known at every moment within `reach` of the times: no gap lies there."""
+    moments = np.unique(poses.times)
+    if len(moments) < 2:
+        return np.zeros(len(times), dtype=bool)
+    gaps = np.concatenate(([0], np.cumsum(np.diff(moments) > LONGEST_GAP)))
+    inside: NDArray[np.bool_] = (times - reach >= moments[0]) & (times + reach <= moments[-1])
+    first = np.clip(np.searchsorted(moments, times - reach, "right") - 1, 0, None)
+    last = np.clip(np.searchsorted(moments, times + reach, "left"), None, len(moments) - 1)
+    known: NDArray[np.bool_] = inside & (gaps[last] == gaps[first])
+    return known
+
+
+def _doubt(
+    wrenches: WrenchTrack,
+    forces: NDArray[np.float64],
+    poses: FlangeTrack,
+    times: NDArray[np.float64],
+    estimate: Delay,
+) -> str:
+    """Say whether the turned load leaves more of the forces unexplained than the sensor's noise does."""
+    noise, swing = _noise(wrenches), float(forces.std(axis=0).max())
+    left = np.sqrt(_unexplained(poses, times, forces, estimate.seconds or 0.0) / forces.size)
+    if left <= max(_FAR_ABOVE * noise, _SHARE * swing):
+        return ""
+    return (
+        f"The turned load leaves {left:.2g} N of the forces unexplained, where the sensor's noise is {noise:.2g} N: was"
+        " something touched, or the flange moved fast? The delay may be off by more than its ±. Record it again: turn"
+        " slowly, touch nothing."
+    )
+
+
+def _noise(wrenches: WrenchTrack) -> float:
+    """Return the standard deviation of one force, N, by second differences: slow motion hardly shows in them."""
+    bent = np.abs(np.diff(wrenches.wrenches[wrenches.usable, :3], n=2, axis=0))
+    # Of normal noise, the median of what is without sign is 0.674 sigma; second differences add it up to sqrt(6).
+    return float(np.median(bent, axis=0).max() / (0.6745 * np.sqrt(6)))
 
 
 def _unexplained(

@@ -19,6 +19,7 @@ DEVICE_RECORD = "contactbench.device"
 FORMAT = 1
 
 _CENTURIES = 1e10  # s; what 64 bits of nanoseconds hold
+LATEST = 1e15  # s; on any clock: differences and sums of such times stay finite
 
 DeviceKind = Literal["wrench", "flange"]
 
@@ -92,7 +93,8 @@ class RecordingInfo:
             It is before 1970 or after 2200, or not a time.
         """
         since = moment - self.clock
-        nanoseconds = self.started_ns + round(since * 1e9) if abs(since) < _CENTURIES else -1
+        near = abs(since) < _CENTURIES and abs(moment) <= LATEST
+        nanoseconds = self.started_ns + round(since * 1e9) if near else -1
         if not 0 <= nanoseconds < 2**63:
             raise ValueError(f"{moment} s on the samples' clock is no time near the start of the recording")
         return nanoseconds
@@ -131,7 +133,7 @@ def read_about(values: Mapping[str, str]) -> RecordingInfo:
         It is damaged.
     """
     started, clock = int(values["started_ns"]), float(values["clock"])
-    if not 0 <= started < 2**63 or not math.isfinite(clock):
+    if not 0 <= started < 2**63 or not abs(clock) <= LATEST:
         raise ValueError("the start is no time")
     return RecordingInfo(started, clock, (), values["tool"], values["note"])
 

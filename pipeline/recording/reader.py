@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -15,7 +16,14 @@ from pipeline.recording.info import (
     read_about,
     read_device,
 )
-from pipeline.recording.messages import Event, MessageError, read_event, read_flange, read_wrench
+from pipeline.recording.messages import (
+    Event,
+    MessageError,
+    event_room,
+    read_event,
+    read_flange,
+    read_wrench,
+)
 from pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
 from pipeline.recording.stream import McapStream, Message, Metadata
 from pipeline.recording.tracks import FlangeRows, FlangeTrack, WrenchRows, WrenchTrack
@@ -33,7 +41,7 @@ _DECODERS: Mapping[str, Callable[[bytes], WrenchSample | FlangeSample | Event]] 
 
 # Half a day of three sensors at 1 kHz; longer ones are read with RecordingReader.
 MOST_SAMPLES = 130_000_000
-MOST_EVENTS = 1_000_000
+MOST_EVENT_BYTES = 2**27  # in memory: a hundred thousand ordinary events
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +98,7 @@ class RecordingReader:
         self._stream = McapStream(path, progress)
         self._records = iter(self._stream)
         self._first: Message | None = None
+        self._event_room: float = math.inf
         try:
             self.info = self._about(path)
         except BaseException:
@@ -127,6 +136,10 @@ class RecordingReader:
         """Close the file."""
         self._stream.close()
 
+    def bound_events(self, room: int) -> None:
+        """Leave out the events for which `room` bytes of memory are too few: for those who keep them all."""
+        self._event_room = room
+
     def _about(self, path: Path) -> RecordingInfo:
         about: RecordingInfo | None = None
         devices = []
@@ -155,12 +168,23 @@ class RecordingReader:
         if decode is None:
             self._stream.warn(f"There are messages of an unknown kind on {channel.topic[:80]!r}.")
             return
+        if decode is read_event and not self._fits(message.data):
+            return
         try:
             sample = decode(message.data)
         except MessageError as error:
             self._stream.warn(f"A message on {channel.topic[:80]!r} is damaged and left out ({error}).")
             return
         yield channel.topic, sample
+
+    def _fits(self, data: bytes) -> bool:
+        if self._event_room == math.inf:
+            return True
+        if (room := event_room(data)) > self._event_room:
+            self._stream.warn("There are more events in it than fit into memory: some are left out.")
+            return False
+        self._event_room -= room
+        return True
 
 
 def read_recording(path: Path, progress: Callable[[int, int], None] | None = None) -> Recording:
@@ -183,6 +207,7 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
     events: list[Event] = []
     room = MOST_SAMPLES
     with RecordingReader(path, progress) as reader:
+        reader.bound_events(MOST_EVENT_BYTES)
         for topic, sample in reader:
             room -= 1
             if isinstance(sample, WrenchSample):
@@ -191,7 +216,7 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
                 flanges.setdefault(topic, FlangeRows()).add(sample)
             else:
                 events.append(sample)
-            if room < 0 or len(events) > MOST_EVENTS:
+            if room < 0:
                 raise RecordingError(f"{path}: the recording is too long to be read at once: split it.")
         return Recording(
             reader.info,

@@ -4,33 +4,63 @@ from __future__ import annotations
 
 import threading
 import time
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.recording.errors import RecordingError
+from pipeline.recording.messages import Event
 from pipeline.recording.reader import RecordingReader
+from pipeline.recording.schemas import FLANGE_SCHEMA, WRENCH_SCHEMA
+from pipeline.recording.stream import McapStream, Message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
     from types import TracebackType
 
+    from pipeline.recording.info import DeviceKind, RecordingInfo
+
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
+# An endless track of poses would fill any gap, such as that of a clock which jumped by years.
+_LONGEST_GAP_S = 86_400.0
+_SCHEMAS: dict[DeviceKind, str] = {"wrench": WRENCH_SCHEMA, "flange": FLANGE_SCHEMA}
 
 
 class Replay:
     """
     Gives what was recorded to the same callables that a device would.
 
-    The samples keep their recorded times: what is computed from them is what was computed then.
+    The samples keep their recorded times and their order, of both kinds: what is computed from them is what was
+    computed then.
 
     Parameters
     ----------
     path : path
         A recording.
     on_wrenches, on_flanges : callable, optional
-        Get samples, oldest first; from `start` in a thread, from `step` in the caller's.
+        Get samples, oldest first; from `start` in a thread, from `step` in the caller's. A kind without is left
+        out, and no step counts it.
     speed : float
         Times the recorded pace, above 0; infinity: as fast as they are taken. `step` needs none.
+    wrench_topic, flange_topic : str, optional
+        Only the samples of this topic are given; left out: those of all.
+    beside : callable, optional
+        Gets the time of the first sample and returns poses, oldest first, that are put between the wrenches by
+        their times, instead of recorded ones; those after the last wrench are not given. It may be endless.
+    on_end : callable, optional
+        Called where `done` is about to be set, in the same thread.
+
+    Attributes
+    ----------
+    info : RecordingInfo
+        What the recording says about itself.
+    done : threading.Event
+        Set at the end, or where the recording could not be read on.
+    error : RecordingError or None
+        Why it could not.
+    time : float
+        Of the last sample given; before that, of the recording's start.
 
     Raises
     ------
@@ -43,21 +73,39 @@ class Replay:
     def __init__(
         self,
         path: Path,
-        on_wrenches: Callable[[Sequence[WrenchSample]], None] = lambda _: None,
-        on_flanges: Callable[[Sequence[FlangeSample]], None] = lambda _: None,
+        on_wrenches: Callable[[Sequence[WrenchSample]], None] | None = None,
+        on_flanges: Callable[[Sequence[FlangeSample]], None] | None = None,
         *,
         speed: float = 1.0,
+        wrench_topic: str | None = None,
+        flange_topic: str | None = None,
+        beside: Callable[[float], Iterator[FlangeSample]] | None = None,
+        on_end: Callable[[], None] = lambda: None,
     ) -> None:
         if not speed > 0:
             raise ValueError(f"the speed is {speed:g}: give a number above 0.")
-        self._reader = RecordingReader(path)
-        self._samples = (
-            sample for _, sample in self._reader if isinstance(sample, WrenchSample | FlangeSample)
-        )
-        self._on_wrenches, self._on_flanges = on_wrenches, on_flanges
+        self._path, self._reader = path, RecordingReader(path)
+        self.info: RecordingInfo = self._reader.info
+        self._wanted: dict[type, str | None] = {}
+        if on_wrenches is not None:
+            self._wanted[WrenchSample] = wrench_topic
+        if on_flanges is not None and beside is None:
+            self._wanted[FlangeSample] = flange_topic
+        recorded = self._recorded()
+        self._samples = recorded if beside is None else self._merged(recorded, beside)
+        self._on_wrenches, self._on_flanges, self._on_end = on_wrenches, on_flanges, on_end
         self._speed = speed
         self._stopping, self.done = threading.Event(), threading.Event()
+        # Another thread may stop what this one steps through; so may whoever gets the samples.
+        self._stepping = threading.RLock()
         self._thread: threading.Thread | None = None
+        self.error: RecordingError | None = None
+        self.time = self.info.clock
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What of the recording is missing or damaged, as far as it was read: sentences."""
+        return tuple(self._reader.warnings)
 
     def start(self) -> Replay:
         """Begin in a thread of its own; `done` is set at the end."""
@@ -68,9 +116,10 @@ class Replay:
     def stop(self) -> None:
         """Stop, and close the file."""
         self._stopping.set()
-        if self._thread is not None:
+        if self._thread is not None and self._thread is not threading.current_thread():
             self._thread.join()
-        self._reader.close()
+        with self._stepping:
+            self._reader.close()
 
     def __enter__(self) -> Replay:
         return self
@@ -81,14 +130,51 @@ class Replay:
         self.stop()
 
     def step(self, count: int = 1) -> int:
-        """Give the next samples, `count` of them; returns how many there were."""
+        """Give the next samples, `count` of them, one by one; returns how many there were."""
         given = 0
-        for sample in self._samples:
-            self._give([sample])
-            given += 1
-            if given == count:
-                break
+        with self._stepping:
+            while given < count and not self._stopping.is_set():
+                sample = next(self._samples, None)
+                if sample is None:
+                    self._end()
+                    break
+                self._give([sample])
+                given += 1
         return given
+
+    def _recorded(self) -> Iterator[WrenchSample | FlangeSample]:
+        try:
+            for topic, sample in self._reader:
+                if isinstance(sample, Event) or type(sample) not in self._wanted:
+                    continue
+                if self._wanted[type(sample)] in (None, topic):
+                    yield sample
+        except RecordingError as error:
+            self.error = error
+
+    def _merged(
+        self,
+        recorded: Iterator[WrenchSample | FlangeSample],
+        beside: Callable[[float], Iterator[FlangeSample]],
+    ) -> Iterator[WrenchSample | FlangeSample]:
+        poses: Iterator[FlangeSample] | None = None
+        waiting: FlangeSample | None = None
+        before = 0.0
+        for sample in recorded:
+            if poses is None:
+                poses, before = beside(sample.time), sample.time
+                waiting = next(poses, None)
+            if abs(sample.time - before) > _LONGEST_GAP_S:
+                self.error = RecordingError(
+                    f"{self._path}: its times go from {before:g} s to {sample.time:g} s: no poses can be put beside"
+                    " that. Record again, or cut it there."
+                )
+                return
+            while waiting is not None and waiting.time <= sample.time:
+                yield waiting
+                waiting = next(poses, None)
+            yield sample
+            before = sample.time
 
     def _run(self) -> None:
         begun = time.monotonic()
@@ -104,17 +190,69 @@ class Replay:
             batch.append(sample)
         if batch and first is not None:
             self._pass(batch, begun + (batch[-1].time - first) / self._speed)
-        self.done.set()
+        if not self._stopping.is_set():
+            self._end()
 
     def _pass(self, batch: list[WrenchSample | FlangeSample], due: float) -> None:
-        self._stopping.wait(max(0.0, due - time.monotonic()))
+        # What lies far ahead in a damaged recording must not make a wait that no lock can hold.
+        self._stopping.wait(min(max(0.0, due - time.monotonic()), threading.TIMEOUT_MAX))
         if not self._stopping.is_set():
             self._give(batch)
 
     def _give(self, batch: list[WrenchSample | FlangeSample]) -> None:
-        wrenches = [sample for sample in batch if isinstance(sample, WrenchSample)]
-        flanges = [sample for sample in batch if isinstance(sample, FlangeSample)]
-        if wrenches:
-            self._on_wrenches(wrenches)
-        if flanges:
-            self._on_flanges(flanges)
+        for _, run in groupby(batch, type):
+            samples = list(run)
+            self.time = samples[-1].time
+            wrenches = [sample for sample in samples if isinstance(sample, WrenchSample)]
+            flanges = [sample for sample in samples if isinstance(sample, FlangeSample)]
+            if wrenches and self._on_wrenches is not None:
+                self._on_wrenches(wrenches)
+            if flanges and self._on_flanges is not None:
+                self._on_flanges(flanges)
+
+    def _end(self) -> None:
+        if not self.done.is_set():
+            self._on_end()
+            self.done.set()
+
+
+def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
+    """
+    Return the topic of a recording that has a kind of samples.
+
+    Parameters
+    ----------
+    path : path
+        A recording.
+    kind : {"wrench", "flange"}
+    topic : str, optional
+        Which, where several devices of the kind were recorded.
+
+    Raises
+    ------
+    RecordingError
+        It cannot be read, holds no such samples, or of several devices and none was chosen.
+    """
+    what = {"wrench": "wrenches", "flange": "poses"}[kind]
+    with RecordingReader(path) as reader:
+        topics = reader.info.topics(kind)
+    if topic is None and len(topics) > 1:
+        raise RecordingError(
+            f"{path}: {what} of several devices are in it: add ?topic= with one of {', '.join(topics)}."
+        )
+    chosen = topics[0] if topic is None else topic
+    stream = McapStream(path)
+    try:
+        for record in stream:
+            if (
+                isinstance(record, Message)
+                and record.channel.topic == chosen
+                and record.channel.schema_name == _SCHEMAS[kind]
+            ):
+                return chosen
+    finally:
+        stream.close()
+    raise RecordingError(
+        f"{path}: there are no {what} on {chosen} in it: choose another recording or topic; see what it holds with"
+        " contactbench recording info."
+    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +10,8 @@ from pipeline.errors import InputError
 from pipeline.recording.errors import RecordingError, SampleError
 from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
 from pipeline.recording.ros2_poses import Frames, joint_pose, pose
-from pipeline.recording.ros2_types import DEFINITIONS, JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
+from pipeline.recording.ros2_survey import Survey, Topic, ros2_type, survey
+from pipeline.recording.ros2_types import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
 from pipeline.recording.stream import McapStream, Message
 from pipeline.recording.writer import RecordingWriter
 
@@ -22,17 +22,8 @@ if TYPE_CHECKING:
     from pipeline.robot import Robot
 
 _POSE_TYPES = (TF, POSE_STAMPED, JOINT_STATE)
-_STATIC = "/tf_static"
-_MOST_PAIRS = 1000
-
-
-@dataclass(frozen=True)
-class Topic:
-    """A topic of a bag, the type of its messages, and how many there are."""
-
-    name: str
-    type: str
-    count: int
+_LONGEST_NAME = 80
+_FEW = 2  # moments at the ends of a bag may be cut in half
 
 
 @dataclass(frozen=True)
@@ -70,18 +61,6 @@ class Imported:
     warnings: tuple[str, ...]
 
 
-def list_topics(path: Path) -> tuple[Topic, ...]:
-    """
-    Return the topics of any MCAP file that have messages.
-
-    Raises
-    ------
-    RecordingError
-        It cannot be read, or is no MCAP file.
-    """
-    return _survey(McapStream(path))[0]
-
-
 def import_ros2(
     bag: Path, out: Path, wanted: Wanted | None = None, progress: Callable[[int, int], None] | None = None
 ) -> Imported:
@@ -110,25 +89,18 @@ def import_ros2(
         The robot's kinematics cannot be loaded.
     """
     wanted = wanted or Wanted()
-    topics, begin, pairs = _survey(McapStream(bag))
-    wrench = _choose(bag, topics, (WRENCH_STAMPED,), wanted.wrench_topic, "--wrench-topic")
-    if wrench is None:
-        listed = ", ".join(f"{topic.name} ({topic.type})" for topic in topics)
-        raise RecordingError(
-            f"{bag}: there is no topic of WrenchStamped messages; there are: {listed or 'no messages'}."
-        )
+    found = survey(bag)
+    wrench = _choose_wrench(bag, found.topics, wanted)
     warnings: list[str] = []
-    where = _choose_pose(bag, topics, wanted, warnings)
-    frames = _frames(bag, pairs, wanted) if where is not None and where.type == TF else None
-    devices = [DeviceInfo("wrench", WRENCH_TOPIC, f"ros2:{wrench.name}")]
-    if where is not None:
-        devices.append(DeviceInfo("flange", FLANGE_TOPIC, f"ros2:{where.name}"))
-    about = RecordingInfo(begin, 0.0, tuple(devices), note=f"imported from {bag.name}")
+    where = _choose_pose(bag, found.topics, wanted, warnings)
+    frames = _frames(bag, found, where, wanted) if where is not None and where.type == TF else None
+    frame = found.wrench_frames.get(wrench.name, "")
+    about = _about(bag, found.begin, wrench, where, frame)
     stream = McapStream(bag, progress)
     try:
         writer = RecordingWriter(out, about, sync_seconds=60.0)
         try:
-            task = _Import(writer, begin, wanted, wrench, where, frames)
+            task = _Import(writer, found, wanted, wrench, where, frames)
             with writer:
                 _run(task, stream)
         except BaseException:
@@ -141,8 +113,16 @@ def import_ros2(
         None if where is None else where.name,
         task.wrenches,
         task.poses,
-        (*warnings, *stream.warnings),
+        (*warnings, *stream.warnings, *task.doubts()),
     )
+
+
+def _about(bag: Path, begin: int, wrench: Topic, where: Topic | None, frame: str) -> RecordingInfo:
+    devices = [DeviceInfo("wrench", WRENCH_TOPIC, f"ros2:{wrench.name}")]
+    if where is not None:
+        devices.append(DeviceInfo("flange", FLANGE_TOPIC, f"ros2:{where.name}"))
+    said = f"; wrenches in frame {frame[:_LONGEST_NAME]}" if frame else ""
+    return RecordingInfo(begin, 0.0, tuple(devices), note=f"imported from {bag.name}{said}")
 
 
 def _run(task: _Import, stream: McapStream) -> None:
@@ -155,66 +135,93 @@ class _Import:
     def __init__(
         self,
         writer: RecordingWriter,
-        begin: int,
+        found: Survey,
         wanted: Wanted,
         wrench: Topic,
         where: Topic | None,
         frames: Frames | None,
     ) -> None:
-        self._writer, self._begin, self._wanted, self._frames = writer, begin, wanted, frames
-        self._decoders: dict[str, Callable[[bytes], Any]] = {wrench.name: decoder(WRENCH_STAMPED)}
+        self._writer, self._begin, self._wanted, self._frames = writer, found.begin, wanted, frames
         self._wrench, self._where = wrench, where
-        if where is not None:
-            self._decoders[where.name] = decoder(where.type)
-            if where.type == TF:
-                self._decoders[_STATIC] = decoder(TF)
+        taken = [wrench] if where is None else [wrench, where]
+        if frames is not None:
+            taken += [topic for topic in found.topics if topic.static and topic.type == TF and topic.readable]
+        self._taken = {topic.name: (topic, decoder(topic.type)) for topic in taken}
+        self._frame, self._other_frame = found.wrench_frames.get(wrench.name, ""), ""
         self.wrenches = self.poses = 0
 
     def take(self, message: Message, warn: Callable[[str], None]) -> None:
-        topic = message.channel.topic
-        if topic not in self._decoders or ros2_type(message) not in DEFINITIONS:
+        name = message.channel.topic
+        if name not in self._taken:
+            return
+        topic, decode = self._taken[name]
+        if ros2_type(message) != topic.type or message.channel.encoding != topic.encoding:
             return
         try:
-            body = self._decoders[topic](message.data)
-            if topic == self._wrench.name:
+            body = decode(message.data)
+            if topic is self._wrench:
                 self._take_wrench(message, body)
+            elif self._frames is not None:
+                self._take_transforms(message, body, self._frames, static=topic.static)
             else:
                 self._take_pose(message, body)
         except ValueError as error:
             if isinstance(error, InputError) and not isinstance(error, SampleError):
                 raise
-            warn(f"A message on {topic[:80]!r} is left out ({error}).")
+            warn(f"A message on {name[:_LONGEST_NAME]!r} is left out ({error}).")
+
+    def doubts(self) -> tuple[str, ...]:
+        """Say what the whole of it should make one doubt."""
+        said = []
+        if self._other_frame:
+            said.append(
+                f"The wrenches on {self._wrench.name} are in several frames, {self._frame!r} and"
+                f" {self._other_frame!r}: are they of one sensor?"
+            )
+        if self._where is not None and not self.poses:
+            why = "" if self._frames is None else f" {self._frames.obstacle()}"
+            said.append(f"Nothing on {self._where.name} gives a pose of the flange{':' if why else '.'}{why}")
+        elif self._frames is not None and self._frames.missed > _FEW + self.poses / 100:
+            said.append(
+                f"{self._frames.missed:,} moments have no pose: not all transforms between the frames have that time"
+                " stamp."
+            )
+        return tuple(said)
 
     def _take_wrench(self, message: Message, body: Any) -> None:
         force, torque = body.wrench.force, body.wrench.torque
-        time, other = self._times(message, body.header)
+        time, other = self._times(message, _stamp(body.header))
+        if (frame := body.header.frame_id.lstrip("/")) != self._frame:
+            self._other_frame = self._other_frame or frame[:_LONGEST_NAME] or "none"
         sample = WrenchSample(
             time, (force.x, force.y, force.z), (torque.x, torque.y, torque.z), device_time=other
         )
         self._writer.wrench(sample)
         self.wrenches += 1
 
+    def _take_transforms(self, message: Message, body: Any, frames: Frames, *, static: bool) -> None:
+        bad = frames.update(body, message.log_time, static=static)
+        stamp = None if static else frames.due()
+        found = None if stamp is None else frames.pose()
+        if stamp is not None and found is not None:
+            time, other = self._times(message, stamp)
+            self._writer.flange(FlangeSample(time, *found, None, other))
+            self.poses += 1
+        if bad:
+            raise ValueError(f"the transform to {bad[0][:_LONGEST_NAME]} is no pose")
+
     def _take_pose(self, message: Message, body: Any) -> None:
+        time, other = self._times(message, _stamp(body.header))
         joints = None
-        if self._frames is not None:
-            if not self._frames.update(body) or message.channel.topic == _STATIC:
-                return
-            found = self._frames.pose()
-            if found is None:
-                return
-            time, other = self._times(message, body.transforms[-1].header)
+        if self._where is not None and self._where.type == JOINT_STATE and self._wanted.robot is not None:
+            found, joints = joint_pose(body, self._wanted.robot)
         else:
-            time, other = self._times(message, body.header)
-            if self._where is not None and self._where.type == JOINT_STATE and self._wanted.robot is not None:
-                found, joints = joint_pose(body, self._wanted.robot)
-            else:
-                found = pose(body.pose.position, body.pose.orientation)
+            found = pose(body.pose.position, body.pose.orientation)
         self._writer.flange(FlangeSample(time, *found, joints, other))
         self.poses += 1
 
-    def _times(self, message: Message, header: Any) -> tuple[float, float | None]:
+    def _times(self, message: Message, stamp_ns: int) -> tuple[float, float | None]:
         received = (message.log_time - self._begin) / 1e9
-        stamp_ns = header.stamp.sec * 10**9 + header.stamp.nanosec
         if self._wanted.header_stamps:
             if stamp_ns == 0:
                 raise ValueError("its header has no time: import without --header-stamps")
@@ -222,44 +229,30 @@ class _Import:
         return received, stamp_ns / 1e9 if stamp_ns else None
 
 
-def ros2_type(message: Message) -> str:
-    """Return the full name of a message's type, also where it is written without /msg/."""
-    package, _, name = message.channel.schema_name.partition("/")
-    return f"{package}/msg/{name.removeprefix('msg/')}" if name else package
+def _stamp(header: Any) -> int:
+    stamp: int = header.stamp.sec * 10**9 + header.stamp.nanosec
+    return stamp
 
 
-def _survey(stream: McapStream) -> tuple[tuple[Topic, ...], int, frozenset[tuple[str, str]]]:
-    """Return the topics, the first log time, and which frames transforms are between."""
-    counts: Counter[tuple[str, str]] = Counter()
-    begin, read_tf = 2**63 - 1, decoder(TF)
-    pairs: set[tuple[str, str]] = set()
-    try:
-        for message in stream:
-            if not isinstance(message, Message):
-                continue
-            kind = ros2_type(message)
-            counts[message.channel.topic, kind] += 1
-            begin = min(begin, message.log_time)
-            if kind == TF and message.channel.encoding == "cdr" and len(pairs) < _MOST_PAIRS:
-                pairs |= _pairs(read_tf, message.data)
-    finally:
-        stream.close()
-    topics = tuple(Topic(name, kind, count) for (name, kind), count in sorted(counts.items()))
-    return topics, begin if counts else 0, frozenset(pairs)
-
-
-def _pairs(read_tf: Callable[[bytes], Any], data: bytes) -> set[tuple[str, str]]:
-    try:
-        items = read_tf(data).transforms
-    except ValueError:  # told when it is imported
-        return set()
-    return {(item.header.frame_id.lstrip("/"), item.child_frame_id.lstrip("/")) for item in items}
+def _choose_wrench(bag: Path, topics: tuple[Topic, ...], wanted: Wanted) -> Topic:
+    if any(topic.encoding == "ros1" and topic.type == WRENCH_STAMPED for topic in topics):
+        raise RecordingError(
+            f"{bag}: this is a bag of ROS 1, which writes its messages in another way: convert it to ROS 2 first, with"
+            " rosbags-convert for instance."
+        )
+    wrench = _choose(bag, topics, (WRENCH_STAMPED,), wanted.wrench_topic, "--wrench-topic")
+    if wrench is not None:
+        return wrench
+    listed = ", ".join(f"{topic.name} ({topic.type})" for topic in topics)
+    raise RecordingError(
+        f"{bag}: there is no topic of WrenchStamped messages; there are: {listed or 'no messages'}."
+    )
 
 
 def _choose(
     bag: Path, topics: tuple[Topic, ...], types: tuple[str, ...], name: str | None, option: str
 ) -> Topic | None:
-    there = [topic for topic in topics if topic.type in types and topic.name != _STATIC]
+    there = [topic for topic in topics if topic.type in types and topic.readable and not topic.static]
     listed = ", ".join(f"{topic.name} ({topic.type}, {topic.count:,})" for topic in there)
     if name is not None:
         for topic in there:
@@ -285,7 +278,9 @@ def _choose_pose(bag: Path, topics: tuple[Topic, ...], wanted: Wanted, warnings:
     return chosen
 
 
-def _frames(bag: Path, pairs: frozenset[tuple[str, str]], wanted: Wanted) -> Frames:
+def _frames(bag: Path, found: Survey, where: Topic, wanted: Wanted) -> Frames:
+    pairs = found.pairs
+    moving = frozenset(child for topic, child in found.moving if topic == where.name)
     if (wanted.base is None) != (wanted.flange is None):
         raise RecordingError(f"{bag}: --base and --flange go together: between which frames.")
     if wanted.base is not None and wanted.flange is not None:
@@ -294,13 +289,13 @@ def _frames(bag: Path, pairs: frozenset[tuple[str, str]], wanted: Wanted) -> Fra
         for name in (base, flange):
             if name not in known:
                 raise RecordingError(f"{bag}: there is no frame {name}; there are: {_some(known)}.")
-        return Frames(base, flange)
+        return Frames(base, flange, moving)
     if len(pairs) != 1:
         names = _some({f"{parent} -> {child}" for parent, child in pairs})
         raise RecordingError(
             f"{bag}: say between which frames the flange's pose is: --base NAME --flange NAME. There are: {names}."
         )
-    return Frames(*next(iter(pairs)))
+    return Frames(*next(iter(pairs)), moving)
 
 
 def _some(names: set[str]) -> str:

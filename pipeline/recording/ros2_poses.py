@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -9,11 +10,17 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from numpy.typing import NDArray
 
     from pipeline.robot import Robot
 
 Pose = tuple["NDArray[np.float64]", "NDArray[np.float64]"]
+
+# When a transform held: its time stamp, or, where it has none, when it was received; ns.
+_Moment = tuple[int, int]
+_NEVER: _Moment = (-(2**63), 0)
 
 _MOST_FRAMES = 1000
 _UNIT = 1e-3  # how far from 1 the norm of a quaternion may be
@@ -23,37 +30,77 @@ class Frames:
     """
     The latest transforms between frames, and the pose of one in another.
 
+    The links of a robot may come in several messages. A pose is due only when all links that move have been heard of
+    one moment: links of different moments make a pose in which the robot never was.
+
     Parameters
     ----------
     base, flange : str
         Names of the frames, without a leading slash.
+    moving : collection of str
+        Children of the transforms that change; any other transform holds for good.
+
+    Attributes
+    ----------
+    missed : int
+        Moments of which not all links were heard.
     """
 
-    def __init__(self, base: str, flange: str) -> None:
-        self._base, self._flange = base, flange
+    def __init__(self, base: str, flange: str, moving: Collection[str] = ()) -> None:
+        self._base, self._flange, self._moving = base, flange, moving
         self._parents: dict[str, tuple[str, Pose]] = {}
+        self._moments: dict[str, _Moment] = {}
+        self._newest: _Moment | None = None
+        self._given: _Moment | None = None
+        self.missed = 0
 
-    def update(self, message: Any) -> bool:
+    def update(self, message: Any, received: int, *, static: bool = False) -> list[str]:
         """
-        Take in a TFMessage; tell whether anything in it is between base and flange.
+        Take in a TFMessage that was received at a time in ns.
 
-        Raises
-        ------
-        ValueError
-            A transform in it is none.
+        Returns
+        -------
+        list of str
+            The frames between base and flange whose transforms are none: they keep their last one.
         """
-        changed = set()
+        bad = []
         for item in message.transforms:
             parent, child = item.header.frame_id.lstrip("/"), item.child_frame_id.lstrip("/")
-            if child in self._parents or len(self._parents) < _MOST_FRAMES:
+            if child not in self._parents and len(self._parents) >= _MOST_FRAMES:
+                continue
+            try:
                 self._parents[child] = parent, pose(item.transform.translation, item.transform.rotation)
-                changed.add(child)
-        return any(frame in changed for frame in self._chain())
+            except ValueError:
+                bad.append(child)
+                continue
+            if not static:
+                stamp = item.header.stamp.sec * 10**9 + item.header.stamp.nanosec
+                # Without a time of its own, what came in one message is of one moment.
+                self._moments[child] = stamp, 0 if stamp else received
+        chain = self._chain()
+        return [frame for frame in bad if frame in chain or frame == self._flange]
+
+    def due(self) -> int | None:
+        """Return the time stamp of a pose that was not given yet, ns, 0 without one; None if there is no such pose."""
+        chain = self._chain()
+        if not self._connected(chain):
+            return None
+        moments = self._clocks(chain)
+        if not moments:
+            return None
+        newest = max(moments)
+        if newest != self._newest:
+            self.missed += self._newest != self._given
+            self._newest = newest
+        if newest == self._given or (self._moves(chain) and set(moments) != {newest}):
+            return None
+        self._given = newest
+        return newest[0]
 
     def pose(self) -> Pose | None:
         """Return R_BE and p_BE_B; None while the frames are not connected."""
         chain = self._chain()
-        if not chain or self._parents[chain[-1]][0] != self._base:
+        if not self._connected(chain):
             return None
         R, p = np.eye(3), np.zeros(3)
         for frame in chain:
@@ -61,14 +108,58 @@ class Frames:
             R, p = R_parent @ R, p_parent + R_parent @ p
         return R, p
 
-    def _chain(self) -> list[str]:
-        """Return the frames from the flange up to the one below the base, or as far as it goes."""
+    def obstacle(self) -> str:
+        """Say why no pose was due so far."""
+        chain, upside_down = self._chain(), self._chain(self._flange, self._base)
+        if upside_down and self._parents[upside_down[-1]][0] == self._flange:
+            return f"{self._base} hangs on {self._flange}: give --base and --flange the other way round."
+        if not chain:
+            return f"no transform says where {self._flange} is."
+        top = self._parents[chain[-1]][0]
+        if top != self._base:
+            return f"{self._flange} hangs on {top}, and no transform leads from {self._base} to {top}."
+        if not self._clocks(chain):
+            return f"everything between {self._base} and {self._flange} is static."
+        listed = ", ".join(frame for frame in reversed(chain) if frame in self._moving)
+        return f"the transforms to {listed} never have the same time stamp."
+
+    def _moves(self, chain: list[str]) -> bool:
+        return any(frame in self._moving for frame in chain)
+
+    def _clocks(self, chain: list[str]) -> list[_Moment]:
+        """Return of which moments the links are that move; where none does, those that are not static."""
+        if self._moves(chain):
+            return [self._moments.get(frame, _NEVER) for frame in chain if frame in self._moving]
+        return [self._moments[frame] for frame in chain if frame in self._moments]
+
+    def _connected(self, chain: list[str]) -> bool:
+        return bool(chain) and self._parents[chain[-1]][0] == self._base
+
+    def _chain(self, top: str | None = None, bottom: str | None = None) -> list[str]:
+        """Return the frames from the bottom (the flange) to the one below the top (the base), or as far as it goes."""
         chain: list[str] = []
-        frame = self._flange
-        while frame != self._base and frame in self._parents and len(chain) < _MOST_FRAMES:
+        top, frame = top or self._base, bottom or self._flange
+        while frame != top and frame in self._parents and len(chain) < _MOST_FRAMES:
             chain.append(frame)
             frame = self._parents[frame][0]
         return chain
+
+
+def numbers(position: Any, orientation: Any) -> tuple[float, ...]:
+    """
+    Return x, y, z, and x, y, z, w of a position and a quaternion with such fields.
+
+    Raises
+    ------
+    ValueError
+        The quaternion is none, or the position is not finite.
+    """
+    p = position.x, position.y, position.z
+    quaternion = orientation.x, orientation.y, orientation.z, orientation.w
+    length = math.hypot(*(min(max(value, -2.0), 2.0) for value in quaternion))
+    if not all(map(math.isfinite, (*p, *quaternion))) or not abs(length - 1) < _UNIT:
+        raise ValueError("it is no pose")
+    return *p, *quaternion
 
 
 def pose(position: Any, orientation: Any) -> Pose:
@@ -80,11 +171,8 @@ def pose(position: Any, orientation: Any) -> Pose:
     ValueError
         The quaternion is none, or the position is not finite.
     """
-    p = np.array([position.x, position.y, position.z])
-    quaternion = np.array([orientation.x, orientation.y, orientation.z, orientation.w])
-    if not np.isfinite(p).all() or not abs(np.linalg.norm(np.clip(quaternion, -2, 2)) - 1) < _UNIT:
-        raise ValueError("it is no pose")
-    return Rotation.from_quat(quaternion).as_matrix(), p
+    values = np.array(numbers(position, orientation))
+    return Rotation.from_quat(values[3:]).as_matrix(), values[:3]
 
 
 def joint_pose(message: Any, robot: Robot) -> tuple[Pose, NDArray[np.float64]]:

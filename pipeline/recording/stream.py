@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 import zlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO
@@ -274,12 +275,16 @@ def _decompressed(compression: str, packed: bytes, size: int) -> bytes:
 
 def _open(path: Path) -> BinaryIO:
     try:
-        return path.open("rb")
+        # A pipe would be waited for until somebody writes to it.
+        mode = path.stat().st_mode
+        if stat.S_ISREG(mode):
+            return path.open("rb")
     except FileNotFoundError:
         raise RecordingError(f"{path}: there is no such file: check the path.") from None
-    except IsADirectoryError:
-        raise RecordingError(f"{path}: this is a folder: choose an MCAP file inside it.") from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise RecordingError(
             f"{path}: the file cannot be opened ({error}): check its permissions."
         ) from error
+    if stat.S_ISDIR(mode):
+        raise RecordingError(f"{path}: this is a folder: choose an MCAP file inside it.")
+    raise RecordingError(f"{path}: this is a pipe or a device, not a file: copy it to a file first.")

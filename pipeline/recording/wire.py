@@ -38,8 +38,8 @@ def record(opcode: Opcode, payload: bytes) -> bytes:
 
 
 def text(value: str) -> bytes:
-    """Return a string as MCAP stores it."""
-    data = value.encode()
+    """Return a string as MCAP stores it; what is no text, in the name of a file, as an escape."""
+    data = value.encode("utf-8", "backslashreplace")
     return struct.pack("<I", len(data)) + data
 
 

@@ -17,7 +17,13 @@ from pipeline.recording.info import (
     about_record,
     device_record,
 )
-from pipeline.recording.messages import Event, event_message, flange_message, wrench_message
+from pipeline.recording.messages import (
+    LONGEST_MESSAGE,
+    Event,
+    event_message,
+    flange_message,
+    wrench_message,
+)
 from pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA, schema
 
 if TYPE_CHECKING:
@@ -30,7 +36,6 @@ if TYPE_CHECKING:
 _Kind = Literal["wrench", "flange", "event"]
 _SCHEMAS: dict[_Kind, str] = {"wrench": WRENCH_SCHEMA, "flange": FLANGE_SCHEMA, "event": EVENT_SCHEMA}
 
-LONGEST_EVENT = 2**20
 _CHUNK_BYTES = 2**20
 
 
@@ -79,7 +84,7 @@ class RecordingWriter:
         try:
             self._channels = self._begin()
         except BaseException:
-            self._file.abandon()
+            self._file.discard()
             raise
         self._chunk_begin = self._synced = clock()
 
@@ -184,7 +189,7 @@ class RecordingWriter:
             raise SampleError(
                 f"{self._path}: a sample on {topic} cannot be recorded: {error}. Check the device that gave it."
             ) from error
-        if len(data) > 2 * LONGEST_EVENT:
+        if len(data) > LONGEST_MESSAGE:
             raise SampleError(f"{self._path}: an event is longer than 1 MiB: keep such data in a file.")
         with self._lock:
             if not self._file.pending:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from datetime import datetime, timedelta
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
     BaseModel,
@@ -15,21 +15,27 @@ from pydantic import (
     StringConstraints,
     ValidationError,
     field_validator,
+    model_validator,
 )
 
 from pipeline.session.errors import JournalError
 from pipeline.session.frames import Frame, canonical
 
-SCHEMA, VERSION = "contactbench.session", 1
+SCHEMA, VERSION = "contactbench.session", 2
 
 Sha256 = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
-Word = Annotated[str, StringConstraints(pattern=r"^[a-z][a-z0-9_-]{0,63}$")]
+_WORD = r"^[a-z][a-z0-9_-]{0,63}$"
+Word = Annotated[str, StringConstraints(pattern=_WORD)]
 Text = Annotated[str, StringConstraints(max_length=10_000)]
 Short = Annotated[str, StringConstraints(min_length=1, max_length=200)]
 # What no file system takes for a path, a drive, a stream or a hidden file.
-Name = Annotated[
-    str, StringConstraints(pattern=r'^[^./\\:*?"<>|\x00-\x1f\x7f][^/\\:*?"<>|\x00-\x1f\x7f]{0,199}$')
-]
+_NAME = r'^[^./\\:*?"<>|\x00-\x1f\x7f][^/\\:*?"<>|\x00-\x1f\x7f]{0,199}$'
+Name = Annotated[str, StringConstraints(pattern=_NAME)]
+# Pattern -> what it asks for, for people.
+RULES = {
+    _WORD: "begins with a small letter, and has small letters, digits, - and _, at most 64",
+    _NAME: 'has 1 to 200 characters, no control characters and none of / \\ : * ? " < > |, and begins with no dot',
+}
 Place = Annotated[
     str, StringConstraints(pattern=r"^(raw|meshes|results)/[0-9a-f]{12}-[A-Za-z0-9_-][A-Za-z0-9._-]{0,119}$")
 ]
@@ -64,22 +70,34 @@ class SessionCreated(_Part):
     migrated_from: Origin | None = None
 
 
-class InputAdded(_Part):
+class _WithCompanions(_Part):
+    """A file, and those that lay beside it under names that it is read with, such as a probe's JSON."""
+
+    name: Name
+    file: FileRef
+    companions: Annotated[dict[Name, FileRef], Field(max_length=100)] = {}
+
+    @model_validator(mode="after")
+    def _names_differ(self) -> Self:
+        names = [self.name, *self.companions]
+        if len({name.casefold() for name in names}) < len(names):
+            raise ValueError("two files of one input have the same name")
+        return self
+
+
+class InputAdded(_WithCompanions):
     """A raw input; one of the same kind and name, but of other content, takes its place."""
 
     type: Literal["input_added"] = "input_added"
     kind: Word
-    name: Name
-    file: FileRef
     sensor: Short | None = None
+    about: dict[Short, JsonValue] = {}
 
 
-class MeshChanged(_Part):
+class MeshChanged(_WithCompanions):
     """The probe's mesh from now on."""
 
     type: Literal["mesh_changed"] = "mesh_changed"
-    name: Name
-    file: FileRef
 
 
 class ParameterSet(_Part):
@@ -91,7 +109,7 @@ class ParameterSet(_Part):
 
 
 class ResultAdded(_Part):
-    """A result and all that it follows from. `inputs`: role -> hash of an input, a mesh or another result's file."""
+    """A result and all that it follows from. `inputs`: role -> hash of an input, a mesh or another result."""
 
     type: Literal["result_added"] = "result_added"
     kind: Word
@@ -182,9 +200,9 @@ class Record:
 
 
 def files_of(action: Action) -> tuple[FileRef, ...]:
-    """Return the files that an action refers to."""
+    """Return the files that an action refers to; the main one of an input comes first."""
     if isinstance(action, InputAdded | MeshChanged):
-        return (action.file,)
+        return (action.file, *action.companions.values())
     return tuple(action.files.values()) if isinstance(action, ResultAdded) else ()
 
 

@@ -18,17 +18,15 @@ from typing import TYPE_CHECKING
 
 from pipeline.durable import scratch_beside, sync_folder
 from pipeline.session.actions import files_of
-from pipeline.session.check import check
+from pipeline.session.check import check_journal
 from pipeline.session.errors import ArchiveError, SessionError
-from pipeline.session.files import FOLDERS, chunks_of, write_file
-from pipeline.session.frames import scan
+from pipeline.session.files import FOLDERS, chunks_of, regular, unfinished, write_file
 from pipeline.session.journal import JOURNAL, read_journal
+from pipeline.session.lock import written_now
 from pipeline.session.migrate import original_of
-from pipeline.session.reading import read_content
-from pipeline.session.state import fold
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
     from pathlib import Path
 
 _MEMBER = re.compile(
@@ -54,36 +52,67 @@ class ArchiveLimits:
         Of unpacked to packed size, for files above 1 MiB. Text of numbers reaches 10, text of zeros 1000.
     """
 
-    members: int = 10_000
+    members: int = 100_000
     size: int = 64 * 2**30
     ratio: int = 200
 
 
-def export_archive(folder: Path, out: Path) -> int:
+@dataclass(frozen=True)
+class Exported:
     """
-    Pack a session into a zip file; return how many files went in. The session may be in use.
+    What was packed.
+
+    Attributes
+    ----------
+    files : int
+    notes : tuple of str
+        What is worth knowing of the session, in sentences.
+    left_out : tuple of str
+        Places of recordings that are being made: they are not in the archive.
+    """
+
+    files: int
+    notes: tuple[str, ...]
+    left_out: tuple[str, ...]
+
+
+def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None) -> Exported:
+    """
+    Pack a session into a zip file that `import_archive` takes.
+
+    The session may be in use; what is added meanwhile is not in it.
 
     Raises
     ------
     SessionError
-        Something is wrong with the session, so that no one could import it; or `out` cannot be written.
+        Something is wrong with the session, so that no one could import it; a recording in it ended abruptly, and is
+        not adopted yet; or `out` cannot be written, or is there and no archive.
     """
-    if out.absolute().is_relative_to(folder.absolute()):
-        raise SessionError(f"{out}: this is inside the session: put the archive elsewhere.")
-    found = check(folder)
-    if not found.sound:
-        raise SessionError(f"{folder}: not packed, for something is wrong with it: {found.problems[0]}")
-    content = read_content(folder)
+    limits = ArchiveLimits() if limits is None else limits
+    _refuse_place(folder, out)
+    left_out = tuple(unfinished(folder))
+    if left_out and not written_now(folder):
+        raise SessionError(
+            f"{folder / left_out[0]}: this recording ended abruptly and would be left out: `contactbench session"
+            " repair` adopts it; then pack again."
+        )
     data = read_journal(folder)
-    data = data[: scan(data).end]
-    names = sorted({ref.path for record in content.records for ref in files_of(record.action)})
-    kept = [original_of(folder, version).name for version in fold(content.records).origins]
+    found, content = check_journal(folder, data)
+    if content is None or not found.sound:
+        raise SessionError(f"{folder}: not packed, for something is wrong with it: {found.problems[0]}")
+    data = data[: content.found.end]
+    sizes = {ref.path: ref.size for record in content.records for ref in files_of(record.action)}
+    names = sorted(sizes)
+    kept = [original_of(folder, version).name for version in content.origins]
+    _refuse_size(folder, 1 + len(kept) + len(names), len(data) + sum(sizes.values()), limits)
     scratch = scratch_beside(out)
     try:
         with zipfile.ZipFile(scratch, "x") as packed:
-            packed.writestr(_described(JOURNAL), data)
+            packed.writestr(_described(JOURNAL, (data,), limits), data)
             for name in (*kept, *names):
-                with packed.open(_described(name), "w", force_zip64=True) as stream:
+                with packed.open(
+                    _described(name, chunks_of(folder / name), limits), "w", force_zip64=True
+                ) as stream:
                     for chunk in chunks_of(folder / name):
                         stream.write(chunk)
         _sync(scratch)
@@ -95,15 +124,51 @@ def export_archive(folder: Path, out: Path) -> int:
         ) from error
     finally:
         scratch.unlink(missing_ok=True)
-    return 1 + len(kept) + len(names)
+    return Exported(1 + len(kept) + len(names), found.notes, left_out)
 
 
-def _described(name: str) -> zipfile.ZipInfo:
+def _refuse_place(folder: Path, out: Path) -> None:
+    """Refuse to write into the session, also by another name of its folder, or over what is no archive."""
+    try:
+        inside = (out.parent.resolve() / out.name).is_relative_to(folder.resolve())
+        inside |= out.resolve().is_relative_to(folder.resolve())
+        taken = (out.exists() or out.is_symlink()) and not (out.is_file() and zipfile.is_zipfile(out))
+    except (OSError, ValueError, RuntimeError) as error:  # RuntimeError: links in a circle
+        raise SessionError(f"{out}: no place for an archive ({error}): choose another.") from error
+    if inside:
+        raise SessionError(f"{out}: this is inside the session: put the archive elsewhere.")
+    if taken:
+        raise SessionError(f"{out}: there is something already that is no archive: choose another name.")
+
+
+def _refuse_size(folder: Path, members: int, size: int, limits: ArchiveLimits) -> None:
+    if members > limits.members or size > limits.size:
+        raise SessionError(
+            f"{folder}: {members} files of {size >> 20} MiB: an archive takes at most {limits.members} files and"
+            f" {limits.size >> 20} MiB: copy the folder as it is."
+        )
+
+
+def _described(name: str, chunks: Iterable[bytes], limits: ArchiveLimits) -> zipfile.ZipInfo:
     member = zipfile.ZipInfo(name, _EPOCH)
-    member.compress_type = zipfile.ZIP_DEFLATED
+    member.compress_type = zipfile.ZIP_STORED if _stays(name, chunks, limits) else zipfile.ZIP_DEFLATED
     member.create_system = 3
     member.external_attr = (stat.S_IFREG | 0o644) << 16
     return member
+
+
+def _stays(name: str, chunks: Iterable[bytes], limits: ArchiveLimits) -> bool:
+    """Tell whether a file is stored as it is: it is packed already, or shrinks so much that it looks like a bomb."""
+    if name.endswith(".mcap"):
+        return True
+    packer, size, packed = zlib.compressobj(wbits=-zlib.MAX_WBITS), 0, 0
+    for chunk in chunks:
+        if len(chunk) < _CHUNK and not size:  # small files are never refused
+            return False
+        size += len(chunk)
+        packed += len(packer.compress(chunk))
+    # Half, because not every zlib packs as well as this one.
+    return size > limits.ratio // 2 * (packed + len(packer.flush()))
 
 
 def _sync(file: Path) -> None:
@@ -126,6 +191,7 @@ def import_archive(archive: Path, out: Path, limits: ArchiveLimits | None = None
         `out` is there already, or cannot be written.
     """
     limits = ArchiveLimits() if limits is None else limits
+    regular(archive)
     if out.exists() or out.is_symlink():
         raise SessionError(f"{out}: there is something already: choose another name.")
     scratch = out.with_name(f".{out.name}.{secrets.token_hex(8)}.tmp")
@@ -158,15 +224,16 @@ def _members(packed: zipfile.ZipFile, archive: Path, limits: ArchiveLimits) -> l
             f"{archive}: {len(everything)} files, more than {limits.members}: this is no session."
         )
     members = [each for each in everything if each.filename not in {f"{name}/" for name in FOLDERS}]
-    seen: set[str] = set()
+    seen: dict[str, zipfile.ZipInfo] = {}
     for member in members:
         if wrong := _refused(member, limits):
             raise ArchiveError(
                 f"{archive}: {member.filename!r:.200}: {wrong}: this is no session, or not a safe one."
             )
-        if member.filename.casefold() in seen:
+        # A.csv and a.csv of one content are one file where names have no case, and no harm.
+        other = seen.setdefault(member.filename.casefold(), member)
+        if other is not member and (other.filename == member.filename or not _alike(other, member)):
             raise ArchiveError(f"{archive}: {member.filename} is in it twice: this is no session.")
-        seen.add(member.filename.casefold())
     if sum(member.file_size for member in members) > limits.size:
         raise ArchiveError(
             f"{archive}: unpacked it is larger than {limits.size >> 20} MiB: this is no session."
@@ -176,6 +243,10 @@ def _members(packed: zipfile.ZipFile, archive: Path, limits: ArchiveLimits) -> l
     if JOURNAL not in seen:
         raise ArchiveError(f"{archive}: there is no journal in it: this is no session.")
     return members
+
+
+def _alike(one: zipfile.ZipInfo, other: zipfile.ZipInfo) -> bool:
+    return (one.file_size, one.CRC) == (other.file_size, other.CRC)
 
 
 def _refused(member: zipfile.ZipInfo, limits: ArchiveLimits) -> str:
@@ -196,7 +267,11 @@ def _unpack(
 ) -> None:
     left = limits.size
     for member in members:
-        left -= write_file(target / member.filename, _content(packed, member, left))
+        place = target / member.filename
+        if (
+            not place.exists()
+        ):  # there is one already only where names have no case; the journal's hashes decide
+            left -= write_file(place, _content(packed, member, left))
     for name in (*FOLDERS, "."):
         sync_folder(target / name)
 
@@ -213,14 +288,13 @@ def _content(packed: zipfile.ZipFile, member: zipfile.ZipInfo, left: int) -> Ite
 
 
 def _refuse_strangers(folder: Path, archive: Path, names: set[str]) -> None:
-    found = check(folder)
-    if not found.sound:
+    found, content = check_journal(folder, read_journal(folder))
+    if content is None or not found.sound:
         raise ArchiveError(
             f"{archive}: not a whole session: {found.problems[0].replace(str(folder), 'in it')}"
         )
-    content = read_content(folder)
     known = {ref.path for record in content.records for ref in files_of(record.action)}
-    known |= {JOURNAL, *(original_of(folder, version).name for version in fold(content.records).origins)}
+    known |= {JOURNAL, *(original_of(folder, version).name for version in content.origins)}
     if strangers := sorted(names - known):
         raise ArchiveError(
             f"{archive}: {strangers[0]} belongs to no record of its journal: this is no session."

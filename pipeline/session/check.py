@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 import secrets
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from pipeline.durable import write_durably
 from pipeline.session import frames
 from pipeline.session.actions import files_of
 from pipeline.session.errors import SessionError
-from pipeline.session.files import FOLDERS, wrong_with
+from pipeline.session.files import FOLDERS, UNFINISHED, own_file, refuse_links, unfinished, wrong_with
 from pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
 from pipeline.session.lock import Lock
 from pipeline.session.migrate import origin_problems
-from pipeline.session.reading import read_content
-from pipeline.session.state import fold
+from pipeline.session.reading import content_of
+from pipeline.session.store import Session
+from pipeline.session.unfinished import adopt_unfinished
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
+
+    from pipeline.session.reading import Content
 
 
 @dataclass(frozen=True)
@@ -65,11 +68,18 @@ def check(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
     SessionError
         There is no session, or its journal cannot be read at all.
     """
-    found = frames.scan(read_journal(folder))
+    return check_journal(folder, read_journal(folder), progress)[0]
+
+
+def check_journal(
+    folder: Path, data: bytes, progress: Callable[[int, int], None] | None = None
+) -> tuple[Check, Content | None]:
+    """Check a session by the bytes of its journal, which may grow meanwhile; also return what they say."""
     try:
-        content = read_content(folder)
+        content = content_of(folder, data)
+        refuse_links(folder)
     except SessionError as error:
-        return Check(len(found.frames), 0, (str(error),), ())
+        return Check(len(frames.scan(data).frames), 0, (str(error),), ()), None
     refs = {(ref.path, ref.sha256): ref for record in content.records for ref in files_of(record.action)}
     problems = []
     for done, ref in enumerate(refs.values(), 1):
@@ -77,9 +87,20 @@ def check(folder: Path, progress: Callable[[int, int], None] | None = None) -> C
             problems.append(f"{wrong}: take it from an archive, or add the original again.")
         if progress is not None:
             progress(done, len(refs))
-    problems += [f"{each}." for each in origin_problems(folder, fold(content.records).origins)]
+    problems += [f"{each}." for each in origin_problems(folder, content.origins)]
+    problems += _no_recordings(folder)
     notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs})]
-    return Check(len(content.records), len(refs), tuple(problems), tuple(notes))
+    return Check(len(content.records), len(refs), tuple(problems), tuple(notes)), content
+
+
+def _no_recordings(folder: Path) -> list[str]:
+    problems = []
+    for place in unfinished(folder):
+        try:
+            own_file(folder / place)
+        except SessionError as error:
+            problems.append(str(error))
+    return problems
 
 
 def _unreferenced(folder: Path, known: set[str]) -> list[str]:
@@ -87,12 +108,17 @@ def _unreferenced(folder: Path, known: set[str]) -> list[str]:
         f"{name}/{file.name}"
         for name in FOLDERS
         for file in sorted((folder / name).glob("*"))
-        if f"{name}/{file.name}" not in known
+        if f"{name}/{file.name}" not in known and not file.name.startswith(UNFINISHED)
+    ]
+    notes = [
+        f"{place}: a recording that is being made, or ended abruptly: then `contactbench session repair` adopts it."
+        for place in unfinished(folder)
     ]
     if not extra:
-        return []
+        return notes
     return [
-        f"{len(extra)} files belong to no record, such as {extra[0]}: a crash before the record was written does that."
+        *notes,
+        f"{len(extra)} files belong to no record, such as {extra[0]}: a crash before the record was written does that.",
     ]
 
 
@@ -108,22 +134,40 @@ class Repair:
         Bytes taken off the journal's end.
     kept_as : str
         Name of the journal as it was; empty if nothing had to be done.
+    adopted : tuple of str
+        What became of recordings that ended abruptly, in sentences.
+    left : tuple of str
+        Why others stay where they are, in sentences.
     """
 
     sentence: str
     removed: int = 0
     kept_as: str = ""
+    adopted: tuple[str, ...] = ()
+    left: tuple[str, ...] = ()
 
 
 def repair(folder: Path) -> Repair:
     """
-    Cut off what follows the last whole record, if no whole record follows it; the journal as it was is kept beside.
+    Cut off what follows the last whole record, if no whole record follows it, and adopt recordings that ended abruptly.
+
+    The journal as it was is kept beside.
 
     Raises
     ------
     SessionError
         Another process writes the session, whole records follow the damage, or the disk fails.
     """
+    done = _repair_journal(folder)
+    if not unfinished(folder):
+        return done
+    with Session.open(folder) as session:
+        adopted, left = adopt_unfinished(session)
+    return replace(done, adopted=adopted, left=left)
+
+
+def _repair_journal(folder: Path) -> Repair:
+    read_journal(folder)  # no lock is left in a folder that is no session
     lock = Lock(folder)
     try:
         data = read_journal(folder)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from pipeline import __version__
-from pipeline.session.actions import Entry, FileRef
+from pipeline.session.actions import RULES, Entry, FileRef
 from pipeline.session.errors import SessionError
 
 if TYPE_CHECKING:
@@ -27,9 +27,10 @@ def checked(action: type[_A], /, **fields: Any) -> _A:
     try:
         return action(**fields)
     except ValidationError as error:
-        first = error.errors(include_url=False, include_context=False)[0]
-        where = ".".join(map(str, first["loc"]))
-        raise SessionError(f"{where}: {first['input']!r:.100}: {first['msg']}: correct it.") from error
+        first = error.errors(include_url=False)[0]
+        where = ".".join(str(part) for part in first["loc"] if part != "[key]")
+        rule = RULES.get(first.get("ctx", {}).get("pattern", ""), first["msg"])
+        raise SessionError(f"{where}: {first['input']!r:.100}: {rule}: correct it.") from error
 
 
 def entry(action: Action, by: str, sensor: str | None) -> Entry:

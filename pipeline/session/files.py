@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 FOLDERS = ("raw", "meshes", "results")
+# A recording in the session's folder until it is closed and journaled; never deleted as long as it holds samples.
+UNFINISHED = "unfinished-"
 _CHUNK = 2**20
 _LONGEST = 80  # of a name in the folder
 _SCRATCH = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")
@@ -56,6 +58,30 @@ def store(session: Path, folder: str, name: str, chunks: Iterable[bytes]) -> Fil
     return FileRef(path=place, sha256=digest, size=size)
 
 
+def take_in(session: Path, folder: str, file: Path, name: str) -> FileRef:
+    """
+    Give a file that was written in the session its place there, durably; it stays where it is as well.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, or its place not be made.
+    """
+    with file.open("rb+") as stream:
+        os.fsync(stream.fileno())
+    digest, size = hashlib.sha256(), 0
+    for chunk in chunks_of(file):
+        digest.update(chunk)
+        size += len(chunk)
+    place = f"{folder}/{digest.hexdigest()[:12]}-{_plain(name)}"
+    try:
+        os.link(file, session / place)
+    except OSError:  # it is there already, or the file system knows no links
+        return store(session, folder, name, chunks_of(file))
+    sync_folder(session / folder)
+    return FileRef(path=place, sha256=digest.hexdigest(), size=size)
+
+
 def write_file(file: Path, chunks: Iterable[bytes]) -> int:
     """Write a new file and bring it to the disk, not its name; return its size. OSError if that fails."""
     return _write(file, chunks)[1]
@@ -77,18 +103,51 @@ def _write(scratch: Path, chunks: Iterable[bytes]) -> tuple[str, int]:
 
 def _plain(name: str) -> str:
     """Return a name that every file system and zip program takes; its ending stays."""
-    plain = re.sub(r"[^A-Za-z0-9._-]", "_", name).lstrip(".") or "_"
+    # In small letters: the same content as A.csv and a.csv is one place on every file system.
+    plain = re.sub(r"[^a-z0-9._-]", "_", name.lower()).lstrip(".") or "_"
     return plain[-_LONGEST:].lstrip(".") or "_"
 
 
 def regular(file: Path) -> Path:
     """Refuse what is not a file that can be copied: folders, devices, pipes that never end."""
     try:
-        if not stat.S_ISREG(file.stat().st_mode):
-            raise SessionError(f"{file}: not a regular file: choose a file.")
+        mode = file.stat().st_mode
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
         raise SessionError(f"{file}: the file cannot be read ({error}): check the path.") from error
+    if not stat.S_ISREG(mode):
+        raise SessionError(f"{file}: not a regular file: choose a file.")
     return file
+
+
+def own_file(file: Path) -> Path:
+    """Refuse what lies in the session under a file's name and is none, or a link that leads out of it."""
+    if file.is_symlink():
+        raise SessionError(f"{file}: a link: a session holds files only; put the file itself there.")
+    return regular(file)
+
+
+def refuse_links(session: Path) -> None:
+    """
+    Refuse a session whose folders are links, or no folders: what is kept there would be elsewhere.
+
+    Raises
+    ------
+    SessionError
+        One is. One that is missing is no harm.
+    """
+    for name in FOLDERS:
+        try:
+            mode = (session / name).lstat().st_mode
+        except FileNotFoundError:
+            continue
+        except (OSError, ValueError) as error:
+            raise SessionError(
+                f"{session / name}: the folder cannot be read ({error}): check the rights."
+            ) from error
+        if not stat.S_ISDIR(mode):
+            raise SessionError(
+                f"{session / name}: a link or a file, not a folder: put the folder itself there."
+            )
 
 
 def wrong_with(session: Path, ref: FileRef) -> str:
@@ -108,6 +167,11 @@ def wrong_with(session: Path, ref: FileRef) -> str:
     if size != ref.size:
         return f"{ref.path} has {size} bytes, not {ref.size}"
     return "" if digest.hexdigest() == ref.sha256 else f"{ref.path} has another content than the journal says"
+
+
+def unfinished(session: Path) -> list[str]:
+    """Return the recordings that are being made or ended abruptly, as places in the session, oldest name first."""
+    return sorted(f"raw/{file.name}" for file in (session / "raw").glob(f"{UNFINISHED}*"))
 
 
 def remove_scratch(session: Path) -> None:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 from pipeline.session.frames import canonical
 
 if TYPE_CHECKING:
-    from pipeline.session.actions import ResultAdded
+    from collections.abc import Mapping
+
+    from pipeline.session.actions import FileRef, ResultAdded
 
 
 def main_file(action: ResultAdded) -> str:
@@ -24,5 +26,16 @@ def content_hash(action: ResultAdded) -> str:
         "inputs": action.inputs,
         "parameters": action.parameters,
         "files": {name: file.sha256 for name, file in action.files.items()},
+    }
+    return hashlib.sha256(canonical(content)).hexdigest()
+
+
+def input_hash(file: FileRef, companions: Mapping[str, FileRef]) -> str:
+    """Return what results refer to an input by: its file's SHA-256 or, with companions, one over all of them."""
+    if not companions:
+        return file.sha256
+    content = {
+        "file": file.sha256,
+        "companions": {name: companion.sha256 for name, companion in companions.items()},
     }
     return hashlib.sha256(canonical(content)).hexdigest()

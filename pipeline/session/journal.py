@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import stat
 from typing import TYPE_CHECKING
 
 from pipeline.session import frames
@@ -27,6 +28,9 @@ def read_journal(folder: Path) -> bytes:
     """
     file = folder / JOURNAL
     try:
+        # A pipe would be waited for; a link leads out of the session.
+        if not stat.S_ISREG(file.lstat().st_mode):
+            raise JournalError(f"{file}: no regular file: choose a session's folder.")
         with file.open("rb") as stream:
             data = stream.read(LARGEST + 1)
     except FileNotFoundError:
@@ -34,6 +38,8 @@ def read_journal(folder: Path) -> bytes:
             f"{folder}: this folder holds no session: check the path, or make one with `contactbench session new`."
         ) from None
     except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+        if isinstance(error, SessionError):
+            raise
         raise SessionError(
             f"{file}: the journal cannot be read ({error}): choose a session's folder."
         ) from error
@@ -77,7 +83,9 @@ class JournalWriter:
         self._end, self._chain = found.end, found.chain
         self._broken = False
         try:
-            self._descriptor = os.open(self._file, os.O_RDWR | os.O_APPEND | _BINARY)
+            self._descriptor = os.open(
+                self._file, os.O_RDWR | os.O_APPEND | _BINARY | getattr(os, "O_NOFOLLOW", 0)
+            )
         except OSError as error:
             raise SessionError(
                 f"{self._file}: the journal cannot be written ({error}): check the rights."
@@ -101,6 +109,7 @@ class JournalWriter:
         """
         if self._descriptor < 0 or self._broken:
             raise SessionError(f"{self._file}: closed, or a write has failed before: open the session again.")
+        self._refuse_others()
         data = frames.encode(payload, self._chain)
         if self._end + len(data) > LARGEST:
             raise SessionError(
@@ -120,6 +129,20 @@ class JournalWriter:
         self._chain = frames.chained(self._chain, payload)
         self._end += len(data)
         return self._chain
+
+    def _refuse_others(self) -> None:
+        """Whatever locks say: a record goes only behind the one that it is bound to."""
+        try:
+            mine, there = os.fstat(self._descriptor), self._file.lstat()
+            same = os.path.samestat(mine, there) and mine.st_size == self._end
+        except OSError:
+            same = False
+        if not same:
+            self._broken = True
+            raise SessionError(
+                f"{self._file}: somebody else has changed the journal: the action is not recorded; open the session"
+                " again."
+            )
 
     def _take_back(self) -> None:
         self._broken = True

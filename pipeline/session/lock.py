@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import stat
 import sys
 from typing import TYPE_CHECKING
 
@@ -15,6 +17,9 @@ LOCK = "lock"
 _LONGEST = 256
 # Windows locks bytes, and forbids others to read them: one far behind the text that tells who writes.
 _BYTE = 1 << 20
+_OURS = b"process "
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0)  # the text goes into this very file
+_TAKEN = {errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK}
 
 
 class Lock:
@@ -32,28 +37,74 @@ class Lock:
     """
 
     def __init__(self, folder: Path) -> None:
-        file = folder / LOCK
+        self._folder, self._file = folder, folder / LOCK
         try:
-            self._descriptor = os.open(file, os.O_RDWR | os.O_CREAT, 0o644)
+            self._descriptor = os.open(self._file, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o644)
         except OSError as error:
-            raise SessionError(
-                f"{folder}: the session cannot be locked ({error}): make the folder writable, or only read it."
-            ) from error
+            raise _not_locked(folder, error) from error
+        try:
+            self._take_over()
+        except BaseException:
+            self.release()
+            raise
+
+    def _take_over(self) -> None:
         try:
             _take(self._descriptor)
         except OSError as error:
-            holder = os.read(self._descriptor, _LONGEST).decode("ascii", "replace").strip()
-            os.close(self._descriptor)
+            if error.errno not in _TAKEN:
+                raise _not_locked(self._folder, error) from error
+            holder = self._text().decode("ascii", "replace").strip()
             raise SessionLockedError(
-                f"{folder}: another process writes this session ({holder or 'unknown'}): close it there first."
+                f"{self._folder}: another process writes this session ({holder or 'unknown'}): close it there first."
                 " Reading is possible all the time."
             ) from error
+        text = self._text()
+        # A full disk may have left a part of the text.
+        if text[: len(_OURS)] != _OURS[: len(text)] or len(text) >= _LONGEST:
+            raise SessionError(
+                f"{self._file}: this file belongs to another program: move it away, or choose another folder."
+            )
         self._say_who()
+
+    def _text(self) -> bytes:
+        try:
+            # What is no regular file could be read without end.
+            if not stat.S_ISREG(os.fstat(self._descriptor).st_mode):
+                raise SessionError(f"{self._file}: no regular file: move it away, or choose another folder.")
+            os.lseek(self._descriptor, 0, os.SEEK_SET)
+            return os.read(self._descriptor, _LONGEST)
+        except OSError as error:
+            raise _not_locked(self._folder, error) from error
+
+    @property
+    def held(self) -> bool:
+        """Whether it was not released yet."""
+        return self._descriptor >= 0
+
+    def check(self) -> None:
+        """
+        Refuse to go on when the lock's file was deleted or replaced: another process may hold the new one.
+
+        Raises
+        ------
+        SessionError
+            It was, or cannot be looked at.
+        """
+        try:
+            same = os.path.samestat(os.fstat(self._descriptor), self._file.lstat())
+        except OSError:
+            same = False
+        if not same:
+            raise SessionError(
+                f"{self._file}: the lock was removed or replaced, so others may write: open the session again."
+            )
 
     def _say_who(self) -> None:
         try:
             os.ftruncate(self._descriptor, 0)
-            os.write(self._descriptor, f"process {os.getpid()}\n".encode())
+            os.lseek(self._descriptor, 0, os.SEEK_SET)
+            os.write(self._descriptor, _OURS + f"{os.getpid()}\n".encode())
         except OSError:  # a full disk: the name is only for people, the lock holds without it
             return
 
@@ -62,6 +113,27 @@ class Lock:
         if self._descriptor >= 0:
             os.close(self._descriptor)
             self._descriptor = -1
+
+
+def written_now(folder: Path) -> bool:
+    """Tell whether a process holds the lock of a session; changes nothing."""
+    try:
+        descriptor = os.open(folder / LOCK, os.O_RDWR | _NO_LINK)
+    except OSError:  # no lock, or none that could be taken here
+        return False
+    try:
+        _take(descriptor)
+    except OSError as error:
+        return error.errno in _TAKEN
+    finally:
+        os.close(descriptor)
+    return False
+
+
+def _not_locked(folder: Path, error: OSError) -> SessionError:
+    return SessionError(
+        f"{folder}: the session cannot be locked ({error}): make the folder writable, or only read it."
+    )
 
 
 if sys.platform == "win32":

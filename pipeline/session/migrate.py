@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 from typing import TYPE_CHECKING, Any
 
+from pydantic import ValidationError
+
 from pipeline.durable import write_durably
 from pipeline.session import frames
-from pipeline.session.actions import SCHEMA, VERSION, Record, parse_payload, read_entry
+from pipeline.session.actions import SCHEMA, VERSION, Origin, Record, parse_payload, read_entry
 from pipeline.session.errors import SchemaError, SessionError
 from pipeline.session.journal import JOURNAL
 
@@ -19,7 +21,8 @@ if TYPE_CHECKING:
     Migration = Callable[[Payloads], Payloads]
 
 # version -> what makes the next version's payloads of all payloads of that one, the first with its new version.
-MIGRATIONS: dict[int, Migration] = {}
+# Version 2 has companions of inputs, and what is known about them: version 1 has neither, and needs no change.
+MIGRATIONS: dict[int, Migration] = {1: lambda payloads: payloads}
 
 
 def version_of(folder: Path, found: frames.Scan) -> int:
@@ -75,6 +78,28 @@ def records_of_payloads(payloads: list[bytes]) -> tuple[Record, ...]:
         before = frames.chained(before, payload)
         records.append(Record(number, before.hex(), read_entry(parse_payload(payload, number), number)))
     return tuple(records)
+
+
+def kept_origins(folder: Path, found: frames.Scan) -> dict[int, str]:
+    """
+    Return what an older journal says is kept of the one before it: version -> SHA-256.
+
+    Raises
+    ------
+    SchemaError
+        What it says makes no sense.
+    """
+    said = parse_payload(found.frames[0].payload, 1)["action"].get("migrated_from")
+    if said is None:
+        return {}
+    try:
+        origin = Origin.model_validate(said)
+    except ValidationError as error:
+        raise SchemaError(
+            f"{folder / JOURNAL}: its first record does not say what it was migrated from: take the session from a"
+            " backup."
+        ) from error
+    return {origin.version: origin.sha256}
 
 
 def original_of(folder: Path, version: int) -> Path:

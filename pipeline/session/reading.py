@@ -8,9 +8,19 @@ from typing import TYPE_CHECKING
 from pipeline.session import frames
 from pipeline.session.actions import VERSION, Record, records_of
 from pipeline.session.journal import JOURNAL, read_journal, refuse_damage
-from pipeline.session.migrate import migrated, original_of, records_of_payloads, version_of, write_migrated
+from pipeline.session.migrate import (
+    kept_origins,
+    migrated,
+    original_of,
+    records_of_payloads,
+    version_of,
+    write_migrated,
+)
+from pipeline.session.order import refuse_later_inputs
+from pipeline.session.state import fold
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from pathlib import Path
 
 
@@ -26,11 +36,15 @@ class Content:
         What was noticed, in sentences.
     found : Scan
         Of the file as it is now.
+    origins : mapping
+        Version -> SHA-256 of the journals that the one on the disk says are kept beside it. One that was only
+        migrated in memory has kept nothing yet.
     """
 
     records: tuple[Record, ...]
     notes: tuple[str, ...]
     found: frames.Scan
+    origins: Mapping[int, str]
 
 
 def read_content(folder: Path, *, settle: bool = False) -> Content:
@@ -49,13 +63,17 @@ def read_content(folder: Path, *, settle: bool = False) -> Content:
     SessionError
         No session, a damaged one, of a newer version or of one that cannot be migrated.
     """
-    data = read_journal(folder)
+    return content_of(folder, read_journal(folder), settle=settle)
+
+
+def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
+    """Read the bytes of a journal; see `read_content`."""
     found = frames.scan(data)
     refuse_damage(folder, found)
     notes = [f"{folder / JOURNAL}: {found.torn}: {_fate(settle)}"] if found.torn else []
     version = version_of(folder, found)
     if version == VERSION:
-        return Content(records_of(found.frames), tuple(notes), found)
+        return _content(records_of(found.frames), notes, found)
     payloads = migrated(folder, data, found, version)
     records = records_of_payloads(payloads)
     if settle:
@@ -67,7 +85,16 @@ def read_content(folder: Path, *, settle: bool = False) -> Content:
         found = frames.scan(frames.encode_all(payloads))
     else:
         notes.append(f"{folder}: of the older version {version}: it is migrated when it is next written.")
-    return Content(records, tuple(notes), found)
+        return _content(records, notes, found, kept_origins(folder, found))
+    return _content(records, notes, found)
+
+
+def _content(
+    records: tuple[Record, ...], notes: list[str], found: frames.Scan, origins: dict[int, str] | None = None
+) -> Content:
+    refuse_later_inputs(records)
+    kept = fold(records[:1]).origins if origins is None else origins
+    return Content(records, tuple(notes), found, kept)
 
 
 def _fate(settle: bool) -> str:

@@ -7,39 +7,108 @@ results, and gives the result's files. The parameters are those of the command o
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 from collections.abc import Callable, Mapping
-from contextlib import contextmanager
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import ValidationError
 
+from pipeline.errors import InputError
+from pipeline.report.making import ReportParameters, report
 from pipeline.session.errors import SessionError
 from pipeline.session.identity import main_file
+from pipeline.session.make_calibration import (
+    CalibrationParameters,
+    CapturesParameters,
+    calibration,
+    captures,
+)
+from pipeline.session.make_probe import ProbeParameters, probe
+from pipeline.session.making import PREFIX
+from pipeline.verification.result import REFERENCE, VerificationParameters, verification
+from pipeline.verification.result import ROLES as VERIFICATION_ROLES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from pydantic import BaseModel
 
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from pipeline.calibration.files.calibration_file import Mount
-    from pipeline.calibration.orientation import Convention
     from pipeline.session.actions import Record
     from pipeline.session.state import State
     from pipeline.session.store import Session
 
-Recompute = Callable[[Mapping[str, Path], Mapping[str, Any], str | None], dict[str, bytes]]
-_P = TypeVar("_P", bound=BaseModel)
+# Inputs by role, parameters, the time to write; those in _FOLLOWED also `progress`, `cancelled` and `remember`.
+Recompute = Callable[..., dict[str, bytes]]
+RECOMPUTE: dict[str, Recompute] = {
+    "captures": captures,
+    "calibration": calibration,
+    "probe": probe,
+    "verification": verification,
+    "report": report,
+}
+# These take long: they tell how far they are, can be stopped, and may go on from what was computed before.
+_FOLLOWED = frozenset({"probe"})
+PARAMETERS: dict[str, type[BaseModel]] = {
+    "captures": CapturesParameters,
+    "calibration": CalibrationParameters,
+    "probe": ProbeParameters,
+    "verification": VerificationParameters,
+    "report": ReportParameters,
+}
 
-_Three = tuple[float, float, float]
+
+@dataclass(frozen=True)
+class Roles:
+    """
+    The roles of a kind's inputs.
+
+    Attributes
+    ----------
+    needed : tuple of str
+        Without one of them nothing is computed.
+    optional : tuple of str
+        Taken where the session has them.
+    on_request : tuple of str
+        Taken only where somebody names them.
+    """
+
+    needed: tuple[str, ...]
+    optional: tuple[str, ...] = ()
+    on_request: tuple[str, ...] = ()
+
+
+ROLES: dict[str, Roles] = {
+    # Poses of an interrupted run, which come first.
+    "captures": Roles(("recording",), on_request=("earlier",)),
+    "calibration": Roles(("poses",)),
+    "probe": Roles(("mesh",), ("alignment", "regions")),
+    "verification": Roles(VERIFICATION_ROLES, (REFERENCE,)),
+    "report": Roles(("verification", "probe"), ("calibration",)),
+}
+# Nothing keeps a heatmap as a result; what one is made from is chosen in the same way.
+_CHOSEN = {**ROLES, "heatmap": Roles(("recording", "probe", "calibration"))}
+# What of a role a result of another kind can be.
+_COMPUTED = {
+    "poses": "captures",
+    "earlier": "captures",
+    "probe": "probe",
+    "calibration": "calibration",
+    "verification": "verification",
+}
 
 
 def compute(
-    session: Session, kind: str, name: str, inputs: Mapping[str, str], parameters: Mapping[str, Any]
+    session: Session,
+    kind: str,
+    name: str,
+    inputs: Mapping[str, str],
+    parameters: Mapping[str, Any],
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
 ) -> Record:
     """
     Compute a result from what the session holds, and record it.
@@ -51,18 +120,93 @@ def compute(
     kind, name : str
         The kind is one of RECOMPUTE; for a probe and a calibration the name is the file's.
     inputs : mapping
-        Role -> SHA-256.
+        Role -> hash; see `newest_inputs`.
     parameters : mapping
         See the kind.
+    progress, cancelled : callable, optional
+        The share that is done, 0 to 1, and whether to stop; of what takes long.
 
     Raises
     ------
     InputError
         Nothing here computes that kind, an input is missing, or the computation refuses them.
+    Cancelled
+        `cancelled` answered True; nothing was recorded.
     """
     created = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-    files = recomputed(session.folder, session.state, kind, inputs, {**parameters, "name": name}, created)
+    if kind == "report":
+        parameters = {**_known_of(session), **parameters}
+    files = recomputed(
+        session.folder,
+        session.state,
+        kind,
+        inputs,
+        {**parameters, "name": name},
+        created,
+        progress=progress,
+        cancelled=cancelled,
+    )
     return session.add_result(kind, name, files, inputs, parameters, created=created)
+
+
+def _known_of(session: Session) -> dict[str, Any]:
+    """Return what a report can take from its session: who, of which one, and the sensors' serial numbers."""
+    state = session.state
+    known = {each.sensor: each.name for each in state.current_inputs.values() if each.sensor}
+    named = {f"sensor of {name}" if len(known) > 1 else "sensor": serial for serial, name in known.items()}
+    return {"operator": session.records[-1].entry.by, "session": state.id, "serials": named}
+
+
+def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = None) -> dict[str, str]:
+    """
+    Return what a result of a kind would be computed from: role -> `Input.content` or `Result.content`.
+
+    Parameters
+    ----------
+    state : State
+    kind : str
+        One of RECOMPUTE, or ``heatmap``.
+    chosen : mapping, optional
+        Role -> name of an input or result instead of the newest one; an empty name: none. A report's probe and
+        calibration are by themselves those of its verification.
+
+    Raises
+    ------
+    SessionError
+        Nothing here computes that kind, or there is nothing to compute it from.
+    """
+    if kind not in _CHOSEN:
+        raise SessionError(
+            f"{kind}: nothing here computes this kind of result: give one of {', '.join(RECOMPUTE)}."
+        )
+    chosen = chosen or {}
+    roles = _CHOSEN[kind]
+    asked = tuple(role for role in roles.on_request if chosen.get(role))
+    known = (*roles.needed, *roles.optional, *asked)
+    if strangers := sorted(set(chosen) - {*known, *roles.on_request}):
+        every = ", ".join((*roles.needed, *roles.optional, *roles.on_request))
+        raise SessionError(f"{strangers[0]}: a {kind} is computed from {every}.")
+    found: dict[str, str] = {}
+    for role in known:
+        # A report is about what was verified, also when there is a newer probe or calibration by now.
+        made = state.result_with(found.get("verification", "")) if kind == "report" else None
+        verified = made.action.inputs.get(role, "") if made is not None and role not in chosen else ""
+        newest = verified or _newest(state, role, chosen.get(role))
+        if newest:
+            found[role] = newest
+        elif role in roles.needed or chosen.get(role):
+            name = f" called {chosen[role]}" if chosen.get(role) else ""
+            raise SessionError(f"there are no {role}{name} in this session: add them with --kind {role}.")
+    return found
+
+
+def _newest(state: State, role: str, name: str | None) -> str:
+    inputs = [each for each in state.current_inputs.values() if each.kind == role]
+    results = [each for each in state.current_results.values() if each.action.kind == _COMPUTED.get(role, "")]
+    known = {each.number: (each.name, each.content) for each in inputs}
+    known |= {each.number: (each.action.name, each.content) for each in results}
+    fitting = [number for number, (called, _) in known.items() if name is None or called == name]
+    return known[max(fitting)][1] if fitting else ""
 
 
 def recomputed(
@@ -72,26 +216,107 @@ def recomputed(
     inputs: Mapping[str, str],
     parameters: Mapping[str, Any],
     created: str | None,
+    before: int | None = None,
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
 ) -> dict[str, bytes]:
-    """Return the files that a computation gives; the parameter ``name`` says what the main one is called."""
+    """
+    Return the files that a computation gives; the parameter ``name`` says what the main one is called.
+
+    `before` is the record up to which inputs are looked for: what was added later under the same hash may have
+    another name, and names are written into results. For `progress` and `cancelled` see `compute`.
+    """
     if kind not in RECOMPUTE:
         raise SessionError(
             f"{kind}: nothing here computes this kind of result: known are {', '.join(RECOMPUTE)}."
         )
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = {}
-        for number, (role, sha256) in enumerate(inputs.items()):
-            files[role] = _laid_out(folder, state, sha256, Path(scratch) / str(number))
-        return RECOMPUTE[kind](files, parameters, created)
+    with tempfile.TemporaryDirectory(prefix=PREFIX) as scratch:
+        files = lay_out(folder, state, inputs, Path(scratch), before)
+        try:
+            if kind in _FOLLOWED:
+                # Whoever looks at the past checks results, and has everything computed anew.
+                return RECOMPUTE[kind](
+                    files,
+                    parameters,
+                    created,
+                    progress=progress,
+                    cancelled=cancelled,
+                    remember=before is None,
+                )
+            return RECOMPUTE[kind](files, parameters, created)
+        except InputError as error:
+            raise SessionError(_without_places(str(error))) from error
 
 
-def _laid_out(folder: Path, state: State, sha256: str, target: Path) -> Path:
+def _without_places(text: str) -> str:
+    """Leave out the temporary folders in which things were computed: they are gone when this is read."""
+    place = re.escape(str(Path(tempfile.gettempdir()) / PREFIX))
+    return re.sub(place + r"[^/\\]*[/\\](?:[0-9]+[/\\])?", "", text)
+
+
+def parameter_of(kind: str, parameter: str, given: Mapping[str, Any]) -> Any:
+    """Return a parameter as a computation gets it, also when it is left out; as it is where nobody knows it."""
+    known = PARAMETERS.get(kind)
+    if known is None or parameter not in known.model_fields:
+        return given.get(parameter)
+    chosen = {parameter: given[parameter]} if parameter in given else {}
+    try:
+        return getattr(known.model_validate({"name": "-", **chosen}), parameter)
+    except ValidationError:
+        return given.get(parameter)
+
+
+def settings_of(state: State, kind: str) -> dict[str, Any]:
+    """Return the parameters that the session's settings give a computation; those set to null are left out."""
+    known = PARAMETERS[kind].model_fields if kind in PARAMETERS else {}
+    named = {
+        key.partition(".")[2]: each for key, each in state.settings.items() if key.startswith(f"{kind}.")
+    }
+    return {name: each.value for name, each in named.items() if name in known and each.value is not None}
+
+
+def lay_out(
+    folder: Path, state: State, inputs: Mapping[str, str], target: Path, before: int | None = None
+) -> dict[str, Path]:
+    """
+    Copy inputs, with what belongs to them and under the names they came with, into folders of their own.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the session.
+    state : State
+    inputs : mapping
+        Role -> hash; see `newest_inputs`.
+    target : Path
+        An empty folder.
+    before : int, optional
+        See `recomputed`.
+
+    Returns
+    -------
+    dict of str to Path
+        The main file by role.
+
+    Raises
+    ------
+    SessionError
+        The session does not hold one of them, or it cannot be read.
+    """
+    return {
+        role: _laid_out(folder, state, sha256, target / str(number), before)
+        for number, (role, sha256) in enumerate(inputs.items())
+    }
+
+
+def _laid_out(folder: Path, state: State, sha256: str, target: Path, before: int | None) -> Path:
     """Copy an input, under the name it came with, where a computation may read it; return where."""
     target.mkdir()
-    used = state.input_with(sha256)
-    made = None if used is not None else state.result_with(sha256)
+    used = state.input_with(sha256, before)
+    made = None if used is not None else state.result_with(sha256, before)
     if used is not None:
-        names, main = {used.name: used.file}, used.name
+        names, main = {used.name: used.file, **used.companions}, used.name
     elif made is not None:  # with what belongs to it, such as the names of a probe's regions
         names, main = dict(made.action.files), main_file(made.action)
     else:
@@ -102,198 +327,3 @@ def _laid_out(folder: Path, state: State, sha256: str, target: Path) -> Path:
     except OSError as error:
         raise SessionError(f"{folder}: an input cannot be read ({error}): see `session verify`.") from error
     return target / main
-
-
-# ---- calibration -------------------------------------------------------------------------------
-
-
-class _Parameters(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    name: str
-
-
-class CalibrationParameters(_Parameters):
-    """As the options of ``contactbench calibrate``; angles of the mount in degrees."""
-
-    euler: str | None = None
-    rotation_vector: bool = False
-    robot: str | None = None
-    radians: bool = False
-    inverse: bool = False
-    mount: _Three | None = None
-    estimate_mount: bool = False
-    noise_force: float | None = None
-    noise_torque: float | None = None
-    tip: _Three = (0.0, 0.0, 100.0)
-    contact_force: float = 10.0
-
-    def convention(self) -> Convention | None:
-        """Return how orientations are written; None: as the file's columns say."""
-        from pipeline.calibration.orientation import Convention, Kind
-
-        if sum(map(bool, (self.euler, self.rotation_vector, self.robot))) > 1:
-            raise SessionError("euler, rotation_vector and robot contradict each other: give one.")
-        degrees = not self.radians
-        if self.euler:
-            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
-        if self.rotation_vector:
-            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
-        if self.robot:
-            return Convention(Kind.JOINTS, degrees=degrees, robot=self.robot, inverse=self.inverse)
-        return Convention(inverse=True) if self.inverse else None
-
-    def rotation(self) -> NDArray[np.float64] | None:
-        """Return R_ES (3, 3), if it was given."""
-        from scipy.spatial.transform import Rotation
-
-        if self.mount is None:
-            return None
-        return Rotation.from_euler("xyz", self.mount, degrees=True).as_matrix()
-
-
-def calibration(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
-) -> dict[str, bytes]:
-    """Calibrate from ``poses``: the bytes that ``contactbench calibrate`` writes at that time."""
-    import numpy as np
-
-    from pipeline.calibration import ContactTask, PoseNoise, calibrate
-    from pipeline.calibration.files.calibration_file import save_calibration
-    from pipeline.calibration.files.pose_csv import read_poses
-    from pipeline.calibration.mounting import estimate_mount
-
-    given = _read(CalibrationParameters, parameters)
-    poses = _role(inputs, "poses")
-    noise = None
-    if (given.noise_force is None) != (given.noise_torque is None):
-        raise SessionError("noise_force, noise_torque: give both or none.")
-    if given.noise_force is not None and given.noise_torque is not None:
-        noise = PoseNoise(given.noise_force, given.noise_torque)
-    tip = np.array(given.tip) / 1000
-    normal = np.array([0.0, 0.0, -1.0 if tip[2] < 0 else 1.0])
-    task = ContactTask(tip, normal, given.contact_force)
-    table = read_poses(poses, given.convention(), R_ES=given.rotation())
-    mount = None
-    if given.estimate_mount:
-        mounted = estimate_mount(table.poses, noise, task=task)
-        found, mount = mounted.calibration, _mount(mounted.R_SE, mounted.rotation_covariance)
-    else:
-        found = calibrate(table.poses, noise, task=task)
-    time = None if created is None else datetime.fromisoformat(created)
-    with _folder_for(given.name, ".json") as out:
-        save_calibration(found, out, source=poses, created=time, mount=mount)
-        return {given.name: out.read_bytes()}
-
-
-def _mount(R_SE: NDArray[np.float64], covariance: NDArray[np.float64]) -> Mount:
-    import numpy as np
-    from scipy.spatial.transform import Rotation
-
-    from pipeline.calibration.files.calibration_file import Mount
-
-    x, y, z, w = Rotation.from_matrix(R_SE).as_quat(canonical=True)
-    return Mount(np.array([w, x, y, z]), covariance)
-
-
-# ---- probe -------------------------------------------------------------------------------------
-
-
-class ProbeParameters(_Parameters):
-    """As the options of ``contactbench probe prepare``; mount: mm, then degrees about the fixed axes."""
-
-    units: str = "auto"
-    close: list[str] = []
-    alpha: float | None = None
-    gap: float | None = None
-    mount: tuple[float, float, float, float, float, float] | None = None
-    facets: int | None = None
-    max_deviation: float | None = None
-    max_contact_error: float | None = None
-    forces: tuple[float, float] = (8.0, 10.0)
-    engine: str = "auto"
-    region_ratio: float = 1.0
-
-
-def probe(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], _created: str | None
-) -> dict[str, bytes]:
-    """Prepare a probe from ``mesh``: the bytes that ``contactbench probe prepare`` writes."""
-    from typing import cast, get_args
-
-    from pipeline.mesh.shell import Closing
-    from pipeline.mesh.sidecar import save_probe_file, sidecar_of
-    from pipeline.mesh.simplify import Engine
-    from pipeline.preparation.alignment import from_angles
-    from pipeline.preparation.prepare import prepare
-
-    given = _read(ProbeParameters, parameters)
-    if given.engine not in get_args(Engine) or not set(given.close) <= set(Closing):
-        raise SessionError(f"engine {given.engine!r}, close {given.close!r}: no such engine or way to close.")
-    ways = [Closing(each) for each in given.close]
-    done = prepare(
-        _role(inputs, "mesh"),
-        cast("Any", given.units),
-        ways[0] if len(ways) == 1 else ways or Closing.AUTO,
-        alpha=_metres(given.alpha),
-        gap=_metres(given.gap),
-        alignment=None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:])),
-        target=_target(given),
-        engine=cast("Engine", given.engine),
-        region_ratio=given.region_ratio,
-    )
-    with _folder_for(given.name, ".ply") as out:
-        save_probe_file(done.content, out)
-        return {file.name: file.read_bytes() for file in (out, sidecar_of(out))}
-
-
-def _target(given: ProbeParameters) -> Callable[[Any], Any]:
-    from pipeline.mesh.simplify import Count, MaxDeviation
-    from pipeline.preparation.ladder import ExpectedTouches
-    from pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
-
-    if sum(each is not None for each in (given.facets, given.max_deviation, given.max_contact_error)) > 1:
-        raise SessionError("facets, max_deviation and max_contact_error: give one of them.")
-    if given.facets is not None:
-        count = Count(given.facets)
-        return lambda _: (count, None)
-    if given.max_deviation is not None:
-        deviation = MaxDeviation(given.max_deviation / 1000)
-        return lambda _: (deviation, None)
-    limit = DEFAULT_LIMIT if given.max_contact_error is None else given.max_contact_error / 1000
-    wanted = ContactTarget(limit, ExpectedTouches(force=given.forces))
-    return lambda content: wanted.of(content.probe)
-
-
-RECOMPUTE: dict[str, Recompute] = {"calibration": calibration, "probe": probe}
-
-
-# ---- shared ------------------------------------------------------------------------------------
-
-
-def _read(kind: type[_P], parameters: Mapping[str, Any]) -> _P:
-    try:
-        return kind.model_validate(dict(parameters))
-    except ValidationError as error:
-        first = error.errors(include_url=False)[0]
-        where = ".".join(map(str, first["loc"]))
-        raise SessionError(f"parameter {where}: {first['msg']}: correct it.") from error
-
-
-def _role(inputs: Mapping[str, Path], role: str) -> Path:
-    if set(inputs) != {role}:
-        raise SessionError(f"inputs: one is needed, {role}; there are {', '.join(inputs) or 'none'}.")
-    return inputs[role]
-
-
-def _metres(millimetres: float | None) -> float | None:
-    return None if millimetres is None else millimetres / 1000
-
-
-@contextmanager
-def _folder_for(name: str, suffix: str) -> Iterator[Path]:
-    """Give a place for a file of this name that is gone afterwards."""
-    if Path(name).name != name or not name.endswith(suffix):
-        raise SessionError(f"{name}: a result of this kind is a file whose name ends in {suffix}.")
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        yield Path(scratch) / name

@@ -82,7 +82,13 @@ def _again(session: Session, result: Result) -> tuple[Outcome, str]:
     parameters = {**action.parameters, "name": action.name}
     try:
         files = recomputed(
-            session.folder, session.state, action.kind, action.inputs, parameters, action.created
+            session.folder,
+            session.state,
+            action.kind,
+            action.inputs,
+            parameters,
+            action.created,
+            before=result.number,
         )
     except InputError as error:
         return Outcome.FAILED, f"it cannot be computed again: {error}"

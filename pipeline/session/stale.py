@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pipeline.session.recompute import parameter_of
+from pipeline.session.sources import Recorded, sources_of
 from pipeline.session.state import MESH
 
 if TYPE_CHECKING:
-    from pipeline.session.state import Input, Result, State
+    from collections.abc import Iterator
+
+    from pipeline.session.state import Input, Result, Setting, State
 
 
 def stale_results(state: State) -> dict[tuple[str, str], tuple[str, ...]]:
@@ -15,9 +19,10 @@ def stale_results(state: State) -> dict[tuple[str, str], tuple[str, ...]]:
     Say of each current result why it is stale.
 
     A result is stale when one of its inputs has another content now or was measured before its sensor was
-    re-zeroed, when a result that it was computed from was computed anew with another outcome or is stale itself,
-    when a parameter was set to another value than the one it was computed with, or when somebody says so. Contents
-    are compared, not times: what is put back as it was is not stale.
+    re-zeroed, when a result that it was computed from was computed anew with another outcome, is stale itself or was
+    rejected, when a parameter was set to another value than the one it was computed with, or when somebody says so.
+    Contents are compared, not times: what is put back as it was is not stale. But a recording stays as old as it is:
+    adding it again, or under another name, makes it no newer.
 
     Returns
     -------
@@ -25,74 +30,100 @@ def stale_results(state: State) -> dict[tuple[str, str], tuple[str, ...]]:
         (kind, name) -> sentences; empty for a result that holds.
     """
     judge = _Judge(state)
-    for result in state.results:  # oldest first, so that no long chain is followed all at once
-        judge.reasons(result)
     return {slot: judge.reasons(result) for slot, result in state.current_results.items()}
 
 
 class _Judge:
     def __init__(self, state: State) -> None:
-        self._state = state
         self._inputs, self._results = state.current_inputs, state.current_results
+        self._outcomes = {slot: result.outcome for slot, result in self._results.items()}
+        self._sources = sources_of(state)
+        self._recorded = Recorded(state.inputs)
+        self._rezeros = {each.sensor: each for each in state.rezeros}  # the newest of each sensor
+        self._settings: dict[str, list[tuple[str, Setting]]] = {}
+        for key, setting in state.settings.items():
+            kind, parameter = key.split(".", 1)
+            self._settings.setdefault(kind, []).append((parameter, setting))
         self._known: dict[int, tuple[str, ...]] = {}
 
     def reasons(self, result: Result) -> tuple[str, ...]:
-        """Return the reasons; what refers to itself in a circle, in a journal made by hand, adds none."""
-        if result.number not in self._known:
-            self._known[result.number] = ()
-            found = [
-                *(reason for sha256 in result.action.inputs.values() for reason in self._of_input(sha256)),
-                *self._of_parameters(result),
-                *_said(result),
-            ]
-            self._known[result.number] = tuple(dict.fromkeys(found))
+        """Return the reasons; those of what it was computed from are found first, however long the chain is."""
+        path, met = [(result, self._before(result))], {result.number}
+        while path:
+            last, rest = path[-1]
+            following = next((each for each in rest if each.number not in met), None)
+            if following is not None:
+                met.add(following.number)
+                if following.number not in self._known:
+                    path.append((following, self._before(following)))
+                continue
+            path.pop()
+            if last.number not in self._known:
+                self._known[last.number] = tuple(dict.fromkeys((*self._own(last), *self._inherited(last))))
         return self._known[result.number]
 
-    def _of_input(self, sha256: str) -> list[str]:
-        used = self._state.input_with(sha256)
-        if used is not None:
-            return self._of_raw(used)
-        made = self._state.result_with(sha256)
-        if made is None:
-            return [f"It was computed from the content {sha256[:12]}, which this session does not hold."]
+    def _before(self, result: Result) -> Iterator[Result]:
+        for source in self._sources[result.number]:
+            for made in source.results:
+                yield self._results[made.slot]
+
+    def _own(self, result: Result) -> Iterator[str]:
+        """Yield what makes it stale by itself."""
+        for source in self._sources[result.number]:
+            for used in source.inputs:
+                yield from self._of_raw(used)
+        yield from self._of_parameters(result)
+        yield from _said(result)
+
+    def _inherited(self, result: Result) -> Iterator[str]:
+        for source in self._sources[result.number]:
+            for made in source.results:
+                yield from self._of_made(made)
+
+    def _of_made(self, made: Result) -> Iterator[str]:
         newest = self._results[made.slot]
-        if newest.number != made.number:
-            return [f"The {made.title} that it was computed from was computed anew on {newest.at}."]
-        return [
-            f"It was computed from the {made.title}, which is stale: {why}" for why in self.reasons(made)[:1]
-        ]
+        if made.outcome != self._outcomes[made.slot]:
+            yield f"The {made.title} that it was computed from was computed anew on {newest.at}."
+            return
+        # In a circle, which the newest results of journals made by hand can be, what it is by itself must do.
+        known = self._known.get(newest.number)
+        why = next(self._own(newest), None) if known is None else next(iter(known), None)
+        if why is not None:
+            yield f"It was computed from the {made.title}, which is stale: {why}"
 
-    def _of_raw(self, used: Input) -> list[str]:
-        newest, found = self._inputs[used.slot], []
-        if newest.file.sha256 != used.file.sha256:
+    def _of_raw(self, used: Input) -> Iterator[str]:
+        newest = self._inputs[used.slot]
+        if newest.number != used.number and newest.content != used.content:
             what = "The mesh" if used.kind == MESH else f"The {used.kind} {used.name}"
-            found.append(f"{what} that it was computed from was replaced by {newest.name} on {newest.at}.")
+            yield f"{what} that it was computed from was replaced by {newest.name} on {newest.at}."
         if used.kind != MESH:
-            found += self._of_rezeros(used)
-        return found
+            yield from self._of_rezeros(used)
 
-    def _of_rezeros(self, used: Input) -> list[str]:
-        for rezero in self._state.rezeros:
-            # A recording of which nobody said the sensor may be of this one.
-            if rezero.number > used.number and used.sensor in {None, rezero.sensor}:
+    def _of_rezeros(self, used: Input) -> Iterator[str]:
+        sensors = self._recorded.sensors(used)
+        # A recording of which nobody said the sensor may be of this one.
+        for sensor in sensors or self._rezeros:
+            rezero = self._rezeros.get(sensor)
+            if rezero is not None and self._recorded.is_before(used, rezero):
                 why = f" ({rezero.reason})" if rezero.reason else ""
                 what = f"The sensor {rezero.sensor} was re-zeroed on {rezero.at}{why}"
-                return [f"{what}, after the {used.kind} {used.name} was recorded."]
-        return []
+                yield f"{what}, after the {used.kind} {used.name} was recorded."
+                return
 
-    def _of_parameters(self, result: Result) -> list[str]:
-        found = []
-        for key, setting in self._state.settings.items():
-            kind, parameter = key.split(".", 1)
-            used = result.action.parameters.get(parameter)
-            if kind == result.action.kind and setting.number > result.number and setting.value != used:
-                found.append(
-                    f"The parameter {key} was set to {setting.value!r} on {setting.at}; it was computed with {used!r}."
+    def _of_parameters(self, result: Result) -> Iterator[str]:
+        kind, given = result.action.kind, result.action.parameters
+        for parameter, setting in self._settings.get(kind, ()):
+            if setting.number < result.number:
+                continue
+            used = parameter_of(kind, parameter, given)
+            if parameter_of(kind, parameter, {**given, parameter: setting.value}) != used:
+                yield (
+                    f"The parameter {kind}.{parameter} was set to {setting.value!r} on {setting.at}; it was computed"
+                    f" with {used!r}."
                 )
-        return found
 
 
-def _said(result: Result) -> list[str]:
-    if not result.marks or result.marks[-1].mark != "stale":
-        return []
-    return [f"It was marked as stale: {result.marks[-1].reason or 'no reason was given'}."]
+def _said(result: Result) -> Iterator[str]:
+    if result.mark is not None and result.mark.mark in {"stale", "rejected"}:
+        what = "marked as stale" if result.mark.mark == "stale" else "rejected"
+        yield f"It was {what}: {result.mark.reason or 'no reason was given'}."

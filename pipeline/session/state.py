@@ -17,10 +17,10 @@ from pipeline.session.actions import (
     ResultMarked,
     SessionCreated,
 )
-from pipeline.session.identity import content_hash, main_file
+from pipeline.session.identity import content_hash, input_hash, main_file
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
 MESH = "mesh"
 
@@ -41,6 +41,10 @@ class Input:
         Of its record.
     at : str
         When, UTC.
+    companions : mapping
+        Name -> file that lay beside it.
+    about : mapping
+        What is known about it: JSON values, such as the counters of a recording.
     """
 
     kind: str
@@ -49,6 +53,13 @@ class Input:
     sensor: str | None
     number: int
     at: str
+    companions: Mapping[str, FileRef] = field(default_factory=dict)
+    about: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def content(self) -> str:
+        """SHA-256 that results refer to it by; also over its companions, if it has any."""
+        return input_hash(self.file, self.companions)
 
     @property
     def slot(self) -> tuple[str, str]:
@@ -92,13 +103,28 @@ class Result:
 
     @property
     def file(self) -> FileRef:
-        """Its main file: the one that others refer to."""
+        """Its main file: the one that others are computed from."""
         return self.action.files[main_file(self.action)]
 
     @property
     def content(self) -> str:
         """Its hash: of kind, name, inputs, parameters and files, without any time."""
         return content_hash(self.action)
+
+    @property
+    def known_as(self) -> set[str]:
+        """What others may refer to it by: its hash, and those of its files."""
+        return {self.content, *(file.sha256 for file in self.action.files.values())}
+
+    @property
+    def outcome(self) -> dict[str, str]:
+        """Name -> SHA-256 of its files."""
+        return {name: file.sha256 for name, file in self.action.files.items()}
+
+    @property
+    def mark(self) -> ResultMarked | None:
+        """The newest thing that was said of it."""
+        return self.marks[-1] if self.marks else None
 
 
 @dataclass(frozen=True)
@@ -129,8 +155,8 @@ class State:
     ----------
     id : str
         Of the session.
-    migrated_from : int or None
-        Version of the journal that it was migrated from.
+    origins : dict
+        Version -> SHA-256 of the journal that it was migrated from.
     inputs : tuple of Input
         All, oldest first, also those that others took the place of.
     results : tuple of Result
@@ -167,14 +193,17 @@ class State:
         """The mesh in use."""
         return self.current_inputs.get((MESH, ""))
 
-    def input_with(self, sha256: str) -> Input | None:
-        """Return the newest input of this content."""
-        return next((each for each in reversed(self.inputs) if each.file.sha256 == sha256), None)
+    def input_with(self, sha256: str, before: int | None = None) -> Input | None:
+        """Return the newest input of this `Input.content`, of those before a record."""
+        for each in reversed(self.inputs):
+            if (before is None or each.number < before) and each.content == sha256:
+                return each
+        return None
 
-    def result_with(self, sha256: str) -> Result | None:
-        """Return the newest result that has a file of this content."""
+    def result_with(self, sha256: str, before: int | None = None) -> Result | None:
+        """Return the newest result of this `Result.content`, or with such a file, of those before a record."""
         for each in reversed(self.results):
-            if any(file.sha256 == sha256 for file in each.action.files.values()):
+            if (before is None or each.number < before) and sha256 in each.known_as:
                 return each
         return None
 
@@ -209,10 +238,12 @@ class _Gathered:
                 self._id = action.id
                 if action.migrated_from is not None:
                     self._origins = {action.migrated_from.version: action.migrated_from.sha256}
-            case InputAdded(kind=kind, name=name, file=file, sensor=sensor):
-                self._inputs.append(Input(kind, name, file, sensor, number, at))
-            case MeshChanged(name=name, file=file):
-                self._inputs.append(Input(MESH, name, file, None, number, at))
+            case InputAdded() as new:
+                self._inputs.append(
+                    Input(new.kind, new.name, new.file, new.sensor, number, at, new.companions, new.about)
+                )
+            case MeshChanged() as mesh:
+                self._inputs.append(Input(MESH, mesh.name, mesh.file, None, number, at, mesh.companions))
             case ResultAdded() as action:
                 self._newest[action.kind, action.name] = len(self._results)
                 self._results.append(Result(action, number, at, record.entry.tool))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import secrets
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, Self
 
 from pipeline.durable import make_folder, sync_folder, write_durably
@@ -21,7 +22,17 @@ from pipeline.session.actions import (
 )
 from pipeline.session.entries import NOWHERE, checked, entry, user
 from pipeline.session.errors import SessionError
-from pipeline.session.files import FOLDERS, chunks_of, regular, remove_scratch, store
+from pipeline.session.files import (
+    FOLDERS,
+    chunks_of,
+    own_file,
+    refuse_links,
+    regular,
+    remove_scratch,
+    store,
+    take_in,
+    unfinished,
+)
 from pipeline.session.journal import JOURNAL, JournalWriter
 from pipeline.session.lock import LOCK, Lock
 from pipeline.session.reading import Content, read_content
@@ -54,6 +65,11 @@ class Session:
         self, folder: Path, read: Content, lock: Lock | None, writer: JournalWriter | None, by: str
     ) -> None:
         self.folder, self.notes = folder, read.notes
+        if left := unfinished(folder):
+            words = (
+                f"{folder / left[0]}: this recording ended abruptly: `contactbench session repair` adopts it."
+            )
+            self.notes = (*self.notes, words if lock else f"{words[:-1]}, unless it is being made.")
         self._records = list(read.records)
         self._lock, self._writer, self._by = lock, writer, by
         self._state: State | None = None
@@ -69,14 +85,10 @@ class Session:
             There is something in the folder, or it cannot be made.
         """
         make_folder(folder)
+        _refuse_content(folder)  # before there is a lock: nothing is left in a folder that is somebody else's
         lock = Lock(folder)
         try:
-            # What a crash leaves before the journal is there may be taken up again.
-            other = sorted(each.name for each in folder.iterdir() if each.name not in {LOCK, *FOLDERS})
-            if JOURNAL in other:
-                raise SessionError(f"{folder}: there is a session already: choose another folder.")
-            if any(not name.startswith(f".{JOURNAL}.") for name in other):
-                raise SessionError(f"{folder}: the folder holds {other[0]}: choose an empty one.")
+            _refuse_content(folder)  # another process may have made one meanwhile
             for name in FOLDERS:
                 (folder / name).mkdir(exist_ok=True)
             by = user() if by is None else by
@@ -111,6 +123,7 @@ class Session:
             (SessionLockedError).
         """
         read = read_content(folder)
+        refuse_links(folder)
         if not write:
             return cls(folder, read, None, None, "")
         lock, writer = Lock(folder), None
@@ -166,22 +179,70 @@ class Session:
     # ---- adding ------------------------------------------------------------------------------------
 
     def add_input(
-        self, file: Path, kind: str, *, name: str | None = None, sensor: str | None = None
+        self,
+        file: Path,
+        kind: str,
+        *,
+        name: str | None = None,
+        sensor: str | None = None,
+        companions: Mapping[str, Path] | None = None,
+        about: Mapping[str, Any] | None = None,
     ) -> Record:
-        """Copy a raw input into the session; one of the kind ``mesh`` becomes the mesh in use."""
+        """
+        Copy a raw input into the session; one of the kind ``mesh`` becomes the mesh in use.
+
+        Parameters
+        ----------
+        file : path
+        kind : str
+        name : str, optional
+            Left out: that of the file.
+        sensor : str, optional
+            Serial number of the sensor that it was recorded with.
+        companions : mapping, optional
+            Name -> file that computations find beside it; see `companions_of`.
+        about : mapping, optional
+            What is known about it, JSON values; ``started``: when it was recorded, ISO 8601. Not for a mesh.
+        """
         name = file.name if name is None else name
         source = chunks_of(regular(file))
+        beside = {each: chunks_of(regular(path)) for each, path in (companions or {}).items()}
         if kind == MESH:
-            return self.change_mesh(name, source)
+            return self.change_mesh(name, source, beside)
+        given = {"kind": kind, "name": name, "sensor": sensor, "about": dict(about or {})}
         # Refused before anything is copied.
-        checked(InputAdded, kind=kind, name=name, file=NOWHERE, sensor=sensor)
-        ref = self._store("raw", name, source)
-        return self._append(checked(InputAdded, kind=kind, name=name, file=ref, sensor=sensor), sensor)
+        checked(InputAdded, file=NOWHERE, companions=dict.fromkeys(beside, NOWHERE), **given)
+        ref, refs = self._store("raw", name, source), self._store_all("raw", beside)
+        return self._append(checked(InputAdded, file=ref, companions=refs, **given), sensor)
 
-    def change_mesh(self, name: str, chunks: Iterable[bytes]) -> Record:
+    def change_mesh(
+        self, name: str, chunks: Iterable[bytes], companions: Mapping[str, Iterable[bytes]] | None = None
+    ) -> Record:
         """Use another mesh from now on; what was computed from the one before becomes stale."""
-        checked(MeshChanged, name=name, file=NOWHERE)
-        return self._append(checked(MeshChanged, name=name, file=self._store("meshes", name, chunks)))
+        companions = companions or {}
+        checked(MeshChanged, name=name, file=NOWHERE, companions=dict.fromkeys(companions, NOWHERE))
+        ref, refs = self._store("meshes", name, chunks), self._store_all("meshes", companions)
+        return self._append(checked(MeshChanged, name=name, file=ref, companions=refs))
+
+    def adopt(
+        self, file: Path, kind: str, *, name: str, sensor: str | None, about: Mapping[str, Any]
+    ) -> Record:
+        """Make a file that was written in the session's own folder an input; it gets its place there, and no copy."""
+        given = {"kind": kind, "name": name, "sensor": sensor, "about": dict(about)}
+        checked(InputAdded, file=NOWHERE, **given)
+        self._needs_writer()
+        try:
+            ref = take_in(self.folder, "raw", own_file(file), name)
+        except OSError as error:
+            raise SessionError(
+                f"{file}: the file cannot be taken into the session ({error}): free space or check the disk, then"
+                " `contactbench session repair`; nothing is lost."
+            ) from error
+        record = self._append(checked(InputAdded, file=ref, **given), sensor)
+        # Only now: a crash before leaves it for `repair`.
+        with suppress(OSError):
+            file.unlink()
+        return record
 
     def set_parameter(self, key: str, value: Any) -> Record:
         """Set ``kind.parameter`` to a JSON value."""
@@ -207,7 +268,7 @@ class Session:
         files : mapping
             Name -> content; others refer to the one with the result's name, or else the first.
         inputs : mapping
-            Role -> SHA-256 of what it was computed from: inputs, meshes, files of other results.
+            Role -> hash of what it was computed from: `Input.content` or `Result.content`; a file's also does.
         parameters : mapping
             JSON values with which it was computed.
         created : str, optional
@@ -231,7 +292,7 @@ class Session:
                 raise SessionError(
                     f"{role}: the session holds nothing with the hash {sha256[:12]}: add it first."
                 )
-        refs = {each: self._store("results", each, (content,)) for each, content in files.items()}
+        refs = self._store_all("results", {each: (content,) for each, content in files.items()})
         return self._append(checked(ResultAdded, files=refs, **given))
 
     def mark(
@@ -242,9 +303,13 @@ class Session:
             raise SessionError(f"{self.folder}: there is no result {kind} {name}: `session info` lists them.")
         return self._append(checked(ResultMarked, kind=kind, name=name, mark=mark, reason=reason))
 
-    def note(self, text: str) -> Record:
-        """Write words into the journal."""
-        return self._append(checked(Note, text=text))
+    def check_writable(self) -> None:
+        """SessionError if nothing can be added: it is open for reading only, or its lock is gone."""
+        self._needs_writer()
+
+    def note(self, text: str, *, sensor: str | None = None) -> Record:
+        """Write words into the journal; `sensor`: the serial number of the one that they are about."""
+        return self._append(checked(Note, text=text), sensor)
 
     def rezeroed(self, sensor: str, reason: str = "") -> Record:
         """Record that a sensor's zero was moved; what rests on older recordings of it becomes stale."""
@@ -260,6 +325,9 @@ class Session:
                 " nothing was recorded."
             ) from error
 
+    def _store_all(self, folder: str, files: Mapping[str, Iterable[bytes]]) -> dict[str, FileRef]:
+        return {name: self._store(folder, name, chunks) for name, chunks in files.items()}
+
     def _append(self, action: Action, sensor: str | None = None) -> Record:
         writer = self._needs_writer()
         made = entry(action, self._by, sensor)
@@ -270,6 +338,21 @@ class Session:
         return record
 
     def _needs_writer(self) -> JournalWriter:
-        if self._writer is None:
+        if self._writer is None or self._lock is None:
             raise SessionError(f"{self.folder}: the session is open for reading only: open it for writing.")
+        if self._lock.held:  # a closed one says so itself
+            self._lock.check()
         return self._writer
+
+
+def _refuse_content(folder: Path) -> None:
+    # What a crash leaves before the journal is there may be taken up again.
+    try:
+        other = sorted(each.name for each in folder.iterdir() if each.name not in {LOCK, *FOLDERS})
+    except OSError as error:
+        raise SessionError(f"{folder}: the folder cannot be read ({error}): choose another place.") from error
+    if JOURNAL in other:
+        raise SessionError(f"{folder}: there is a session already: choose another folder.")
+    if any(not name.startswith(f".{JOURNAL}.") for name in other):
+        raise SessionError(f"{folder}: the folder holds {other[0]}: choose an empty one.")
+    refuse_links(folder)

@@ -140,3 +140,21 @@ def test_a_single_pose_or_a_repeated_moment_makes_no_pose_up(tmp_path: Path) -> 
     poses, there = poses_at(track, np.array([1000.0, 1001.0]))
     assert not there.any()
     assert np.isnan(poses).all()
+
+
+def test_counts_keep_all_their_digits(tmp_path: Path) -> None:
+    counts = [2**63 - 1, 2**53 + 1, 0]
+    with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
+        for sample, count in zip(wrench_samples(3), counts, strict=True):
+            writer.wrench(replace(sample, sequence=count))
+    write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
+    assert [int(cell) for cell in table(tmp_path / "r.csv")["sequence"]] == counts
+
+
+def test_unknown_positions_are_empty_cells(tmp_path: Path) -> None:
+    with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
+        for number in range(2):
+            writer.flange(FlangeSample(1000.0 + number, np.eye(3), np.array([np.nan, 0.5, np.nan])))
+    write_csv(tmp_path / "r.csv", read_recording(tmp_path / "r.mcap"))
+    cells = table(tmp_path / "r.csv")
+    assert (cells["px"], cells["py"], cells["qw"]) == (["", ""], ["0.5", "0.5"], ["1.0", "1.0"])

@@ -20,15 +20,15 @@ def turning(times, angle=40.0):
     return Rotation.from_euler("xyz", np.column_stack((a, b, 0 * a)))
 
 
-def tracks(delay, noise=0.05, seconds=20.0, angle=40.0, seed=0):
+def tracks(delay, noise=0.05, seconds=20.0, angle=40.0, seed=0, start=100.0):
     rng = np.random.default_rng(seed)
-    heard = np.arange(0, seconds, 1 / 200) + 100.0
+    heard = np.arange(0, seconds, 1 / 200) + start
     forces = R_SE.apply(turning(heard - delay, angle).inv().apply(G)) + [1.0, -2.0, 3.0]
     wrenches = np.column_stack((forces + rng.normal(0, noise, forces.shape), np.zeros((len(heard), 3))))
     n = len(heard)
     none = np.full(n, np.nan)
     force = WrenchTrack(heard, wrenches, np.arange(n), np.zeros(n, dtype=np.int64), none, none)
-    said = np.arange(-1, seconds + 1, 1 / 50) + 100.0
+    said = np.arange(-1, seconds + 1, 1 / 50) + start
     R_BE = turning(said, angle).as_matrix()
     pose = FlangeTrack(
         said, R_BE, np.full((len(said), 3), np.nan), np.zeros((len(said), 0)), np.full(len(said), np.nan)
@@ -79,3 +79,38 @@ def test_too_little_is_refused():
     late = FlangeTrack(pose.times + 50, pose.R_BE, pose.p_BE_B, pose.joints, pose.device_time)
     with pytest.raises(RecordingError, match="record both for longer"):
         estimate_delay(force, late)
+
+
+def thinned(pose, kept):
+    return FlangeTrack(*(values[kept] for values in vars(pose).values()))
+
+
+def test_a_sensor_and_a_robot_on_one_grid():
+    force, _ = tracks(0.05, start=0.0)
+    both = np.arange(0, 20, 0.01)
+    pose = FlangeTrack(
+        both,
+        turning(both).as_matrix(),
+        np.zeros((len(both), 3)),
+        np.zeros((len(both), 0)),
+        np.full(len(both), np.nan),
+    )
+    found = estimate_delay(force, pose)
+    assert abs(found.seconds - 0.05) < 1e-3
+
+
+@pytest.mark.parametrize("gap", [0.26, 0.27, 0.35, 0.6, 2.0])
+def test_rows_beside_a_gap_are_left_out_at_every_shift(gap):
+    force, pose = tracks(0.05)
+    found = estimate_delay(force, thinned(pose, ~((pose.times > 108) & (pose.times < 108 + gap))))
+    assert abs(found.seconds - 0.05) < max(4 * found.sigma, 2e-4)
+    assert not found.doubt
+
+
+def test_a_touch_makes_the_delay_doubtful():
+    force, pose = tracks(0.05)
+    assert not estimate_delay(force, pose).doubt
+    force.wrenches[(force.times > 108) & (force.times < 109), 0] += 20.0
+    found = estimate_delay(force, pose)
+    assert "was something touched" in found.doubt
+    assert found.doubt in found.sentence

@@ -24,6 +24,7 @@ from pipeline.recording import (
     RecordingInfo,
     RecordingReader,
     RecordingWriter,
+    SampleError,
     read_recording,
 )
 
@@ -291,3 +292,49 @@ def test_quaternions_for_viewers(vector: list[float], scale: float) -> None:
         assert body["w"] >= 0
         assert np.linalg.norm(quaternion) == pytest.approx(1, abs=1e-12)
         np.testing.assert_allclose(Rotation.from_quat(quaternion).as_matrix(), R, atol=1e-12)
+
+
+@pytest.mark.parametrize("fails", [1, 2, 5])
+def test_a_disk_that_is_full_at_the_start_leaves_no_file_that_bars_the_name(
+    fails: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real_write, calls = os.write, 0
+
+    def full(file: int, data: Any) -> int:
+        nonlocal calls
+        calls += 1
+        if calls >= fails:
+            raise OSError(28, "No space left on device")
+        return real_write(file, data)
+
+    monkeypatch.setattr(os, "write", full)
+    with pytest.raises(RecordingError, match="No space left"):
+        RecordingWriter(tmp_path / "r.mcap", ABOUT)
+    monkeypatch.undo()
+    assert not (tmp_path / "r.mcap").exists()
+    RecordingWriter(tmp_path / "r.mcap", ABOUT).close()
+
+
+def test_a_folder_that_cannot_be_synced_leaves_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(_: Path) -> None:
+        raise OSError(5, "Input/output error")
+
+    monkeypatch.setattr("pipeline.recording.chunked.sync_folder", broken)
+    with pytest.raises(RecordingError, match="choose another disk"):
+        RecordingWriter(tmp_path / "r.mcap", ABOUT)
+    assert not (tmp_path / "r.mcap").exists()
+
+
+def test_a_note_that_is_no_text_is_kept_as_an_escape(tmp_path: Path) -> None:
+    about = RecordingInfo(10**18, 0.0, note="from " + os.fsdecode(b"\xff.mcap"))
+    RecordingWriter(tmp_path / "r.mcap", about).close()
+    assert read_recording(tmp_path / "r.mcap").info.note == "from \\udcff.mcap"
+
+
+def test_times_that_arrays_cannot_subtract_are_refused(tmp_path: Path) -> None:
+    writer = RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 1.7e308))
+    with pytest.raises(SampleError, match="no time near the start"):
+        writer.wrench(WrenchSample(1.7e308, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    writer.close()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +13,8 @@ from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 
 from pipeline.recording import RecordingError, read_recording
-from pipeline.recording.ros2 import Wanted, import_ros2, list_topics
+from pipeline.recording.ros2 import Wanted, import_ros2
+from pipeline.recording.ros2_survey import list_topics
 from pipeline.recording.ros2_types import DEFINITIONS, JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
 from pipeline.robot import Robot
 
@@ -208,3 +211,166 @@ def test_hostile_messages_are_refused(kind: str) -> None:
                 decode(body)
             except ValueError:
                 continue
+
+
+STILL = Rotation.identity()
+CHAIN = Wanted(base="base", flange="flange")
+
+
+def test_links_in_several_messages_make_no_mixtures(bag: Bag, tmp_path: Path) -> None:
+    for number in range(12):
+        R = Rotation.from_euler("z", 30 * number, degrees=True)
+        bag.transforms(number, ("base", "arm", R, [0, 0, 0]))
+        bag.transforms(number, ("arm", "flange", R.inv(), [0, 0, 0.1 * number]))
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN)
+    assert (done.poses, done.warnings) == (12, ())
+    track = read_recording(tmp_path / "r.mcap").flanges["/flange"]
+    np.testing.assert_allclose(track.R_BE, np.tile(np.eye(3), (12, 1, 1)), atol=1e-12)
+    np.testing.assert_allclose(track.p_BE_B[:, 2], 0.1 * np.arange(12), atol=1e-12)
+    np.testing.assert_allclose(track.times, 0.01 * np.arange(12), atol=1e-12)
+
+
+def test_links_that_are_heard_of_different_moments_are_told(bag: Bag, tmp_path: Path) -> None:
+    for number in range(0, 40, 2):
+        bag.transforms(number, ("base", "arm", turned(number), [0, 0, 0]))
+        bag.transforms(number + number % 20 // 10, ("arm", "flange", turned(number), [0, 0, 0]))
+    file = bag.close()
+    done = import_ros2(file, tmp_path / "r.mcap", CHAIN)
+    assert done.poses == 10
+    assert "moments have no pose" in done.warnings[0]
+    bag = Bag(tmp_path / "never.mcap")
+    for number in range(10):
+        bag.wrench(number)
+        bag.transforms(2 * number, ("base", "arm", turned(number), [0, 0, 0]))
+        bag.transforms(2 * number + 1, ("arm", "flange", turned(number), [0, 0, 0]))
+    done = import_ros2(bag.close(), tmp_path / "n.mcap", CHAIN)
+    assert done.poses == 0
+    assert "the transforms to arm, flange never have the same time stamp" in done.warnings[0]
+
+
+def test_a_link_that_never_changes_needs_no_time_stamp(bag: Bag, tmp_path: Path) -> None:
+    bag.transforms(0, ("arm", "flange", STILL, [0, 0, 1]))
+    for number in range(10):
+        bag.transforms(number, ("base", "arm", turned(number), [0, 0, 0]))
+    assert import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN).poses == 10
+
+
+def test_the_time_is_that_of_the_links_between_the_frames(bag: Bag, tmp_path: Path) -> None:
+    for number in range(5):
+        other = transform(number, "world", "camera", STILL, (0, 0, 1))
+        other["header"]["stamp"]["sec"] -= 7
+        flange = transform(number, "base", "flange", turned(number), (0, 0, number))
+        bag.add("/tf", TF, number, {"transforms": [flange, other]})
+    file = bag.close()
+    import_ros2(file, tmp_path / "h.mcap", Wanted(base="base", flange="flange", header_stamps=True))
+    track = read_recording(tmp_path / "h.mcap").flanges["/flange"]
+    np.testing.assert_allclose(track.times, 0.01 * np.arange(5) - 0.5, atol=1e-12)
+    import_ros2(file, tmp_path / "r.mcap", CHAIN)
+    track = read_recording(tmp_path / "r.mcap").flanges["/flange"]
+    np.testing.assert_allclose(track.device_time, START / 1e9 - 0.5 + 0.01 * np.arange(5))
+
+
+@pytest.mark.parametrize("child", ["camera", "flange"])
+def test_a_bad_transform_takes_away_its_own_frame_only(child: str, bag: Bag, tmp_path: Path) -> None:
+    for number in range(5):
+        bad = transform(number, "world", child, STILL, (0, 0, 1))
+        bad["transform"]["rotation"]["w"] = 0.0 if child == "camera" or number == 3 else 1.0
+        items = [transform(number, "base", "flange", turned(number), (0, 0, number))]
+        bag.add("/tf", TF, number, {"transforms": [bad, *items] if child == "camera" else items})
+        if child == "flange" and number == 3:
+            bad["header"]["frame_id"] = "base"
+            bag.add("/tf", TF, number, {"transforms": [bad]})
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN)
+    assert done.poses == 5
+    told = ("A message on '/tf' is left out (the transform to flange is no pose).",)
+    assert done.warnings == (told if child == "flange" else ())
+
+
+@pytest.mark.parametrize(
+    ("items", "wanted", "why"),
+    [
+        (
+            ("base arm", "tool flange"),
+            CHAIN,
+            "flange hangs on tool, and no transform leads from base to tool.",
+        ),
+        (
+            ("base flange",),
+            Wanted(base="flange", flange="base"),
+            "give --base and --flange the other way round",
+        ),
+    ],
+)
+def test_frames_that_give_no_pose_are_told(
+    items: tuple[str, ...], wanted: Wanted, why: str, bag: Bag, tmp_path: Path
+) -> None:
+    for number in range(3):
+        pairs = [item.split() for item in items]
+        bag.transforms(number, *((parent, child, turned(number), (0, 0, 0)) for parent, child in pairs))
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", wanted)
+    assert done.poses == 0
+    assert "Nothing on /tf gives a pose of the flange" in done.warnings[0]
+    assert why in done.warnings[0]
+
+
+def test_static_transforms_of_a_namespace(bag: Bag, tmp_path: Path) -> None:
+    bag.transforms(0, ("base", "mount", STILL, [0, 0, 1]), topic="/robot/tf_static")
+    for number in range(5):
+        bag.transforms(number, ("mount", "flange", turned(number), [0, 0, 1]), topic="/robot/tf")
+    done = import_ros2(bag.close(), tmp_path / "r.mcap", CHAIN)
+    assert (done.pose_topic, done.poses, done.warnings) == ("/robot/tf", 5, ())
+    assert read_recording(tmp_path / "r.mcap").flanges["/flange"].p_BE_B[0, 2] == 2.0
+
+
+def test_a_bag_of_ros_1_is_refused(tmp_path: Path) -> None:
+    from mcap.writer import Writer as PlainWriter
+
+    with (tmp_path / "b.mcap").open("wb") as stream:
+        writer = PlainWriter(stream)
+        writer.start("ros1")
+        schema = writer.register_schema("geometry_msgs/WrenchStamped", "ros1msg", b"Header header\n")
+        channel = writer.register_channel("/ft", "ros1", schema)
+        for number in range(5):
+            data = struct.pack("<IIII4s6d", number, 1_700_000_000, 0, 4, b"tool", 1, 2, 3, 0.1, 0.2, 0.3)
+            writer.add_message(channel, START + number * STEP, data, START)
+        writer.finish()
+    with pytest.raises(RecordingError, match=r"bag of ROS 1.*convert it to ROS 2"):
+        import_ros2(tmp_path / "b.mcap", tmp_path / "r.mcap")
+    assert not (tmp_path / "r.mcap").exists()
+
+
+def test_the_frame_of_the_wrenches_is_kept_and_its_change_told(tmp_path: Path) -> None:
+    bag = Bag(tmp_path / "b.mcap")
+    force = {"wrench": {"force": {"x": 1.0}}}
+    for number, frame in enumerate(("ft_sensor", "ft_sensor", "base_link", "base_link")):
+        bag.add("/w", WRENCH_STAMPED, number, {"header": header(number, frame), **force})
+    done = import_ros2(bag.close(), tmp_path / "r.mcap")
+    assert any("several frames, 'ft_sensor' and 'base_link'" in sentence for sentence in done.warnings)
+    assert (
+        read_recording(tmp_path / "r.mcap").info.note == "imported from b.mcap; wrenches in frame ft_sensor"
+    )
+
+
+def test_a_bag_whose_name_is_no_text(bag: Bag, tmp_path: Path) -> None:
+    odd = tmp_path / os.fsdecode(b"\xff.mcap")
+    try:
+        bag.close().rename(odd)
+    except OSError:
+        pytest.skip("this file system takes text only")
+    assert import_ros2(odd, tmp_path / "r.mcap").wrenches == 50
+    note = read_recording(tmp_path / "r.mcap").info.note
+    assert note == "imported from \\udcff.mcap; wrenches in frame sensor"
+
+
+def test_an_import_onto_a_full_disk_leaves_nothing(
+    bag: Bag, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: Any) -> int:
+        raise OSError(28, "No space left on device")
+
+    file = bag.close()
+    monkeypatch.setattr(os, "write", full)
+    with pytest.raises(RecordingError, match="No space left"):
+        import_ros2(file, tmp_path / "r.mcap")
+    monkeypatch.undo()
+    assert import_ros2(file, tmp_path / "r.mcap").wrenches == 50

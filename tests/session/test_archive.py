@@ -7,10 +7,12 @@ import zipfile
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
+from pipeline.commands.session import session_app
 from pipeline.session import ArchiveError, Session, SessionError
 from pipeline.session.archive import ArchiveLimits, export_archive, import_archive
-from pipeline.session.check import check
+from pipeline.session.check import check, check_journal
 
 
 @pytest.fixture
@@ -41,7 +43,7 @@ def test_there_and_back(folder, archive, tmp_path):
 def test_it_is_packed_while_it_is_written_but_not_into_itself(folder, tmp_path):
     with Session.open(folder) as session:
         session.note("open")
-        assert export_archive(folder, tmp_path / "x.zip") == 3
+        assert export_archive(folder, tmp_path / "x.zip").files == 3
     with pytest.raises(SessionError, match="inside the session"):
         export_archive(folder, folder / "x.zip")
 
@@ -166,3 +168,105 @@ def test_flipped_bytes_give_a_whole_session_or_none(tmp_path_factory, data):
         assert [each.name for each in work.iterdir()] == ["x.zip"]
     else:
         assert check(work / "out").sound
+
+
+# ---- what export writes, import takes ----------------------------------------------------------
+
+
+def packed(session, out):
+    done = export_archive(session, out)
+    import_archive(out, out.with_suffix(""))
+    assert check(out.with_suffix("")).sound
+    return done
+
+
+def test_files_that_shrink_like_bombs_come_back(folder, tmp_path):
+    (tmp_path / "zeros.bin").write_bytes(bytes(3 * 2**20))
+    (tmp_path / "text.csv").write_text("".join(f"{n * 7919 % 100_003}\n" for n in range(200_000)))
+    with Session.open(folder) as session:
+        for name in ("zeros.bin", "text.csv"):
+            session.add_input(tmp_path / name, "raw")
+    packed(folder, tmp_path / "x.zip")
+    with zipfile.ZipFile(tmp_path / "x.zip") as archive:
+        methods = {info.filename.split("-")[-1]: info.compress_type for info in archive.infolist()}
+    assert methods["zeros.bin"] == zipfile.ZIP_STORED
+    assert methods["text.csv"] == zipfile.ZIP_DEFLATED
+
+
+def test_names_that_differ_in_case_only_come_back(folder, tmp_path, monkeypatch):
+    (tmp_path / "one.csv").write_bytes(b"x")
+    with Session.open(folder) as session:
+        for name in ("A.csv", "a.csv"):
+            session.add_input(tmp_path / "one.csv", "poses", name=name)
+    assert len(list((folder / "raw").iterdir())) == 1
+    packed(folder, tmp_path / "x.zip")
+    # As sessions were written before.
+    monkeypatch.setattr("pipeline.session.files._plain", lambda name: name)
+    with Session.open(folder) as session:
+        session.add_input(tmp_path / "one.csv", "poses", name="A.csv")
+    packed(folder, tmp_path / "y.zip")
+
+
+def test_what_would_be_too_large_is_not_packed(folder, tmp_path):
+    for limits in (ArchiveLimits(members=2), ArchiveLimits(size=100)):
+        with pytest.raises(SessionError, match="an archive takes at most"):
+            export_archive(folder, tmp_path / "x.zip", limits)
+    assert not (tmp_path / "x.zip").exists()
+
+
+def test_what_is_added_meanwhile_is_not_in_it(folder, tmp_path, monkeypatch):
+    with Session.open(folder) as session:
+
+        def later(*arguments):
+            found = check_journal(*arguments)
+            if len(session.records) == 3:
+                session.change_mesh("late.stl", (b"late",))
+            return found
+
+        monkeypatch.setattr("pipeline.session.archive.check_journal", later)
+        assert export_archive(folder, tmp_path / "x.zip").files == 3
+        monkeypatch.undo()
+    import_archive(tmp_path / "x.zip", tmp_path / "x")
+    with Session.open(tmp_path / "x", write=False) as back:
+        assert len(back.records) == 3
+
+
+def test_a_recording_that_is_not_adopted_is_never_left_out_silently(folder, tmp_path):
+    (folder / "raw" / "unfinished-a.mcap").write_bytes(b"samples")
+    with pytest.raises(SessionError, match="session repair"):
+        export_archive(folder, tmp_path / "x.zip")
+    with Session.open(folder):  # somebody records
+        done = export_archive(folder, tmp_path / "x.zip")
+        assert done.left_out == ("raw/unfinished-a.mcap",)
+        result = CliRunner().invoke(
+            session_app, ["export-archive", str(folder), "--out", str(tmp_path / "y.zip")]
+        )
+    assert result.exit_code == 1
+    assert "is being made" in result.stderr
+    assert (tmp_path / "y.zip").exists()
+
+
+def test_the_notes_of_a_check_come_with_it(folder, tmp_path):
+    (folder / "raw" / "orphan").write_bytes(b"x")
+    assert "belong to no record" in export_archive(folder, tmp_path / "x.zip").notes[0]
+
+
+def test_nothing_but_an_archive_is_written_over(folder, tmp_path):
+    journal = (folder / "journal").read_bytes()
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "link").symlink_to(folder)
+    (tmp_path / "to-journal").symlink_to(folder / "journal")
+    for out in (
+        tmp_path / "sub" / ".." / "s" / "journal",
+        tmp_path / "link" / "x.zip",
+        tmp_path / "to-journal",
+    ):
+        with pytest.raises(SessionError, match="inside the session"):
+            export_archive(folder, out)
+    assert (folder / "journal").read_bytes() == journal
+    (tmp_path / "letter.txt").write_text("dear")
+    with pytest.raises(SessionError, match="no archive"):
+        export_archive(folder, tmp_path / "letter.txt")
+    assert (tmp_path / "letter.txt").read_text() == "dear"
+    for _ in range(2):
+        export_archive(folder, tmp_path / "x.zip")

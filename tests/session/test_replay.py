@@ -113,6 +113,8 @@ def test_what_differs_fails_or_is_unknown_is_said(session, poses):
         ({"colour": "red"}, "parameter colour"),
         ({"robot": "elfin3"}, "contradict"),
         ({"contact_force": "strong"}, "parameter contact_force"),
+        ({"tip": [1e308, 0, 0]}, "parameter tip"),
+        ({"mount": [float("nan"), 0, 0]}, "parameter mount"),
     ],
 )
 def test_wrong_parameters_are_named_and_nothing_is_recorded(session, poses, parameters, said):
@@ -132,3 +134,17 @@ def test_wrong_kinds_names_and_inputs(session, poses):
     ):
         with pytest.raises(SessionError):
             compute(session, kind, name, inputs, {"euler": "xyz"})
+
+
+def test_an_input_that_was_added_again_under_another_name_changes_no_replay(session, poses):
+    calibrated(session, poses)
+    session.add_input(poses, "poses", name="renamed.csv")
+    assert [each.outcome for each in replay(session)] == [Outcome.SAME]
+
+
+def test_errors_name_no_temporary_folder(session, tmp_path):
+    (tmp_path / "empty.csv").write_bytes(b"nothing\n")
+    with pytest.raises(SessionError) as caught:
+        calibrated(session, tmp_path / "empty.csv")
+    assert "empty.csv" in str(caught.value)
+    assert "contactbench-" not in str(caught.value)

@@ -3,7 +3,9 @@
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
+from pipeline.commands.session import session_app
 from pipeline.session import Session, fold
 
 
@@ -98,6 +100,102 @@ def test_marks(bench):
     assert "report" in stale(bench)
     bench.mark("probe", "probe.out", "accepted")
     assert stale(bench) == {}
+
+
+def test_a_recording_stays_as_old_as_it_is(bench, tmp_path):
+    bench.rezeroed("42")
+    for name, kind, sensor in (
+        ("poses.csv", "poses", "42"),
+        ("poses.csv", "poses", "43"),
+        ("poses.csv", "poses", None),
+        ("other.csv", "poses", "42"),
+        ("copy.csv", "backup", "42"),
+    ):
+        add(bench, tmp_path, name, b"1", kind, sensor)
+        assert set(stale(bench)) == {"calibration", "report"}, (name, kind, sensor)
+
+
+def test_a_sensor_that_is_named_later_counts(session, tmp_path):
+    poses = add(session, tmp_path, "poses.csv", b"1", sensor=None)
+    result(session, "calibration", b"c", poses=poses)
+    session.rezeroed("42")
+    add(session, tmp_path, "poses.csv", b"1", sensor="43")
+    assert stale(session) == {}
+
+
+def test_a_recording_that_was_made_before_a_rezero_and_added_after_it(session, tmp_path):
+    session.rezeroed("42")
+    for name, started, holds in (
+        ("a", "2026-01-01T00:00:00+00:00", False),
+        ("b", "2199-01-01T00:00:00Z", True),
+    ):
+        (tmp_path / name).write_bytes(name.encode())
+        record = session.add_input(tmp_path / name, "recording", sensor="42", about={"started": started})
+        result(session, name, b"c", recording=record.action.file.sha256)
+        assert (name not in stale(session)) is holds
+
+
+def test_the_same_content_under_another_name_hides_no_replacement(bench, tmp_path):
+    add(bench, tmp_path, "copy.csv", b"1", "backup")
+    add(bench, tmp_path, "poses.csv", b"2")
+    assert "The poses poses.csv that it was computed from was replaced" in stale(bench)["calibration"][0]
+
+
+def test_a_replaced_backup_harms_nothing(session, tmp_path):
+    poses = add(session, tmp_path, "poses.csv", b"1")
+    add(session, tmp_path, "copy.csv", b"1", "backup")
+    result(session, "calibration", b"c", poses=poses)
+    add(session, tmp_path, "copy.csv", b"2", "backup")
+    assert stale(session) == {}
+
+
+@pytest.mark.parametrize("by_content", [True, False])
+def test_all_files_of_a_result_count(session, by_content):
+    session.add_result("probe", "p.ply", {"p.ply": b"1", "p.json": b"regions"}, {}, {})
+    [made] = session.state.results
+    session.add_result(
+        "contact", "k", {"k": b"k"}, {"probe": made.content if by_content else made.file.sha256}, {}
+    )
+    session.add_result("probe", "p.ply", {"p.ply": b"1", "p.json": b"others"}, {}, {})
+    assert "probe p.ply that it was computed from was computed anew" in stale(session)["contact"][0]
+    session.add_result("probe", "p.ply", {"p.ply": b"1", "p.json": b"regions"}, {}, {})
+    assert stale(session) == {}
+
+
+def test_another_result_of_the_same_bytes_hides_no_change(session):
+    first = result(session, "calibration", b"1")
+    session.add_result("contact", "k", {"k": b"k"}, {"calibration": first}, {})
+    session.add_result("calibration", "d.json", {"d.json": b"1"}, {}, {})
+    result(session, "calibration", b"2")
+    assert set(stale(session)) == {"contact"}
+
+
+def test_what_rests_on_a_rejected_result_does_not_hold(bench):
+    bench.mark("probe", "probe.out", "rejected", "wrong tip")
+    assert stale(bench)["probe"] == ("It was rejected: wrong tip.",)
+    assert "which is stale: It was rejected: wrong tip." in stale(bench)["report"][0]
+    shown = CliRunner().invoke(session_app, ["info", str(bench.folder)])
+    assert "probe probe.out: REJECTED" in shown.stderr
+    bench.mark("probe", "probe.out", "accepted")
+    assert stale(bench) == {}
+
+
+def test_a_setting_that_is_the_default_changes_nothing(session):
+    session.add_result("calibration", "c.json", {"c.json": b"1"}, {}, {})
+    session.set_parameter("calibration.contact_force", 10)
+    session.set_parameter("calibration.tip", [0, 0, 100.0])
+    assert stale(session) == {}
+    session.set_parameter("calibration.contact_force", 8)
+    assert set(stale(session)) == {"calibration"}
+
+
+def test_results_that_follow_from_one_another_in_a_circle_end(session):
+    first = result(session, "a", b"a")
+    second = result(session, "b", b"b", a=first)
+    session.add_result("a", "a.out", {"a.out": b"a"}, {"b": second}, {"again": 1})
+    assert stale(session) == {}
+    session.mark("a", "a.out", "stale", "so it is")
+    assert set(stale(session)) == {"a", "b"}
 
 
 def test_a_long_chain_of_results_is_followed(session, tmp_path):

@@ -17,6 +17,7 @@ from pipeline.session import (
     frames,
     migrate,
 )
+from pipeline.session.actions import VERSION
 from pipeline.session.check import check, repair
 from pipeline.session.crash import kill_writers
 
@@ -47,7 +48,7 @@ def test_what_was_added_is_there_after_reopening(folder, poses):
         state = session.state
     with Session.open(folder, write=False) as again:
         assert again.state == state
-        assert again.records[0].action.version == 1
+        assert again.records[0].action.version == VERSION
         assert again.records[2].entry.by == "ada"
         assert again.records[2].entry.sensor == "42"
         assert again.records[2].entry.tool.startswith("contactbench ")
@@ -207,7 +208,7 @@ def rewrite(folder, change):
 
 
 def test_a_newer_version_is_refused_and_left_alone(folder):
-    data = rewrite(folder, lambda payloads: payloads[0]["action"].update(version=2, news=True))
+    data = rewrite(folder, lambda payloads: payloads[0]["action"].update(version=VERSION + 1, news=True))
     for write in (True, False):
         with pytest.raises(SchemaError, match="use a newer contactbench"):
             Session.open(folder, write=write)
@@ -233,7 +234,7 @@ def test_an_older_version_is_migrated_and_the_original_kept(folder, monkeypatch)
         assert session.records[1].entry.by == "ada"
     assert (folder / "journal").read_bytes() == old
     with Session.open(folder) as session:
-        assert "migrated from version 0 to 1" in session.notes[0]
+        assert f"migrated from version 0 to {VERSION}" in session.notes[0]
         session.note("after")
     assert (folder / "journal.v0").read_bytes() == old
     assert check(folder).sound

@@ -2,6 +2,7 @@
 
 from pipeline.devices.emulate.emulator import Emulator, Sent
 from pipeline.devices.emulate.making import EMULATED, JOINTS, emulator, possible_faults, swinging
+from pipeline.devices.emulate.models import Quirk
 from pipeline.devices.emulate.script import EmulatorError, Fault, FaultEvent, Script
 from pipeline.devices.emulate.signals import (
     SYNTHETIC,
@@ -23,6 +24,7 @@ __all__ = [
     "Fault",
     "FaultEvent",
     "Moment",
+    "Quirk",
     "Reading",
     "Script",
     "Sent",

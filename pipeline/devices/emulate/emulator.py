@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import Counter, deque
@@ -23,7 +24,10 @@ if TYPE_CHECKING:
 
 _IDLE_S = 0.05  # how long a stop may go unnoticed
 _BETWEEN_PIECES_S = 0.0005  # without it the kernel joins them again
-_LOG = 100_000
+_AT_ONCE = 64  # frames between two looks at what the host says
+_LATE_S = 1.0  # who is later than this has been suspended, or cannot keep up
+LOG = 100_000
+"""Frames that a log holds unless it is told otherwise."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +85,15 @@ class Emulator:
         Of chance in the faults.
     query : str
         Options of the address.
+    log : int
+        How many frames the log holds, the latest ones; 0 for an emulator that runs for days.
+
+    Attributes
+    ----------
+    log : deque of Sent
+    counts : Counter
+        Of frames "intact" and "not intact", of "bytes" and "bytes nobody took", and of frames "skipped": those
+        that were due while the emulator was suspended, or that this machine is too slow for.
 
     Raises
     ------
@@ -98,12 +111,13 @@ class Emulator:
         script: Script | None = None,
         seed: int = 0,
         query: str = "",
+        log: int = LOG,
     ) -> None:
         script = script or Script()
         script.check(model.faults, model.name)
         self.model = model
         self.url = f"{scheme}://{line.where}{query}"
-        self.log: deque[Sent] = deque(maxlen=_LOG)
+        self.log: deque[Sent] = deque(maxlen=log)
         self.counts: Counter[str] = Counter()
         self.failure: BaseException | None = None
         self._line = line
@@ -112,6 +126,7 @@ class Emulator:
         self._origin: float | None = None
         self._due: float | None = None
         self._number = self._count = 0
+        self._heard_at = -math.inf
         self._answered: tuple[Reading, Moment] | None = None
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"emulated {model.name}", daemon=True)
@@ -147,13 +162,20 @@ class Emulator:
 
     @property
     def refused(self) -> list[bytes]:
-        """What it was told and must not be told."""
+        """What it was told and must not be told, the last 1000."""
         return list(self.model.refused)
 
     @property
     def commands(self) -> list[bytes]:
-        """What it was told and obeyed."""
+        """What it was told and obeyed, the last 1000."""
         return list(self.model.commands)
+
+    def measure(self, signal: Signal) -> None:
+        """Let it measure something else from now on; any thread may call this.
+
+        Faults that hold on to a value of the past, stuck and rezero, take it from the new signal.
+        """
+        self._truth.signal = signal
 
     def intact(self) -> list[Sent]:
         """Return the frames of the log that went out whole and unchanged."""
@@ -181,8 +203,20 @@ class Emulator:
             return
         if self._due is None:
             self._due = self._now()
-        while self._due is not None and self._due <= self._now() and not self._stop.is_set():
-            self._stream(self._due)
+        for _ in range(_AT_ONCE):
+            if self._due is None or self._due > self._now() or self._stop.is_set():
+                return
+            self._stream(self._caught_up(self._due))
+
+    def _caught_up(self, due: float) -> float:
+        """Skip what a device would have sent long ago; it goes on counting, as for a host that did not listen."""
+        late = self._now() - due
+        if late <= _LATE_S:
+            return due
+        missed = int(late * self.model.rate * self._truth.rate_factor(due))
+        self._number += missed
+        self.counts["skipped"] += missed
+        return due + late
 
     def _patience(self) -> float:
         if self._due is None:
@@ -196,7 +230,14 @@ class Emulator:
         return now - self._origin
 
     def _obey(self, data: bytes) -> None:
-        for answer in self.model.feed(data):
+        now = time.monotonic()
+        silence, self._heard_at = now - self._heard_at, now
+        if self.model.busy:
+            time.sleep(self.model.busy)
+        answers = self.model.feed(data, silence)
+        if self.model.busy and not self._line.fresh:
+            self.model.too_soon(self._line.receive(0.0))
+        for answer in answers:
             if self._answered is None and self.model.asked_only:
                 self._answer()  # its answers are all it sends: the faults of the line are for them
             if self._answered is None:
@@ -231,9 +272,10 @@ class Emulator:
         )
         self.log.append(sent)
         self._count += 1
-        if not self._put(emission):
+        taken = self._put(emission)
+        if not taken and self.log:
             self.log[-1] = replace(sent, intact=False)
-        self.counts["intact" if self.log[-1].intact else "not intact"] += 1
+        self.counts["intact" if taken and emission.intact else "not intact"] += 1
         if emission.away is not None:
             self._go_away(emission.away)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.devices.emulate.emulator import Emulator
+from pipeline.devices.emulate.emulator import LOG, Emulator
 from pipeline.devices.emulate.lines import DeviceLine, PtyLine, TcpServerLine, UdpServerLine
 from pipeline.devices.emulate.models import BotaModel, ElfinModel, RdtModel, RobotiqModel, SriModel, UrModel
 from pipeline.devices.emulate.script import EmulatorError
@@ -12,7 +12,9 @@ from pipeline.devices.emulate.signals import SYNTHETIC, constant, sine
 from pipeline.devices.url import Carrier, Protocol
 
 if TYPE_CHECKING:
-    from pipeline.devices.emulate.models import Model
+    from collections.abc import Iterable
+
+    from pipeline.devices.emulate.models import Model, Quirk
     from pipeline.devices.emulate.script import Fault, Script
     from pipeline.devices.emulate.signals import Signal, Six
 
@@ -24,13 +26,11 @@ _CARRIERS: dict[Protocol, tuple[Carrier, ...]] = {
     Protocol.ELFIN: (Carrier.TCP,),
     Protocol.UR: (Carrier.TCP,),
 }
-_MODELS: dict[Protocol, type[SriModel | BotaModel | RobotiqModel | RdtModel | ElfinModel | UrModel]] = {
+_MODELS: dict[Protocol, type[SriModel | BotaModel | RobotiqModel | ElfinModel]] = {
     Protocol.SRI: SriModel,
     Protocol.BOTA: BotaModel,
     Protocol.ROBOTIQ: RobotiqModel,
-    Protocol.RDT: RdtModel,
     Protocol.ELFIN: ElfinModel,
-    Protocol.UR: UrModel,
 }
 EMULATED = tuple(_CARRIERS)
 JOINTS: Six = (0.3, -0.4, 1.1, 0.5, -0.7, 0.9)
@@ -47,6 +47,9 @@ def emulator(
     script: Script | None = None,
     seed: int = 0,
     profile: str = "ati",
+    quirks: Iterable[Quirk | str] = (),
+    tool: Six | None = None,
+    log: int = LOG,
 ) -> Emulator:
     """Make an emulated device, not yet started.
 
@@ -59,15 +62,19 @@ def emulator(
         Of TCP and UDP, on the loopback interface; 0: any free one.
     rate : float or None
         Frames per second until a command changes it.
-    signal, script, seed
+    signal, script, seed, log
         As for `Emulator`; without a signal a constant one.
     profile : str
         Of RDT.
+    quirks : iterable of Quirk
+        What this one does and others of its kind do not.
+    tool : six floats or None
+        Of UR: the active tool frame in the flange frame, m and a rotation vector in rad; None: the flange.
 
     Raises
     ------
     EmulatorError
-        There is no such device, carrier, port or fault.
+        There is no such device, carrier, port, quirk or fault.
 
     Examples
     --------
@@ -81,11 +88,13 @@ def emulator(
     carriers = _CARRIERS[kind]
     if carrier is not None and carrier not in list(carriers):
         raise EmulatorError(f"{kind} over {carrier}: it speaks over {', '.join(carriers)}.")
-    model: Model = RdtModel(rate, profile) if kind is Protocol.RDT else _MODELS[kind](rate)
+    model = _model(kind, rate, profile, quirks, tool)
     if script is not None:
         script.check(model.faults, model.name)
     over = Carrier(carrier or carriers[0])
-    query = f"?profile={profile}" if kind is Protocol.RDT else ""
+    # It has no page to ask for its counts, as an ATI sensor has.
+    counts = "&cpf=1000000&cpt=1000000" if profile == "ati" else ""
+    query = f"?profile={profile}{counts}" if kind is Protocol.RDT else ""
     return Emulator(
         model,
         _line(over, kind, port),
@@ -94,7 +103,20 @@ def emulator(
         script=script,
         seed=seed,
         query=query,
+        log=log,
     )
+
+
+def _model(
+    kind: Protocol, rate: float | None, profile: str, quirks: Iterable[Quirk | str], tool: Six | None
+) -> Model:
+    if tool is not None and kind is not Protocol.UR:
+        raise EmulatorError(f"tool {tool}: {kind} has none: leave it out.")
+    if kind is Protocol.RDT:
+        return RdtModel(rate, profile, quirks)
+    if kind is Protocol.UR:
+        return UrModel(rate, quirks, tool=tool or (0.0,) * 6)
+    return _MODELS[kind](rate, quirks)
 
 
 def swinging(protocol: Protocol | str) -> Signal:
@@ -106,7 +128,10 @@ def swinging(protocol: Protocol | str) -> Signal:
 
 def possible_faults(protocol: Protocol | str) -> frozenset[Fault]:
     """Return the faults that the emulated device of a protocol can have."""
-    return _MODELS[Protocol(protocol)].faults
+    kind = Protocol(protocol)
+    if kind is Protocol.RDT:
+        return RdtModel.faults
+    return UrModel.faults if kind is Protocol.UR else _MODELS[kind].faults
 
 
 def _line(carrier: Carrier, protocol: Protocol, port: int) -> DeviceLine:

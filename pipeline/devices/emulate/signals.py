@@ -119,10 +119,15 @@ class Truth:
         A reading that holds the start of a frame.
     full_scale : six floats or None
         The limit of the device.
+
+    Attributes
+    ----------
+    signal : callable
+        May be replaced while it runs.
     """
 
     def __init__(self, signal: Signal, script: Script, trap: Six | None, full_scale: Six | None) -> None:
-        self._signal = signal
+        self.signal = signal
         self._script = script
         self._trap = trap
         self._full_scale = full_scale
@@ -158,5 +163,5 @@ class Truth:
             event.amount * min(1.0, (time - event.start) / event.duration)
             for event in self._script.begun(time, Fault.DRIFT)
         )
-        values = zip(self._signal(time), _DRIFT_PER_DEGREE, strict=True)
+        values = zip(self.signal(time), _DRIFT_PER_DEGREE, strict=True)
         return Reading(_six([value + warmer * slope for value, slope in values]), ROOM + warmer)

@@ -22,10 +22,32 @@ class Command:
         What to write.
     reply : bytes or None
         What the device's answer contains when it agrees; None where no answer comes, or none is known.
+    settle : float
+        Seconds that must pass before the next command; what comes meanwhile belongs to the time before.
+    refusal : bytes or None
+        What the device's answer, a line of text, contains when it does not agree.
+    instead : Command or None
+        What to send when it does not agree.
     """
 
     data: bytes
     reply: bytes | None = None
+    settle: float = 0.0
+    refusal: bytes | None = None
+    instead: Command | None = None
+
+    def answered(self, heard: bytes) -> bool | None:
+        """Tell from all that came since whether the device agreed; None: it has not said yet."""
+        if self.reply is None:
+            return True
+        start = heard.find(self.reply)
+        if self.refusal is None:
+            return True if start >= 0 else None
+        refused = heard.find(self.refusal)
+        if refused >= 0:
+            return False
+        # The refusal may be the end of a line that begins like agreement.
+        return True if start >= 0 and b"\n" in heard[start:] else None
 
 
 def highest_rate(baud: int, frame_bytes: int) -> float:

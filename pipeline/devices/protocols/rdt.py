@@ -84,11 +84,11 @@ class RdtParser:
     Parameters
     ----------
     scale : CountScale
-        Of this very sensor.
+        Of this very sensor; may be set until the first sample.
     """
 
     def __init__(self, scale: CountScale) -> None:
-        self._scale = scale
+        self.scale = scale
         self._sequence = SequenceCounter(32, reorder=_REORDER)
         self._last = b""
         self._frames = 0
@@ -132,18 +132,19 @@ class RdtParser:
         """As `SensorParser`."""
 
     def _sample(self, time: float, number: int, status: int, counts: list[int]) -> WrenchSample:
-        fx, fy, fz = (count / self._scale.per_newton for count in counts[:3])
-        mx, my, mz = (count / self._scale.per_newton_metre for count in counts[3:])
+        fx, fy, fz = (count / self.scale.per_newton for count in counts[:3])
+        mx, my, mz = (count / self.scale.per_newton_metre for count in counts[3:])
         flags = Status.OK if status == 0 else Status.ERROR | Status.INVALID
         return WrenchSample(time, (fx, fy, fz), (mx, my, mz), number, flags)
 
 
-def start_commands(rate_hz: float, *, profile: Profile = Profile.ATI) -> tuple[Command, ...]:
+def start_commands(rate_hz: float | None = None, *, profile: Profile = Profile.ATI) -> tuple[Command, ...]:
     """
     Return what makes the sensor stream until it is told to stop.
 
     An ATI sensor streams at the rate that is set on its configuration page, whatever `rate_hz` is. An
-    OnRobot box is told the period, in whole milliseconds.
+    OnRobot box is told the period, in whole milliseconds, see `possible_rate`; without a rate it is told none,
+    and keeps its own.
 
     Raises
     ------
@@ -151,11 +152,24 @@ def start_commands(rate_hz: float, *, profile: Profile = Profile.ATI) -> tuple[C
         The rate is not one that the sensor can have.
     """
     start = _request(_Request.START, 0)
-    if profile is Profile.ATI:
-        check_rate("RDT", rate_hz, 1.0, 7000.0)
+    if rate_hz is None:
         return (start,)
-    check_rate("RDT", rate_hz, 4.0, 1000.0)
-    return (_request(_Request.PERIOD, round(1000 / rate_hz)), start)
+    possible = possible_rate(rate_hz, profile)
+    return (start,) if profile is Profile.ATI else (_request(_Request.PERIOD, round(1000 / possible)), start)
+
+
+def possible_rate(rate_hz: float, profile: Profile) -> float:
+    """
+    Return the nearest rate that the sensor can have, Hz: an OnRobot box counts its period in milliseconds.
+
+    Raises
+    ------
+    ProtocolError
+        It is out of range.
+    """
+    if profile is Profile.ATI:
+        return check_rate("RDT", rate_hz, 1.0, 7000.0)
+    return 1000 / round(1000 / check_rate("RDT", rate_hz, 4.0, 1000.0))
 
 
 def stop_commands() -> tuple[Command, ...]:

@@ -27,6 +27,8 @@ _START = bytes.fromhex("09 10 01 9A 00 01 02 02 00 CD CA")
 _STARTED = bytes.fromhex("09 10 01 9A 00 01 21 52")
 # Half a second of these at 19200 baud is what the manual asks for.
 _STOP = b"\xff" * 50
+# They take 26 ms on the line; a request begins after 3.5 characters of silence, and converters add some time.
+_SETTLE_S = 0.1
 
 
 class RobotiqParser:
@@ -63,7 +65,7 @@ def start_commands(rate_hz: float = RATE) -> tuple[Command, ...]:
     """
     Return what makes the sensor stream: stop, in case it streams already, and go.
 
-    Drain the line after the first: a streaming sensor does not answer.
+    The first lets the line settle: a streaming sensor does not answer, nor one that heard no silence before.
 
     Raises
     ------
@@ -76,7 +78,7 @@ def start_commands(rate_hz: float = RATE) -> tuple[Command, ...]:
 
 def stop_commands() -> tuple[Command, ...]:
     """Return what ends the stream."""
-    return (Command(_STOP),)
+    return (Command(_STOP, settle=_SETTLE_S),)
 
 
 def _intact(frame: bytes) -> bool:

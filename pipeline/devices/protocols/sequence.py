@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections import deque
 
 # A longer step is believed only when the next number continues from it. Real gaps are mostly short; numbers
 # that no checksum covers, damaged on the line, mostly land far away.
 _LONGEST_STEP = 64
+# So many overtaken numbers in a row, each above the one before and seen already, are a count that began again.
+_BEGUN_AGAIN = 3
 
 # Device time may run ahead of arrival time by this, s: bytes wait in buffers and then come at once.
 _SLACK = 1.0
@@ -33,6 +36,8 @@ class SequenceCounter:
         self._last: int | None = None
         self._unwrapped = 0
         self._doubted: tuple[int, int] | None = None  # the number, and its step from the one before
+        self._seen: deque[int] = deque(maxlen=reorder)
+        self._run, self._overtaken = 0, 0
         self.lost = 0
         self.overtaken = 0
         self.wraps = 0
@@ -41,6 +46,12 @@ class SequenceCounter:
 
     def number(self, raw: int) -> int | None:
         """Return the unwrapped count for a number from the wire; None for an overtaken one."""
+        number = self._number(raw)
+        if self._reorder:
+            self._seen.append(raw)
+        return number
+
+    def _number(self, raw: int) -> int | None:
         if self._last is None:
             self._last = self._unwrapped = raw
             return raw
@@ -50,8 +61,13 @@ class SequenceCounter:
                 self.bad_numbers += 1
             self._advance(raw, step)
         elif self._reorder and -step % self._modulus <= self._reorder:
-            self.overtaken += 1
-            return None
+            if not self._begins_again(raw):
+                self.overtaken += 1
+                return None
+            self.restarts += 1
+            self._unwrapped += 1
+            self._last, self._doubted, self._run = raw, None, 0
+            self._seen.clear()
         elif self._doubted is not None and 1 <= (raw - self._doubted[0]) % self._modulus <= _LONGEST_STEP:
             self._believe(raw, *self._doubted)
         else:
@@ -65,6 +81,14 @@ class SequenceCounter:
         self._unwrapped += step
         self._last = raw
         self._doubted = None
+        self._run = 0
+
+    def _begins_again(self, raw: int) -> bool:
+        """Tell whether an overtaken number is one of a restarted count: those come in order, and a second time."""
+        in_order = self._run and 1 <= (raw - self._overtaken) % self._modulus <= self._reorder
+        self._run = (self._run if in_order else 0) + 1 if raw in self._seen else 0
+        self._overtaken = raw
+        return self._run >= _BEGUN_AGAIN
 
     def _doubt(self, raw: int, step: int) -> None:
         if self._doubted is not None:

@@ -276,7 +276,7 @@ def _running_ur() -> UrStream:
     stream = UrStream(125.0)
     stream.start()
     stream.feed(packet(Kind.VERSION, b"\x01"), 0.0)
-    stream.feed(packet(Kind.OUTPUTS, b"\x01DOUBLE,VECTOR6D,VECTOR6D"), 0.0)
+    stream.feed(packet(Kind.OUTPUTS, b"\x01DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"), 0.0)
     stream.feed(packet(Kind.START, b"\x01"), 0.0)
     return stream
 

@@ -34,6 +34,8 @@ _NUMBER = struct.Struct(">H")
 
 MOST_POINTS = 64
 LOWEST_RATE, HIGHEST_RATE = 1.0, 4000.0
+# What was on its way when the box stopped, through a converter that sends every 16 ms.
+_SETTLE_S = 0.1
 
 
 class Trailer(Enum):
@@ -96,13 +98,17 @@ class SriParser:
     ----------
     layout : Layout
         Which frames to accept; others are skipped.
+    either_trailer : bool
+        Accept frames with the other checksum instead if one of those comes first, also after each `reset`: some
+        boxes do not let it be chosen.
     """
 
-    def __init__(self, layout: Layout | None = None) -> None:
+    def __init__(self, layout: Layout | None = None, *, either_trailer: bool = False) -> None:
         self._layout = layout or Layout()
-        length = self._layout.frame_bytes
-        header = _SYNC + _NUMBER.pack(self._layout.package_length)
-        self._scanner = FrameScanner(header, length, _check_for(self._layout))
+        self._scanner = _scanner_for(self._layout)
+        self._either = either_trailer
+        self._other: FrameScanner | None = None  # until the first frame
+        self._try_other()
         self._sequence = SequenceCounter(16)
         self._points = slice(_POINTS_AT, _POINTS_AT + _POINT.size * self._layout.points)
         self._last_frame = b""
@@ -126,6 +132,11 @@ class SriParser:
         )
 
     @property
+    def trailer(self) -> Trailer:
+        """What frames are taken to end with."""
+        return self._layout.trailer
+
+    @property
     def pending(self) -> int:
         """As `SensorParser`."""
         return self._scanner.pending
@@ -133,13 +144,32 @@ class SriParser:
     def feed(self, data: bytes, time: float) -> list[WrenchSample]:
         """As `SensorParser`."""
         samples: list[WrenchSample] = []
-        for frame in self._scanner.push(data):
+        for frame in self._frames(data):
             self._read(frame, time, samples)
         return samples
 
     def reset(self) -> None:
         """As `SensorParser`."""
         self._scanner.reset()
+        self._try_other()
+
+    def _frames(self, data: bytes) -> list[bytes]:
+        frames = self._scanner.push(data)
+        if self._other is None:
+            return frames
+        if frames:
+            self._other = None
+        elif others := self._other.push(data):
+            self._layout, self._scanner, self._other = _opposite(self._layout), self._other, None
+            return others
+        return frames
+
+    def _try_other(self) -> None:
+        if self._either:
+            self._other = _scanner_for(_opposite(self._layout))
+            known = self._scanner
+            self._other.frames, self._other.bad_checksums = known.frames, known.bad_checksums
+            self._other.skipped_bytes = known.skipped_bytes
 
     def _read(self, frame: bytes, time: float, samples: list[WrenchSample]) -> None:
         if frame == self._last_frame:
@@ -164,7 +194,7 @@ def start_commands(
     """
     Return what makes the box stream: stop, rate, checksum, go.
 
-    Drain the line after the first, which stops a stream that may still run.
+    The first stops a stream that may still run, and lets the line settle.
 
     Parameters
     ----------
@@ -175,7 +205,7 @@ def start_commands(
     baud : int, optional
         Of the serial line; None for TCP.
     older_firmware : bool
-        Older boxes know the rate's command by another name; try this when the first gets no answer.
+        Older boxes know the rate's command by another name, which is `instead` of the usual one.
 
     Raises
     ------
@@ -184,18 +214,32 @@ def start_commands(
     """
     rate = round(check_rate("SRI", rate_hz, LOWEST_RATE, HIGHEST_RATE))
     check_line("SRI", rate, baud, Layout(trailer).frame_bytes)
-    name = "SMPR" if older_firmware else "SMPF"
+    older = _setting("SMPR", str(rate))
     return (
         *stop_commands(),
-        Command(f"AT+{name}={rate}\r\n".encode(), f"ACK+{name}=".encode()),
-        Command(f"AT+DCKMD={trailer.value}\r\n".encode(), b"ACK+DCKMD="),
+        older if older_firmware else _setting("SMPF", str(rate), older),
+        _setting("DCKMD", trailer.value),
         Command(b"AT+GSD\r\n"),  # some boxes answer, some do not
     )
 
 
 def stop_commands() -> tuple[Command, ...]:
     """Return what ends the stream."""
-    return (Command(b"AT+GSD=STOP\r\n"),)
+    return (Command(b"AT+GSD=STOP\r\n", settle=_SETTLE_S),)
+
+
+def _setting(name: str, value: str, instead: Command | None = None) -> Command:
+    data, reply = f"AT+{name}={value}\r\n".encode(), f"ACK+{name}=".encode()
+    return Command(data, reply, refusal=b"ERROR", instead=instead)
+
+
+def _opposite(layout: Layout) -> Layout:
+    return Layout(Trailer.CRC32 if layout.trailer is Trailer.SUM else Trailer.SUM, layout.points)
+
+
+def _scanner_for(layout: Layout) -> FrameScanner:
+    header = _SYNC + _NUMBER.pack(layout.package_length)
+    return FrameScanner(header, layout.frame_bytes, _check_for(layout))
 
 
 def _check_for(layout: Layout) -> Callable[[bytes], bool]:

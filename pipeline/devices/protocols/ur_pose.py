@@ -16,9 +16,11 @@ from pipeline.devices.sample import FlangeSample
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-CLOCK, JOINTS, POSE = "timestamp", "actual_q", "actual_TCP_pose"
+CLOCK, JOINTS, POSE, TOOL = "timestamp", "actual_q", "actual_TCP_pose", "tcp_offset"
 _ABSURD = 1e3  # m or rad
 VARIABLES = (CLOCK, JOINTS, POSE)
+# The pose is that of the tool frame which is active on the pendant; older controllers do not tell which.
+_WITH_TOOL = (*VARIABLES, TOOL)
 
 
 class Stage(Enum):
@@ -42,8 +44,9 @@ class UrStream:
         1 to 500 Hz.
     tool : 6 floats, optional
         The active tool frame in the flange frame, as the pendant shows it: m, then a rotation vector in
-        rad. Zeros say that it is the flange. Without it the tool is taken to be parallel to the flange, and
-        positions are NaN: the controller gives the tool's, not the flange's.
+        rad. Zeros say that it is the flange. It is for older controllers: newer ones tell it with every pose.
+        Where it is not known the tool is taken to be parallel to the flange, and positions are NaN: the
+        controller gives the tool's, not the flange's.
 
     Raises
     ------
@@ -58,6 +61,7 @@ class UrStream:
             raise RtdeError(f"UR: a tool frame has six finite numbers, not {tool!r}.")
         self._reader = PacketReader()
         self._recipe: Recipe | None = None
+        self._variables: tuple[str, ...] = _WITH_TOOL
         self._output = b""
         self._stage = Stage.VERSION
 
@@ -65,6 +69,11 @@ class UrStream:
     def stage(self) -> Stage:
         """How far the conversation is."""
         return self._stage
+
+    @property
+    def knows_flange(self) -> bool:
+        """Whether the flange follows from the poses; False, once it streams: they are the tool's."""
+        return self._tool is not None or TOOL in self._variables
 
     @property
     def skipped_bytes(self) -> int:
@@ -79,7 +88,7 @@ class UrStream:
     def start(self) -> bytes:
         """Begin anew, also after the line was lost: return the first request."""
         self._reader.reset()
-        self._recipe = None
+        self._recipe, self._variables = None, _WITH_TOOL
         self._output = b""
         self._stage = Stage.VERSION
         return ur_rtde.version_request()
@@ -116,7 +125,8 @@ class UrStream:
             if packet.kind is Kind.TEXT:
                 continue
             if self._stage is Stage.STREAMING and self._recipe is not None:
-                samples.append(flange_sample(self._recipe.values(packet), time, self._tool))
+                values = self._recipe.values(packet)
+                samples.append(flange_sample(values, time, values.get(TOOL, self._tool)))
             else:
                 self._converse(packet)
         return samples
@@ -124,15 +134,29 @@ class UrStream:
     def _converse(self, packet: Packet) -> None:
         if self._stage is Stage.VERSION:
             ur_rtde.check_accepted(packet, Kind.VERSION)
-            self._output += ur_rtde.outputs_request(self._rate, VARIABLES)
+            self._output += ur_rtde.outputs_request(self._rate, self._variables)
             self._stage = Stage.OUTPUTS
+        elif self._stage is Stage.OUTPUTS and self._tool_is_unknown(packet):
+            self._variables = VARIABLES
+            self._output += ur_rtde.outputs_request(self._rate, self._variables)
         elif self._stage is Stage.OUTPUTS:
-            self._recipe = Recipe.agreed(packet, VARIABLES)
+            self._recipe = Recipe.agreed(packet, self._variables)
             self._output += ur_rtde.start_request()
             self._stage = Stage.START
         else:
             ur_rtde.check_accepted(packet, Kind.START)
             self._stage = Stage.STREAMING
+
+    def _tool_is_unknown(self, packet: Packet) -> bool:
+        """Tell whether an older controller knows all that was asked for but the tool frame."""
+        if packet.kind is not Kind.OUTPUTS or TOOL not in self._variables:
+            return False
+        types = packet.payload[1:].split(b",")
+        return (
+            len(types) == len(self._variables)
+            and types[-1] == b"NOT_FOUND"
+            and b"NOT_FOUND" not in types[:-1]
+        )
 
 
 def flange_sample(
@@ -153,6 +177,8 @@ def flange_sample(
     if not (np.abs(pose) < _ABSURD).all():
         raise RtdeError(f"UR: {tuple(pose)!r} is not a pose: reconnect.")
     R_BE, p_BE_B = Rotation.from_rotvec(pose[3:]), np.full(3, np.nan)
+    if tool is not None and (len(tool) != 6 or not (np.abs(tool) < _ABSURD).all()):
+        raise RtdeError(f"UR: {tuple(tool)!r} is not a tool frame: reconnect.")
     if tool is not None:
         R_BE = R_BE * Rotation.from_rotvec(tool[3:]).inv()
         p_BE_B = pose[:3] - R_BE.apply(tool[:3])

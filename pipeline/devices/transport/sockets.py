@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import select
 import socket
+import threading
 import time
+from typing import TYPE_CHECKING
 
 from pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
 
+if TYPE_CHECKING:
+    from typing import Any
+
 _CONNECT_S = 3.0
+_LOOK_S = 0.05  # how soon an interruption is noticed
+_UNDER_WAY = (errno.EINPROGRESS, errno.EWOULDBLOCK, errno.EALREADY)
+# A peer that vanished is noticed after seconds, not after the quarter of an hour that systems allow by themselves.
+# Not every system has all of them.
+_KEEPING = (("TCP_KEEPIDLE", 1), ("TCP_KEEPINTVL", 1), ("TCP_KEEPCNT", 3), ("TCP_USER_TIMEOUT", 3000))
 _WRITE_S = 1.0
 _TCP_READ = 65_536
 _DATAGRAM = 65_535  # none can be larger, so none is cut
@@ -18,7 +31,7 @@ class _SocketLine:
     """What TCP and UDP share."""
 
     def __init__(self, host: str, port: int) -> None:
-        self.name = f"{host}:{port}"
+        self.name = f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
         self._where = (host, port)
         self._socket: socket.socket | None = None
 
@@ -36,6 +49,14 @@ class _SocketLine:
         opened, self._socket = self._socket, None
         if opened is not None:
             opened.close()
+
+    def _addresses(self, kind: socket.SocketKind) -> list[Any]:
+        """Return what the name stands for, IPv4 first: few devices have IPv6, and localhost is both."""
+        try:
+            found = socket.getaddrinfo(*self._where, type=kind)
+        except (OSError, UnicodeError) as error:  # UnicodeError: a host that no name server can know
+            raise self._unavailable(error) from error
+        return sorted(found, key=lambda each: each[0] != socket.AF_INET)
 
     def _receive(self, timeout: float, size: int) -> bytes | None:
         opened = self._opened()
@@ -75,16 +96,56 @@ class TcpLine(_SocketLine):
 
     datagrams = False
 
+    def __init__(self, host: str, port: int) -> None:
+        super().__init__(host, port)
+        self._interrupted = threading.Event()
+
     def open(self) -> None:
         """Connect within 3 s; see `Line.open`."""
         self.close()
+        refused: OSError = OSError("the name stands for no address")
+        for found in self._addresses(socket.SOCK_STREAM):
+            try:
+                self._socket = self._connected(found)
+            except OSError as error:
+                refused = error
+            else:
+                return
+        raise self._unavailable(refused) from refused
+
+    def interrupt(self) -> None:
+        """End a connecting that is under way, from another thread, for good: the line is not needed any more."""
+        self._interrupted.set()
+
+    def _connected(self, found: Any) -> socket.socket:
+        family, kind, protocol, _, where = found
+        opened = socket.socket(family, kind, protocol)
         try:
-            opened = socket.create_connection(self._where, timeout=_CONNECT_S)
-        except (OSError, UnicodeError) as error:  # UnicodeError: a host that no name server can know
-            raise self._unavailable(error) from error
-        # Requests are small and each waits for its answer: never hold one back to fill a packet.
-        opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        self._socket = opened
+            opened.setblocking(False)
+            self._finish_connecting(opened, opened.connect_ex(where))
+            # Requests are small and each waits for its answer: never hold one back to fill a packet.
+            opened.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            opened.setsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE, 1)
+            for name, value in _KEEPING:
+                if hasattr(socket, name):
+                    opened.setsockopt(socket.IPPROTO_TCP, getattr(socket, name), value)
+        except OSError:
+            opened.close()
+            raise
+        return opened
+
+    def _finish_connecting(self, opened: socket.socket, state: int) -> None:
+        deadline = time.monotonic() + _CONNECT_S
+        while state in _UNDER_WAY:
+            if self._interrupted.is_set():
+                raise OSError("it was interrupted")
+            if time.monotonic() > deadline:
+                raise TimeoutError("timed out")
+            _, ready, failed = select.select([], [opened], [opened], _LOOK_S)
+            if ready or failed:
+                state = opened.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
+        if state:
+            raise OSError(state, os.strerror(state))
 
     def read(self, timeout: float) -> Chunk:
         """Return what is there; see `Line.read`."""
@@ -109,14 +170,19 @@ class UdpLine(_SocketLine):
 
     datagrams = True
 
+    def __init__(self, host: str, port: int) -> None:
+        super().__init__(host, port)
+        self._turn = -1
+
     def open(self) -> None:
-        """Bind a socket and point it at the device; see `Line.open`."""
+        """Bind a socket and point it at the device, each time at the next of its addresses; see `Line.open`."""
         self.close()
+        found = self._addresses(socket.SOCK_DGRAM)
+        self._turn += 1
+        family, kind, protocol, _, where = found[self._turn % len(found)]
         try:
-            found = socket.getaddrinfo(*self._where, type=socket.SOCK_DGRAM)
-            family, kind, protocol, _, where = found[0]
             opened = socket.socket(family, kind, protocol)
-        except (OSError, UnicodeError) as error:
+        except OSError as error:
             raise self._unavailable(error) from error
         try:
             opened.connect(where)

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
+from devices.drive.test_kept import Script
 from devices.drive.test_stream import Heard, fault
 
-from pipeline.devices.drive import State, poses_from
+from pipeline.devices.drive import ElfinPoses, State, UrPoses, poses_from
 from pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
-from pipeline.devices.url import AddressError
+from pipeline.devices.emulate.arms import UR5E_TABLE, flange_pose
+from pipeline.devices.emulate.models import ElfinModel, Quirk
+from pipeline.devices.emulate.signals import Moment, Reading
+from pipeline.devices.url import AddressError, DeviceAddress
 from pipeline.robot import Robot
 
 
@@ -48,3 +54,91 @@ def test_a_lost_robot_is_asked_again(protocol):
 def test_a_sensor_is_no_robot():
     with pytest.raises(AddressError, match="no robot"):
         poses_from("sri+tcp://127.0.0.1", lambda _: None)
+
+
+TOOL = (0.01, -0.02, 0.2, 0.0, 0.0, 1.5707963)
+
+
+def test_a_turned_tool_of_a_ur_does_not_turn_its_flange():
+    heard = Heard()
+    with (
+        emulator("ur", signal=constant(JOINTS), tool=TOOL) as device,
+        poses_from(device.url, heard.take, heard.change) as stream,
+    ):
+        heard.until(lambda: len(heard.samples) > 5)
+        assert not any("tool" in finding for finding in stream.health.findings)
+    R_BE, p_BE_B = flange_pose(UR5E_TABLE, JOINTS)
+    assert pytest.approx(R_BE, abs=1e-9) == heard.samples[-1].R_BE
+    assert heard.samples[-1].p_BE_B == pytest.approx(p_BE_B, abs=1e-9)
+
+
+@pytest.mark.parametrize("tool", [None, (0.0,) * 6])
+def test_an_older_ur_does_not_tell_its_tool(tool):
+    heard = Heard()
+    with emulator("ur", signal=constant(JOINTS), quirks=[Quirk.OLDER]) as device:
+        address = DeviceAddress.parse(device.url)
+        with UrPoses(address, heard.take, heard.change, tool=tool) as stream:
+            heard.until(lambda: len(heard.samples) > 70)
+            told = any("the orientation is that of the tool" in each for each in stream.health.findings)
+    assert told == (tool is None)
+
+
+def _answer():
+    return ElfinModel().frame(Reading(JOINTS), Moment(0, 0.0, 0.0))
+
+
+class Controller(Script):
+    """Answers each question after a while."""
+
+    def __init__(self, delay):
+        super().__init__(self._say)
+        self.delay, self.asked, self.most = delay, [], 0
+
+    def write(self, data):
+        super().write(data)
+        self.asked.append(time.monotonic())
+        self.most = max(self.most, len(self.asked))
+
+    def open(self):
+        super().open()
+        self.asked.clear()
+
+    def _say(self, _line, _now):
+        if not self.asked or time.monotonic() - self.asked[0] < self.delay:
+            return b""
+        self.asked.pop(0)
+        return _answer()
+
+
+def test_a_pose_belongs_to_the_middle_between_question_and_answer():
+    heard = Heard()
+    line = Controller(0.03)
+    asked = []
+    write = line.write
+    line.write = lambda data: (asked.append(time.monotonic()), write(data))
+    with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=20"), heard.take, heard.change, line=line):
+        heard.until(lambda: len(heard.samples) > 4)
+    for sample, when in zip(heard.samples, asked, strict=False):
+        assert 0.012 < sample.time - when < 0.03
+
+
+def test_answers_that_took_long_are_dropped_and_told():
+    heard = Heard()
+    line = Controller(0.12)
+    with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):
+        heard.until(lambda: any("were dropped" in finding for finding in heard.findings()))
+        time.sleep(0.5)
+    assert heard.samples == []
+    assert line.most == 1  # however slow it is, no second question waits
+    assert not any("no frame in them" in finding for finding in heard.findings())
+
+
+def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
+    monkeypatch.setattr("pipeline.devices.drive.poses._UNANSWERED_S", 0.3)
+    heard = Heard()
+    line = Controller(9.0)
+    with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):
+        heard.until(lambda: any("had no answer" in finding for finding in heard.findings()))
+        time.sleep(0.2)
+    assert line.opened == 2
+    assert line.most == 1

@@ -4,6 +4,7 @@ import json
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -35,10 +36,19 @@ def test_wrong_devices_and_faults_are_refused():
         assert isinstance(runner.invoke(emulate_app, arguments).exception, EmulatorError)
 
 
+def test_wrong_tools_are_refused():
+    assert runner.invoke(emulate_app, ["ur", "--tool", "0,0,0"]).exit_code == 2
+    assert isinstance(runner.invoke(emulate_app, ["sri", "--tool", "0,0,0,0,0,0"]).exception, EmulatorError)
+    arguments = ["ur", "--tool", "0,0,0.1,0,0,1", "--quirk", "older", "--seconds", "0.05"]
+    assert runner.invoke(emulate_app, arguments).exit_code == 0
+
+
+COMMAND = [sys.executable, "-m", "pipeline.commands.emulate"]
+
+
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_it_runs_until_it_is_ended(number: signal.Signals):
-    command = [sys.executable, "-m", "pipeline.commands.emulate", "elfin"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+    with subprocess.Popen([*COMMAND, "elfin"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert process.stdout is not None
         line = line_to(DeviceAddress.parse(process.stdout.readline().decode().strip()))
         line.open()
@@ -47,3 +57,19 @@ def test_it_runs_until_it_is_ended(number: signal.Signals):
         line.close()
         process.send_signal(number)
         assert process.wait(20) == 0
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="this system has no such signal")
+def test_a_closed_terminal_leaves_nothing_behind():
+    with subprocess.Popen(
+        [*COMMAND, "sri", "--pty"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        link = Path(process.stdout.readline().decode().strip().removeprefix("sri+serial://"))
+        assert link.is_symlink()
+        for _ in range(3):  # the first one counts, and the others disturb nothing
+            process.send_signal(signal.SIGHUP)
+        assert process.wait(20) == 0
+        assert process.stderr is not None
+        assert b"Traceback" not in process.stderr.read()
+    assert not link.parent.exists()

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 import struct
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, Moment, Reading
 from pipeline.devices.emulate.models import (
     BotaModel,
     ElfinModel,
     Model,
+    Quirk,
     RdtModel,
     RobotiqModel,
     SriModel,
@@ -25,8 +29,12 @@ ROBOTIQ_START = bytes.fromhex("0910019A0001020200CDCA")
 UR_OUTPUTS = struct.pack(">d", 125.0) + b"timestamp,actual_q,actual_TCP_pose,ft_raw_wrench"
 
 
-def model(kind: type[Model]) -> Model:
-    made = kind()
+KINDS = [SriModel, BotaModel, RobotiqModel, RdtModel, ElfinModel, UrModel]
+AGREED = rtde_packet(b"V", b"\0\2")
+
+
+def model(kind: type[Model], *quirks: Quirk) -> Model:
+    made = kind(None, quirks=quirks)
     made.answer = lambda: NOW
     return made
 
@@ -59,13 +67,13 @@ def test_start_commands_are_obeyed_whole_and_byte_by_byte(
     answers = b"".join(reply for command in commands for reply in whole.feed(command))
     assert answer in answers
     assert whole.streaming
-    assert whole.refused == []
+    assert not whole.refused
     assert b"".join(whole.commands) == b"".join(commands)
-    if kind is RobotiqModel:  # its stop is a long run of bytes, obeyed as soon as it is long enough
-        return
     pieces = model(kind)
-    assert answers == b"".join(reply for byte in b"".join(commands) for reply in pieces.feed(bytes([byte])))
+    ends = [pieces.feed(bytes([byte])) for command in commands for byte in command]
+    assert answers == b"".join(reply for replies in ends for reply in replies)
     assert pieces.streaming
+    assert not pieces.refused
     whole.restart()
     assert not whole.streaming
 
@@ -95,6 +103,8 @@ def test_start_commands_are_obeyed_whole_and_byte_by_byte(
 )
 def test_what_must_not_be_sent_is_refused_and_kept(kind: type[Model], command: bytes):
     device = model(kind)
+    if kind is UrModel:
+        device.feed(AGREED)
     if kind is RobotiqModel and len(command) == 9:
         from pipeline.devices.emulate.checksums import crc16_modbus
 
@@ -107,7 +117,8 @@ def test_what_must_not_be_sent_is_refused_and_kept(kind: type[Model], command: b
 def test_sri_answers_queries_and_gives_single_frames():
     device = model(SriModel)
     assert device.feed(b"AT+SMPF=?\r\n") == [b"ACK+SMPF=200$OK\r\n"]
-    assert device.feed(b"AT+DCKMD=CRC32\r\nAT+SGDM=(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)\r\n")
+    assert device.feed(b"AT+DCKMD=CRC32\r\n")
+    assert device.feed(b"AT+SGDM=(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)\r\n")
     (frame,) = device.feed(b"AT+GOD\r\n")
     assert (len(frame), frame[:4]) == (34, b"\xaa\x55\x00\x1e")
 
@@ -116,7 +127,7 @@ def test_sri_may_answer_its_start():
     device = SriModel()
     assert device.feed(b"AT+GSD=\r\n") == []
     assert device.feed(b"AT+GSD=STOP\r\n") == [b"ACK+GSD=STOP$OK\r\n"]
-    device.acknowledges_start = True
+    device = SriModel(None, [Quirk.ANSWERS_START])
     assert device.feed(b"AT+GSD\r\n") == [b"ACK+GSD=OK\r\n"]
     assert device.streaming
 
@@ -135,8 +146,8 @@ def test_rdt_gives_as_many_records_as_were_asked_for():
 
 
 def test_elfin_answers_in_both_lengths():
-    for newer, count in ((True, 24), (False, 12)):
-        device = ElfinModel(newer=newer)
+    for quirks, count in (([], 24), ([Quirk.OLDER], 12)):
+        device = ElfinModel(None, quirks)
         device.answer = lambda: (Reading(JOINTS), Moment(0, 0.0))
         (answer,) = device.feed(b"ReadActPos,0,;")
         name, verdict, *numbers, end = answer.decode().split(",")
@@ -148,18 +159,127 @@ def test_elfin_answers_in_both_lengths():
 
 def test_ur_refuses_unknown_variables():
     device = UrModel()
+    device.feed(AGREED)
     (answer,) = device.feed(rtde_packet(b"O", struct.pack(">d", 125.0) + b"timestamp,other"))
     assert answer == rtde_packet(b"O", b"\0DOUBLE,NOT_FOUND")
     assert device.feed(rtde_packet(b"S")) == [rtde_packet(b"S", b"\0")]
 
 
-@pytest.mark.parametrize("kind", [SriModel, BotaModel, RobotiqModel, RdtModel, ElfinModel, UrModel])
+def test_ur_speaks_one_version_and_lets_nothing_be_set():
+    device = UrModel()
+    outputs = rtde_packet(b"O", UR_OUTPUTS)
+    assert device.feed(rtde_packet(b"V", b"\0\1")) == [rtde_packet(b"V", b"\0")]
+    assert device.feed(outputs) == []
+    assert device.feed(AGREED) == [rtde_packet(b"V", b"\1")]
+    assert device.feed(outputs) != []
+    (answer,) = device.feed(rtde_packet(b"I", b"speed_slider_mask,speed_slider_fraction"))
+    assert answer == rtde_packet(b"I", b"\0NOT_FOUND,NOT_FOUND")
+    assert len(device.refused) == 2
+    device.restart()
+    assert device.feed(outputs) == []
+
+
+TOOL = (0.1, -0.02, 0.3, 0.4, 1.2, -0.5)
+
+
+def test_ur_gives_the_pose_of_its_tool_and_says_where_that_is():
+    names = b"actual_TCP_pose,tcp_offset"
+
+    def fields(tool: tuple[float, float, float, float, float, float]) -> np.ndarray:
+        device = UrModel(tool=tool)
+        device.feed(AGREED)
+        device.feed(rtde_packet(b"O", struct.pack(">d", 125.0) + names))
+        return np.array(struct.unpack(">12d", device.frame(Reading(JOINTS), Moment(0, 0.0))[4:]))
+
+    flange, tool = fields((0.0,) * 6), fields(TOOL)
+    assert np.allclose(flange[6:], 0.0)
+    assert np.allclose(tool[6:], TOOL)
+    R_BE, R_BT = (Rotation.from_rotvec(row[3:6]) for row in (flange, tool))
+    assert np.allclose((R_BE.inv() * R_BT).as_rotvec(), TOOL[3:])
+    assert np.allclose(R_BE.inv().apply(tool[:3] - flange[:3]), TOOL[:3])
+    with pytest.raises(EmulatorError, match="tool"):
+        UrModel(tool=(math.nan,) * 6)
+    older = UrModel(None, [Quirk.OLDER])
+    older.feed(AGREED)
+    (answer,) = older.feed(rtde_packet(b"O", struct.pack(">d", 125.0) + names))
+    assert answer == rtde_packet(b"O", b"\0VECTOR6D,NOT_FOUND")
+
+
+def test_an_older_sri_box_knows_the_rate_by_its_other_name():
+    newer, older = SriModel(), SriModel(None, [Quirk.OLDER])
+    assert newer.feed(b"AT+SMPF=500\r\n") == [b"ACK+SMPF=500$OK\r\n"]
+    assert older.feed(b"AT+SMPR=500\r\n") == [b"ACK+SMPR=500$OK\r\n"]
+    assert (newer.rate, older.rate) == (500, 500)
+    for box, name in ((newer, b"SMPR"), (older, b"SMPF")):
+        assert box.feed(b"AT+" + name + b"=100\r\n") == [b"ACK+" + name + b"=ERROR$ERROR\r\n"]
+        assert box.rate == 500
+
+
+@pytest.mark.parametrize(
+    ("quirk", "answer"),
+    [
+        (Quirk.CRC32_ONLY, b"ACK+DCKMD=ERROR$ERROR\r\n"),
+        (Quirk.CRC32_SILENTLY, b"ACK+DCKMD=SUM$OK\r\n"),
+    ],
+)
+def test_an_sri_box_may_know_no_sums(quirk: Quirk, answer: bytes):
+    box = SriModel(None, [quirk])
+    assert box.feed(b"AT+DCKMD=SUM\r\n") == [answer]
+    assert box.frame(*NOW)[2:4] == b"\x00\x1e"
+    assert box.feed(b"AT+DCKMD=?\r\n") == [b"ACK+DCKMD=CRC32$OK\r\n"]
+
+
+def test_an_sri_box_takes_one_command_at_a_time():
+    both = b"AT+GSD=STOP\r\nAT+SMPF=500\r\n"
+    box = model(SriModel)
+    assert box.feed(both) == [b"ACK+GSD=STOP$OK\r\n"]
+    assert list(box.refused) == [b"AT+SMPF=500\r\n"]
+    assert len(model(SriModel, Quirk.FORGIVING).feed(both)) == 2
+
+
+@pytest.mark.parametrize(("silence", "taken"), [(0.0, False), (0.0015, False), (0.0019, True)])
+def test_a_robotiq_request_needs_silence_before_it(silence: float, taken: bool):
+    device = model(RobotiqModel)
+    for stop in (b"\xff" * 30, b"\xff" * 5, b"\xff" * 5):
+        device.feed(stop, 0.0)
+    assert bool(device.feed(ROBOTIQ_START, silence)) == device.streaming == taken
+    assert list(device.refused) == ([] if taken else [b"\xff" * 10 + ROBOTIQ_START])
+
+
+def test_a_robotiq_request_in_one_piece_with_the_stop_is_a_part_of_it():
+    at_once = b"\xff" * 50 + ROBOTIQ_START
+    device = model(RobotiqModel)
+    assert device.feed(at_once) == []
+    assert list(device.refused) == [ROBOTIQ_START]
+    assert device.feed(ROBOTIQ_START) != []
+    assert model(RobotiqModel, Quirk.FORGIVING).feed(at_once) != []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_quirks_of_other_devices_are_refused(kind: type[Model]):
+    for quirk in Quirk:
+        if quirk not in kind.possible_quirks:
+            with pytest.raises(EmulatorError, match="cannot have it"):
+                kind(None, quirks=[quirk])
+    with pytest.raises(EmulatorError, match="'other'"):
+        kind(None, quirks=["other"])
+
+
+def test_what_it_was_told_is_kept_within_bounds():
+    device = model(ElfinModel)
+    for _ in range(1500):
+        device.feed(b"ReadActPos,0,;GrpStop,0,;")
+    assert (device.obeyed_count, device.refused_count) == (1500, 1500)
+    assert len(device.commands) == len(device.refused) == 1000
+
+
+@pytest.mark.parametrize("kind", KINDS)
 @settings(max_examples=60)
-@given(chunks=st.lists(st.binary(max_size=80), max_size=12))
-def test_any_bytes_are_taken(kind: type[Model], chunks: list[bytes]):
+@given(chunks=st.lists(st.tuples(st.binary(max_size=80), st.floats(0, 0.01)), max_size=12))
+def test_any_bytes_are_taken(kind: type[Model], chunks: list[tuple[bytes, float]]):
     device = model(kind)
-    for chunk in chunks:
-        device.feed(chunk)
+    for chunk, silence in chunks:
+        device.feed(chunk, silence)
     device.feed(bytes(10_000))
     assert len(device._pending) <= 4096  # the bound is the point
 

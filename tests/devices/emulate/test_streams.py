@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 
@@ -14,7 +15,10 @@ from pipeline.devices.emulate import (
     Emulator,
     EmulatorError,
     Fault,
+    Quirk,
     Script,
+    Six,
+    constant,
     emulator,
     possible_faults,
     swinging,
@@ -29,6 +33,7 @@ from pipeline.devices.url import DeviceAddress
 SENSORS = ("sri", "bota", "robotiq", "rdt")
 RATE = 400.0
 PATIENCE_S = 10.0
+PAUSE_S = 0.05
 
 START: dict[str, Callable[[], tuple[Command, ...]]] = {
     "sri": lambda: sri.start_commands(RATE),
@@ -57,10 +62,13 @@ class Host:
 
     def start(self) -> None:
         self.line.open()
-        for command in START[self.protocol]():
+        commands = START[self.protocol]()
+        for command in commands:
             self.line.write(command.data)
             if command.reply is not None:
                 self._await(command.reply)
+            elif command is not commands[-1]:
+                self._settle()
 
     def read_until(self, done: Callable[[], bool]) -> list[WrenchSample]:
         end = time.monotonic() + PATIENCE_S
@@ -69,6 +77,11 @@ class Host:
             chunk = self.line.read(0.05)
             self.samples += self.parser.feed(chunk.data, chunk.time)
         return self.samples
+
+    def _settle(self) -> None:
+        """Read until nothing more comes, as after a stop: its answer, and the end of the stream."""
+        while self.line.read(PAUSE_S).data:
+            pass
 
     def _await(self, reply: bytes) -> None:
         end, seen = time.monotonic() + PATIENCE_S, b""
@@ -239,7 +252,93 @@ def test_what_cannot_be_made_is_refused():
         emulator("elfin", script=Script([(0, Fault.DRIFT, 1)]))
     with emulator("ur") as device, pytest.raises(EmulatorError, match="choose another"):
         emulator("ur", port=int(device.url.rpartition(":")[2]))
+    with pytest.raises(EmulatorError, match="has none"):
+        emulator("elfin", tool=(0.0,) * 6)
+    with pytest.raises(EmulatorError, match="there are: none"):
+        emulator("bota", quirks=["older"])
     assert len(EMULATED) == 6
+
+
+def opened(device: Emulator) -> Line:
+    line = line_to(DeviceAddress.parse(device.url))
+    line.open()
+    return line
+
+
+def until(done: Callable[[], bool]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not done():
+        assert time.monotonic() < end, "it never came"
+        time.sleep(0.005)
+
+
+@pytest.mark.parametrize("carrier", ["serial", "tcp"])
+def test_sri_refuses_a_command_that_does_not_wait(carrier: str):
+    for quirks, refused in (([], [b"AT+SMPF=500\r\n"]), ([Quirk.FORGIVING], [])):
+        with emulator("sri", carrier, quirks=quirks) as device:
+            line = opened(device)
+            line.write(b"AT+GSD=STOP\r\n")
+            line.write(b"AT+SMPF=500\r\n")
+            until(lambda device=device: device.model.obeyed_count + device.model.refused_count == 2)
+            line.close()
+        assert device.refused == refused
+
+
+def test_robotiq_refuses_a_request_that_does_not_wait():
+    stop, start = (command.data for command in robotiq.start_commands())
+    with emulator("robotiq") as device:
+        line = opened(device)
+        line.write(stop + start)
+        until(lambda: bool(device.refused))
+        time.sleep(PAUSE_S)
+        line.write(start)
+        until(lambda: device.model.streaming)
+        line.close()
+    assert device.refused == [start]
+
+
+def test_it_listens_though_it_cannot_keep_up():
+    with emulator("sri", "tcp", rate=100_000.0, log=0) as device:
+        line = opened(device)
+        line.write(b"AT+GSD\r\n")
+        until(lambda: device.counts["intact"] + device.counts["not intact"] > 1000)
+        line.write(b"AT+GSD=STOP\r\n")
+        until(lambda: not device.model.streaming)
+        line.close()
+    assert not device.log
+
+
+def test_what_was_due_while_it_slept_is_skipped():
+    asleep = threading.Event()
+    asleep.set()
+
+    def signal(at: float) -> Six:
+        if at > 0.02 and asleep.is_set():
+            asleep.clear()
+            time.sleep(1.2)  # as a suspended process does
+        return SYNTHETIC
+
+    with emulator("sri", "tcp", rate=200.0, signal=signal) as device:
+        line = opened(device)
+        line.write(b"AT+GSD\r\n")
+        until(lambda: device.counts["skipped"] > 0)
+        count = device.counts["intact"]
+        until(lambda: device.counts["intact"] >= count + 5)
+        line.close()
+    assert device.counts["skipped"] == pytest.approx(240, abs=60)
+    assert count < 100  # not the flood of what was missed
+    log = list(device.log)
+    assert log[-1].moment.number - log[-1].count == device.counts["skipped"]
+
+
+def test_what_it_measures_may_be_changed_while_it_runs():
+    with device_for("sri", carrier="tcp") as device:
+        host = Host(device, "sri")
+        host.read_until(lambda: len(host.samples) >= 5)
+        device.measure(constant((7.0, 0.0, 0.0, 0.0, 0.0, 0.0)))
+        host.read_until(lambda: host.samples[-1].force == (7.0, 0.0, 0.0))
+        host.line.close()
+    assert host.parser.counters.lost == 0
 
 
 def test_a_failure_of_the_signal_is_not_silent():

@@ -29,7 +29,7 @@ _ALLOWED = (
     rb"\x12\x34\x00\x82\x00\x00[\x00-\x03].",
     rb"(ReadActPos|ReadPcsActualPos|ReadActACS|ReadRobotState),0,;",
     rb"\x00\x05V\x00\x02",
-    rb"\x00.O.{8}timestamp,actual_q,actual_TCP_pose",
+    rb"\x00.O.{8}timestamp,actual_q,actual_TCP_pose(,tcp_offset)?",
     rb"\x00\x03[SP]",
 )
 _FORBIDDEN = re.compile(
@@ -60,7 +60,7 @@ def ur_conversation() -> Iterator[bytes]:
     yield stream.start()
     for kind, answer in (
         (Kind.VERSION, b"\x01"),
-        (Kind.OUTPUTS, b"\x07DOUBLE,VECTOR6D,VECTOR6D"),
+        (Kind.OUTPUTS, b"\x07DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"),
         (Kind.START, b"\x01"),
     ):
         stream.feed(packet(kind, answer), 0.0)

@@ -29,6 +29,7 @@ from pipeline.devices.protocols.ur_rtde import (
 JOINTS = (0.1, -1.2, 1.3, -0.4, 0.5, 0.6)
 POSE = (0.4, -0.1, 0.3, 0.2, -1.1, 0.7)
 TYPES = b"DOUBLE,VECTOR6D,VECTOR6D"
+NAMES = ("timestamp", "actual_q", "actual_TCP_pose")
 
 
 def data(*, recipe: int = 1, clock: float = 7.5, pose: tuple[float, ...] = POSE) -> bytes:
@@ -39,7 +40,9 @@ def running(tool: tuple[float, ...] | None = None) -> UrStream:
     stream = UrStream(125.0, tool)
     assert stream.start() == version_request()
     stream.feed(packet(Kind.VERSION, b"\x01"), 0.0)
-    assert stream.take_output() == outputs_request(125.0, ("timestamp", "actual_q", "actual_TCP_pose"))
+    assert stream.take_output() == outputs_request(125.0, (*NAMES, "tcp_offset"))
+    stream.feed(packet(Kind.OUTPUTS, b"\x00" + TYPES + b",NOT_FOUND"), 0.0)  # an older controller
+    assert stream.take_output() == outputs_request(125.0, NAMES)
     stream.feed(packet(Kind.OUTPUTS, b"\x01" + TYPES), 0.0)
     assert stream.take_output() == start_request()
     stream.feed(packet(Kind.START, b"\x01"), 0.0)
@@ -128,10 +131,30 @@ def test_data_that_were_not_agreed(wrong: bytes, message: str) -> None:
 def test_variables_of_another_type_are_refused() -> None:
     stream = UrStream(125.0)
     stream.start()
-    stream.feed(packet(Kind.VERSION, b"\x01") + packet(Kind.OUTPUTS, b"\x01DOUBLE,DOUBLE,DOUBLE"), 0.0)
+    stream.feed(packet(Kind.VERSION, b"\x01") + packet(Kind.OUTPUTS, b"\x01DOUBLE,DOUBLE,DOUBLE,DOUBLE"), 0.0)
     stream.feed(packet(Kind.START, b"\x01"), 0.0)
     with pytest.raises(RtdeError, match="six joints and a pose"):
-        stream.feed(packet(Kind.DATA, struct.pack(">B3d", 1, 0, 0, 0)), 0.0)
+        stream.feed(packet(Kind.DATA, struct.pack(">B4d", 1, 0, 0, 0, 0)), 0.0)
+
+
+def test_the_controllers_own_tool_gives_the_flange_whatever_was_typed() -> None:
+    tool = (0.01, -0.02, 0.2, 0.0, 0.0, math.pi / 2)
+    stream = UrStream(125.0, (0.0,) * 6)
+    stream.start()
+    stream.feed(packet(Kind.VERSION, b"\x01") + packet(Kind.OUTPUTS, b"\x01" + TYPES + b",VECTOR6D"), 0.0)
+    stream.feed(packet(Kind.START, b"\x01"), 0.0)
+    (sample,) = stream.feed(packet(Kind.DATA, struct.pack(">B19d", 1, 7.5, *JOINTS, *POSE, *tool)), 0.0)
+    R_BT, R_ET = Rotation.from_rotvec(POSE[3:]), Rotation.from_rotvec(tool[3:])
+    assert pytest.approx((R_BT * R_ET.inv()).as_matrix()) == sample.R_BE
+    assert sample.R_BE @ np.array(tool[:3]) + sample.p_BE_B == pytest.approx(POSE[:3])
+    assert stream.knows_flange
+    stream.start()
+    assert stream.take_output() == b""
+
+
+def test_a_tool_that_is_neither_told_nor_typed_is_not_known() -> None:
+    assert not running().knows_flange
+    assert running((0.0,) * 6).knows_flange
 
 
 def test_the_conversation_begins_anew() -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import os
 import socket
+import threading
 import time
 import tty
 from collections.abc import Callable, Iterator
@@ -209,3 +212,78 @@ def test_ports_are_guessed_from_what_they_say(monkeypatch):
         "robotiq+serial:///dev/ttyUSB1",
     )
     assert (second.description, second.url) == ("no description", None)
+
+
+def _both(host, port, *_, **kinds):
+    if host != "twofold":
+        raise OSError("no such host")
+    type_ = kinds["type"]
+    protocol = 6 if type_ == socket.SOCK_STREAM else 17
+    return [
+        (socket.AF_INET6, type_, protocol, "", ("::1", port, 0, 0)),
+        (socket.AF_INET, type_, protocol, "", ("127.0.0.1", port)),
+    ]
+
+
+def test_a_name_with_two_addresses_is_tried_at_ipv4_first(monkeypatch):
+    monkeypatch.setattr(socket, "getaddrinfo", _both)
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        tcp = TcpLine("twofold", listener.getsockname()[1])
+        tcp.open()
+        tcp.close()
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as device:
+        device.bind(("127.0.0.1", 0))
+        device.settimeout(1.0)
+        udp = UdpLine("twofold", device.getsockname()[1])
+        udp.open()
+        udp.write(b"start")
+        assert device.recv(100) == b"start"
+        udp.open()  # the first one may be silent: the other one has its turn
+        with contextlib.suppress(LineLost):
+            udp.write(b"start")
+        udp.open()
+        udp.write(b"again")
+        assert device.recv(100) == b"again"
+        udp.close()
+
+
+def test_a_name_of_ipv6_is_bracketed():
+    assert TcpLine("fe80::1%eth0", 4008).name == "[fe80::1%eth0]:4008"
+    assert UdpLine("box", 5).name == "box:5"
+
+
+def test_a_pending_connection_can_be_interrupted(monkeypatch):
+    def pending(*_):
+        return errno.EINPROGRESS
+
+    class Never(socket.socket):
+        connect_ex = pending
+
+    monkeypatch.setattr(socket, "socket", Never)
+    monkeypatch.setattr("select.select", lambda *_: (time.sleep(0.01), [], [])[1:] + ([],))
+    line = TcpLine("127.0.0.1", 9)
+    ended = []
+
+    def connect():
+        with pytest.raises(LineUnavailable, match="interrupted"):
+            line.open()
+        ended.append(True)
+
+    thread = threading.Thread(target=connect)
+    thread.start()
+    time.sleep(0.05)
+    assert not ended
+    line.interrupt()
+    thread.join(1.0)
+    assert ended
+
+
+def test_a_peer_that_vanishes_is_looked_after():
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        line = TcpLine("127.0.0.1", listener.getsockname()[1])
+        line.open()
+        opened = line._socket
+        assert opened.getsockopt(socket.SOL_SOCKET, socket.SO_KEEPALIVE) == 1
+        if hasattr(socket, "TCP_USER_TIMEOUT"):
+            assert opened.getsockopt(socket.IPPROTO_TCP, socket.TCP_USER_TIMEOUT) == 3000
+        line.close()

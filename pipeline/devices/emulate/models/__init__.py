@@ -2,7 +2,7 @@
 
 from pipeline.devices.emulate.models.bota import BotaModel, bota_frame
 from pipeline.devices.emulate.models.elfin import ElfinModel
-from pipeline.devices.emulate.models.model import Model
+from pipeline.devices.emulate.models.model import Model, Quirk
 from pipeline.devices.emulate.models.rdt import RdtModel, rdt_record
 from pipeline.devices.emulate.models.robotiq import RobotiqModel, robotiq_frame
 from pipeline.devices.emulate.models.sri import SriModel, sri_frame
@@ -12,6 +12,7 @@ __all__ = [
     "BotaModel",
     "ElfinModel",
     "Model",
+    "Quirk",
     "RdtModel",
     "RobotiqModel",
     "SriModel",

@@ -7,10 +7,12 @@ import struct
 from typing import TYPE_CHECKING, ClassVar
 
 from pipeline.devices.emulate.checksums import crc16_x25
-from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model
+from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
 from pipeline.devices.emulate.script import Fault
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _TRAP = struct.unpack("<f", b"\xaa\x00\x00\xaa")[0]
@@ -36,8 +38,8 @@ class BotaModel(Model):
     trap: ClassVar[Six | None] = (_TRAP,) * 6
     full_scale: ClassVar[Six | None] = (500.0, 500.0, 1000.0, 15.0, 15.0, 10.0)
 
-    def __init__(self, rate: float | None = None) -> None:
-        super().__init__(rate)
+    def __init__(self, rate: float | None = None, quirks: Iterable[Quirk | str] = ()) -> None:
+        super().__init__(rate, quirks)
         self._configuring = False
 
     def restart(self) -> None:

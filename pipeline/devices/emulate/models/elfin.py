@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
-from pipeline.devices.emulate.models.model import WIRE_FAULTS, Model
+from pipeline.devices.emulate.models.model import WIRE_FAULTS, Model, Quirk
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from pipeline.devices.emulate.signals import Moment, Reading
 
@@ -26,18 +26,17 @@ class ElfinModel(Model):
     ----------
     rate : float or None
         Of no meaning: it answers when it is asked.
-    newer : bool
-        ReadActPos gives 24 numbers, not 12.
+    quirks : iterable of Quirk
     """
 
     name = "elfin"
     own_rate = 50.0
     faults = WIRE_FAULTS
     asked_only = True
+    possible_quirks: ClassVar[frozenset[Quirk]] = frozenset({Quirk.OLDER})
 
-    def __init__(self, rate: float | None = None, *, newer: bool = True) -> None:
-        super().__init__(rate)
-        self._newer = newer
+    def __init__(self, rate: float | None = None, quirks: Iterable[Quirk | str] = ()) -> None:
+        super().__init__(rate, quirks)
         self._asked = "ReadActPos"
 
     def frame(self, reading: Reading, moment: Moment) -> bytes:  # noqa: ARG002 - it has no clock
@@ -50,7 +49,8 @@ class ElfinModel(Model):
             return _answer(self._asked, joints)
         if self._asked == "ReadPcsActualPos":
             return _answer(self._asked, cartesian)
-        return _answer(self._asked, [*joints, *cartesian, *([0.0] * 12 if self._newer else [])])
+        rest = [] if Quirk.OLDER in self.quirks else [0.0] * 12
+        return _answer(self._asked, [*joints, *cartesian, *rest])
 
     def damaged(self, frame: bytes) -> bytes:
         """Return a failure in its place: the protocol has no checksum."""

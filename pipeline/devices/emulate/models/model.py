@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
+from collections import deque
+from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar
 
 from pipeline.devices.emulate.script import EmulatorError, Fault
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from pipeline.devices.emulate.signals import Moment, Reading, Six
 
@@ -26,6 +29,23 @@ WIRE_FAULTS = frozenset(
 )
 SENSOR_FAULTS = WIRE_FAULTS | {Fault.HEADER, Fault.WRONG_RATE, Fault.SATURATION, Fault.DRIFT, Fault.REZERO}
 _LONGEST_COMMAND = 4096
+_KEPT = 1000
+
+
+class Quirk(StrEnum):
+    """What some devices of a kind do and others do not. A device has none unless it is told so."""
+
+    OLDER = "older"
+    """SRI: the rate is set by SMPR, SMPF is an error. Elfin: ReadActPos gives 12 numbers, not 24. UR: the
+    controller does not know the variable tcp_offset."""
+    CRC32_ONLY = "crc32-only"
+    """SRI: frames end with a CRC-32; DCKMD=SUM is an error."""
+    CRC32_SILENTLY = "crc32-silently"
+    """SRI: frames end with a CRC-32; DCKMD=SUM is acknowledged and ignored."""
+    ANSWERS_START = "answers-start"
+    """SRI: AT+GSD is answered before the first frame."""
+    FORGIVING = "forgiving"
+    """SRI, Robotiq: commands are taken without the pause that the real devices need."""
 
 
 class Model(ABC):
@@ -35,22 +55,34 @@ class Model(ABC):
     ----------
     rate : float or None
         Frames per second until a command changes it; None: the device's own.
+    quirks : iterable of Quirk
+
+    Raises
+    ------
+    EmulatorError
+        The rate is not possible, or the device cannot have a quirk.
 
     Attributes
     ----------
     streaming : bool
     rate : float
         Frames per second while streaming.
-    commands : list of bytes
-        What it was told and obeyed, in order.
-    refused : list of bytes
-        What it was told and must not be told: settings that stay, zeroing, motion, and what it does not know.
+    commands : deque of bytes
+        What it was told and obeyed, in order: the last 1000.
+    refused : deque of bytes
+        What it was told and must not be told: settings that stay, zeroing, motion, what it does not know, and
+        what comes too soon after a command. The last 1000.
+    obeyed_count, refused_count : int
+        How many there were in all.
     faults : frozenset of Fault
         That it can have.
     trap, full_scale : six floats or None
         A reading that holds the start of a frame; the largest one.
     asked_only : bool
         It sends answers only, never by itself.
+    possible_quirks : frozenset of Quirk
+    busy : float
+        How long it is deaf before it answers, s.
     """
 
     name: ClassVar[str]
@@ -59,12 +91,16 @@ class Model(ABC):
     trap: ClassVar[Six | None] = None
     full_scale: ClassVar[Six | None] = None
     asked_only: ClassVar[bool] = False
+    possible_quirks: ClassVar[frozenset[Quirk]] = frozenset()
 
-    def __init__(self, rate: float | None = None) -> None:
+    def __init__(self, rate: float | None = None, quirks: Iterable[Quirk | str] = ()) -> None:
         if rate is not None and not 0.01 <= rate <= 100_000:
             raise EmulatorError(f"rate {rate}: give a number of frames per second from 0.01 to 100000.")
-        self.commands: list[bytes] = []
-        self.refused: list[bytes] = []
+        self.quirks = self._checked(quirks)
+        self.commands: deque[bytes] = deque(maxlen=_KEPT)
+        self.refused: deque[bytes] = deque(maxlen=_KEPT)
+        self.obeyed_count = self.refused_count = 0
+        self.busy = 0.0
         self.first_rate = rate or self.own_rate
         self.rate = self.first_rate
         self.streaming = False
@@ -81,8 +117,15 @@ class Model(ABC):
         """Return what it says by itself when it has come up."""
         return b""
 
-    def feed(self, data: bytes) -> list[bytes]:
-        """Take what the host sent, in any pieces, and return the answers."""
+    def feed(self, data: bytes, silence: float = math.inf) -> list[bytes]:  # noqa: ARG002 - for those that need it
+        """Take what the host sent, in any pieces, and return the answers.
+
+        Parameters
+        ----------
+        data : bytes
+        silence : float
+            How long the host had sent nothing before these bytes came, s.
+        """
         self._pending += data
         answers: list[bytes] = []
         while True:
@@ -93,6 +136,11 @@ class Model(ABC):
         if len(self._pending) > _LONGEST_COMMAND:
             self._refuse(self._take(len(self._pending)))
         return answers
+
+    def too_soon(self, data: bytes) -> None:
+        """Take what the host sent while the device was busy, to no effect."""
+        if data:
+            self._refuse(data)
 
     @abstractmethod
     def _step(self) -> list[bytes]:
@@ -111,10 +159,19 @@ class Model(ABC):
         return taken
 
     def _obey(self, command: bytes) -> None:
+        self.obeyed_count += 1
         self.commands.append(command)
 
     def _refuse(self, command: bytes) -> None:
+        self.refused_count += 1
         self.refused.append(command)
+
+    def _checked(self, quirks: Iterable[Quirk | str]) -> frozenset[Quirk]:
+        named = frozenset(quirks)
+        for quirk in named - self.possible_quirks:
+            there = ", ".join(sorted(self.possible_quirks)) or "none"
+            raise EmulatorError(f"quirk {str(quirk)!r}: {self.name} cannot have it; there are: {there}.")
+        return frozenset(map(Quirk, named))
 
     def _now(self) -> tuple[Reading, Moment]:
         if self.answer is None:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
-from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model
+from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
 from pipeline.devices.emulate.script import EmulatorError, Fault
 from pipeline.devices.url import PROFILES
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _MAGIC, _REQUEST = 0x1234, 8
@@ -53,15 +56,17 @@ class RdtModel(Model):
     faults = (SENSOR_FAULTS - {Fault.HEADER}) | {Fault.CLOCK_JUMP}
     full_scale: ClassVar[Six | None] = (150.0, 150.0, 300.0, 15.0, 15.0, 15.0)
 
-    def __init__(self, rate: float | None = None, profile: str = "ati") -> None:
-        super().__init__(rate)
+    def __init__(
+        self, rate: float | None = None, profile: str = "ati", quirks: Iterable[Quirk | str] = ()
+    ) -> None:
+        super().__init__(rate, quirks)
         if profile not in PROFILES:
             raise EmulatorError(f"profile {profile!r}: choose one of {', '.join(PROFILES)}.")
         self.scale = PROFILES[profile]
         self._onrobot = profile == "onrobot"
         self._left: int | None = None
 
-    def feed(self, data: bytes) -> list[bytes]:
+    def feed(self, data: bytes, silence: float = math.inf) -> list[bytes]:  # noqa: ARG002 - datagrams stay apart
         """Take one datagram; there are no answers but the records."""
         if len(data) != _REQUEST or data[:2] != _MAGIC.to_bytes(2, "big"):
             self._refuse(data)

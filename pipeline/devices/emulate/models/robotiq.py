@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
 from pipeline.devices.emulate.checksums import crc16_modbus
-from pipeline.devices.emulate.models.model import Model
+from pipeline.devices.emulate.models.model import Model, Quirk
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _SLAVE, _READ, _WRITE = 9, 3, 16
@@ -17,6 +20,9 @@ _STARTED = bytes.fromhex("09 10 01 9A 00 01")
 _SCALE = (100, 100, 100, 1000, 1000, 1000)
 _STOP_BYTES = 20
 """How many 0xFF in a row end the stream; hosts send more."""
+_BAUD = 19_200
+_SILENCE_S = 3.5 * 10 / _BAUD
+"""What ends whatever was on the line and lets a Modbus request begin, 8N1."""
 _TRAP = (200.0, 200.0, 200.0, 20.0, 20.0, 20.0)  # 20000 counts each: 0x4E20, the header
 
 
@@ -31,18 +37,42 @@ def _with_crc(data: bytes) -> bytes:
 
 
 class RobotiqModel(Model):
-    """An FT 300; its rate of 100 Hz cannot be set from outside."""
+    """An FT 300; its rate of 100 Hz cannot be set from outside.
+
+    A request that follows the bytes of a stop without 3.5 characters of silence is a part of them, and lost.
+    """
 
     name = "robotiq"
     own_rate = 100.0
     trap: ClassVar[Six | None] = _TRAP
     full_scale: ClassVar[Six | None] = (327.67, 327.67, 327.67, 32.767, 32.767, 32.767)
 
+    possible_quirks: ClassVar[frozenset[Quirk]] = frozenset({Quirk.FORGIVING})
+
+    def __init__(self, rate: float | None = None, quirks: Iterable[Quirk | str] = ()) -> None:
+        super().__init__(rate, quirks)
+        self._stopping = False
+
+    def restart(self) -> None:
+        """As `Model`."""
+        super().restart()
+        self._stopping = False
+
     def frame(self, reading: Reading, moment: Moment) -> bytes:  # noqa: ARG002 - it has no clock
         """Return one frame."""
         return robotiq_frame(reading.values)
 
+    def feed(self, data: bytes, silence: float = math.inf) -> list[bytes]:
+        """As `Model`."""
+        if silence >= _SILENCE_S and self._stopping and data[:1] != b"\xff":
+            self._stopping = False
+            self._pending = b""  # the last bytes of the stop, too few for another one
+        return super().feed(data, silence)
+
     def _step(self) -> list[bytes]:
+        if self._stopping and self._pending.lstrip(b"\xff"):
+            self.too_soon(self._take(len(self._pending)))
+            return []
         if self._pending[:1] == b"\xff":
             return self._stop()
         size = self._size()
@@ -59,6 +89,7 @@ class RobotiqModel(Model):
         count = len(self._pending) - len(self._pending.lstrip(b"\xff"))
         if count >= _STOP_BYTES:
             self.streaming = False
+            self._stopping = Quirk.FORGIVING not in self.quirks
             self._obey(self._take(count))
         elif count < len(self._pending):  # too few, and something follows: noise
             self._refuse(self._take(count))

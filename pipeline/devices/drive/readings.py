@@ -1,0 +1,150 @@
+"""What the numbers themselves give away: flags, hanging, ends of range, warming."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pipeline.devices.sample import Status
+
+if TYPE_CHECKING:
+    from pipeline.devices.sample import WrenchSample
+
+# Noise changes the last digit of one channel in this time.
+_STILL_S, _STILL_SAMPLES = 0.12, 10
+# A flag of one sample must be seen by people too.
+_HELD_S = 0.5
+# A quiet channel of a coarse sensor may stand still for a while; at so much load none does.
+_LOADED = (10.0,) * 3 + (0.5,) * 3  # N, N·m
+_MOVED = 50  # changes of a channel before its largest value so far means anything
+_WARMER_K = 3.0
+_LEARN_S = 0.5
+_CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+_UNITS = ("N",) * 3 + ("N·m",) * 3
+
+
+class Readings:
+    """
+    Looks at the numbers of a force/torque sensor.
+
+    A channel that is exactly constant at the largest value it ever had is taken to be at its end. Sensors
+    that mix their gauges by a matrix may be at the end of a gauge without any such sign.
+
+    Parameters
+    ----------
+    limits : (force, torque) or None
+        Range of each channel, N and N·m, where the driver knows it.
+    """
+
+    def __init__(self, limits: tuple[float, float] | None = None) -> None:
+        self._limits = None if limits is None else (limits[0],) * 3 + (limits[1],) * 3
+        self._now = 0.0
+        self._last: tuple[float, ...] | None = None
+        self._since = [0.0] * 6
+        self._same = [0] * 6
+        self._moved = [0] * 6
+        self._largest = [0.0] * 6
+        self._held: dict[Status, float] = {}
+        self._beyond = float("-inf")
+        self._temperature: float | None = None
+        self._first_temperatures: list[tuple[float, float]] = []
+        self._reference: float | None = None
+
+    def see(self, sample: WrenchSample) -> None:
+        """Take one sample."""
+        self._now = sample.time
+        values = (*sample.force, *sample.torque)
+        self._compare(values)
+        self._last = values
+        if sample.status:
+            self._held.update({flag: sample.time for flag in _FLAGS if flag in sample.status})
+        if self._limits and any(abs(v) >= limit for v, limit in zip(values, self._limits, strict=True)):
+            self._beyond = sample.time
+        if sample.temperature is not None:
+            self._warm(sample.time, sample.temperature)
+
+    def forget(self) -> None:
+        """Begin anew, after a gap; the first temperature and the largest values stay."""
+        self._last = None
+        self._same = [0] * 6
+
+    def acknowledge(self) -> None:
+        """Take the temperature of now as the one to compare with."""
+        if self._temperature is not None:
+            self._reference = self._temperature
+
+    def findings(self) -> dict[str, str]:
+        """Return what is wrong, by kind."""
+        found = {
+            flag.name or str(flag): _FLAGS[flag]
+            for flag, time in self._held.items()
+            if self._now - time <= _HELD_S
+        }
+        if Status.ERROR in self._held and "ERROR" in found:
+            # With an error no reading is a measurement: the error is what can be mended.
+            found.pop("INVALID", None)
+        if self._now - self._beyond <= _HELD_S:
+            found["range"] = "A channel is beyond the sensor's range: take the load off, and use less force."
+        at_end = [k for k in range(6) if self._at_end(k)]
+        if at_end and self._last is not None:
+            which = ", ".join(f"{_CHANNELS[k]} at {self._last[k]:.4g} {_UNITS[k]}" for k in at_end)
+            found["end"] = (
+                f"{which}: exactly the same for {min(self._same[k] for k in at_end)} samples, and further than ever"
+                " before: it looks like the end of the range. Take the load off, and use less force."
+            )
+        elif self._last is not None and all(map(self._still, range(6))):
+            found["frozen"] = (
+                f"The readings have not changed in any channel for {min(self._same)} samples: the sensor hangs, or is"
+                " not connected to its box. Switch it off and on."
+            )
+        return found | self._warmed()
+
+    def _compare(self, values: tuple[float, ...]) -> None:
+        last = self._last
+        for k, value in enumerate(values):
+            if last is not None and value == last[k]:
+                self._same[k] += 1
+                continue
+            if last is not None:
+                self._largest[k] = max(self._largest[k], abs(last[k]))
+                self._moved[k] += 1
+            self._same[k], self._since[k] = 0, self._now
+
+    def _still(self, channel: int) -> bool:
+        return self._same[channel] >= _STILL_SAMPLES and self._now - self._since[channel] >= _STILL_S
+
+    def _at_end(self, channel: int) -> bool:
+        if self._last is None or not self._still(channel) or self._moved[channel] < _MOVED:
+            return False
+        return abs(self._last[channel]) > max(self._largest[channel], _LOADED[channel])
+
+    def _warm(self, time: float, temperature: float) -> None:
+        self._temperature = temperature
+        if self._reference is not None:
+            return
+        first = self._first_temperatures
+        first.append((time, temperature))
+        if time - first[0][0] >= _LEARN_S:
+            ordered = sorted(each for _, each in first)
+            self._reference = ordered[len(ordered) // 2]
+            first.clear()
+
+    def _warmed(self) -> dict[str, str]:
+        if self._reference is None or self._temperature is None:
+            return {}
+        warmer = self._temperature - self._reference
+        if abs(warmer) <= _WARMER_K:
+            return {}
+        return {
+            "temperature": f"The sensor is {abs(warmer):.1f} K {'warmer' if warmer > 0 else 'colder'} than at the"
+            " start, and its zero moves with that: let it settle, then calibrate again."
+        }
+
+
+_FLAGS = {
+    Status.OVERRANGE: "A channel is at the end of its range: take the load off, and use less force.",
+    Status.INVALID: "The sensor says that its readings are not measurements: switch it off and on.",
+    Status.ERROR: "The sensor reports an error or too much load: take the load off; if that does not help, see its own"
+    " display or manual.",
+    Status.LATE: "The sensor cannot keep its rate: ask for a lower one.",
+    Status.RAW: "The readings are raw, not calibrated by the sensor: set it to engineering units.",
+}

@@ -1,0 +1,230 @@
+"""
+Counts per newton of an ATI sensor, from its own web page.
+
+Net F/T boxes and Ethernet Axia sensors tell counts per unit, and which units these are, in netftapi2.xml. The
+page is only read; nothing is set.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+from xml.parsers import expat
+
+from pipeline.devices.protocols.parser import ProtocolError
+from pipeline.devices.protocols.rdt import ONROBOT_SCALE, CountScale
+from pipeline.devices.transport.http_get import MOST_BYTES, http_get
+
+if TYPE_CHECKING:
+    from pipeline.devices.url import DeviceAddress
+
+PAGE = "/netftapi2.xml"
+_PRODUCT, _PER_FORCE, _PER_TORQUE, _FORCE_UNIT, _TORQUE_UNIT = _NAMES = (
+    "prodname",
+    "cfgcpf",
+    "cfgcpt",
+    "scfgfu",
+    "scfgtu",
+)
+_NUMBER = re.compile(r"[0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][+-]?[0-9]{1,2})?")
+_FEWEST, _MOST = 1e-3, 1e12  # counts per unit that any sensor could have
+_LONGEST = 80  # characters of a name or number that are looked at
+
+_POUND = 0.45359237 * 9.80665  # lbf in N; both factors are exact by definition
+_INCH = 0.0254
+# Written with and without hyphens, and kg for kgf, by different firmware.
+_NEWTONS = {
+    "n": 1.0,
+    "kn": 1e3,
+    "lbf": _POUND,
+    "lb": _POUND,
+    "klbf": 1e3 * _POUND,
+    "klb": 1e3 * _POUND,
+    "kgf": 9.80665,
+    "kg": 9.80665,
+    "gf": 9.80665e-3,
+    "g": 9.80665e-3,
+}
+_NEWTON_METRES = {
+    "nm": 1.0,
+    "nmm": 1e-3,
+    "knm": 1e3,
+    "lbfin": _POUND * _INCH,
+    "lbin": _POUND * _INCH,
+    "lbfft": 12 * _POUND * _INCH,
+    "lbft": 12 * _POUND * _INCH,
+    "kgfcm": 9.80665e-2,
+    "kgcm": 9.80665e-2,
+}
+
+
+class ScaleError(ProtocolError):
+    """A page that does not tell the counts per newton; the message names the part and the remedy."""
+
+
+@dataclass(frozen=True, slots=True)
+class AtiScale:
+    """
+    What an ATI sensor tells of itself.
+
+    Attributes
+    ----------
+    counts_per_newton, counts_per_newton_metre : float
+        In SI whatever units the sensor is set to; finite and positive.
+    product : str
+        Its name; empty where it tells none.
+    """
+
+    counts_per_newton: float
+    counts_per_newton_metre: float
+    product: str = ""
+
+
+def read_scale(host: str, port: int = 80) -> AtiScale:
+    """
+    Ask a sensor for its counts per newton; takes 2 s at most.
+
+    Parameters
+    ----------
+    host : str
+    port : int
+        Of its web server.
+
+    Raises
+    ------
+    PageError
+        The page cannot be had.
+    ScaleError
+        The page is not what it should be.
+    """
+    return parse_scale(http_get(host, PAGE, port), host)
+
+
+def scale_for(address: DeviceAddress, port: int = 80) -> CountScale:
+    """
+    Return the counts of an RDT sensor: as the address has them, else as its profile or the sensor itself says.
+
+    The sensor is only asked where the profile is ATI's and the address leaves a count out.
+
+    Parameters
+    ----------
+    address : DeviceAddress
+    port : int
+        Of the sensor's web server.
+
+    Raises
+    ------
+    PageError, ScaleError
+        As `read_scale`.
+    """
+    force, torque = address.counts_per_newton, address.counts_per_newton_metre
+    if force is not None and torque is not None:
+        return CountScale(force, torque)
+    if address.profile == "onrobot":
+        return CountScale(force or ONROBOT_SCALE.per_newton, torque or ONROBOT_SCALE.per_newton_metre)
+    told = read_scale(address.host, port)
+    return CountScale(force or told.counts_per_newton, torque or told.counts_per_newton_metre)
+
+
+def parse_scale(page: bytes, where: str = "ATI sensor") -> AtiScale:
+    """
+    Read the page.
+
+    Parameters
+    ----------
+    page : bytes
+        As it came, of any source.
+    where : str
+        Names the sensor in messages.
+
+    Raises
+    ------
+    ScaleError
+        It is too long, not XML, has a document type (and with it entities), or lacks a number or a unit.
+    """
+    found = _texts(page, where)
+    return AtiScale(
+        _counts(found, _PER_FORCE, _FORCE_UNIT, _NEWTONS, where),
+        _counts(found, _PER_TORQUE, _TORQUE_UNIT, _NEWTON_METRES, where),
+        "".join(character for character in found.get(_PRODUCT, "") if character.isprintable()),
+    )
+
+
+def _counts(found: dict[str, str], name: str, unit_name: str, units: dict[str, float], where: str) -> float:
+    number, unit = _present(found, name, where), _present(found, unit_name, where)
+    factor = units.get(re.sub(r"[ .·-]", "", unit).lower())
+    if factor is None:
+        raise ScaleError(
+            f"{where}: {PAGE}: {unit_name}: unit {unit!r} is unknown: set the sensor to N and N-m, or give cpf and cpt"
+            " in the address."
+        )
+    value = float(number) if _NUMBER.fullmatch(number) else math.nan
+    if not _FEWEST <= value <= _MOST:  # also what is not a number
+        raise ScaleError(
+            f"{where}: {PAGE}: {name}: {number!r} is no such number: give cpf and cpt in the address."
+        )
+    return value / factor
+
+
+def _present(found: dict[str, str], name: str, where: str) -> str:
+    if name not in found:
+        raise ScaleError(
+            f"{where}: {PAGE}: {name} is missing: check that it is an ATI sensor, or give cpf and cpt in the address."
+        )
+    return found[name]
+
+
+def _texts(page: bytes, where: str) -> dict[str, str]:
+    """Return the text of each element that is asked for."""
+    if len(page) > MOST_BYTES:
+        raise ScaleError(f"{where}: {PAGE} is longer than {MOST_BYTES} bytes: check the address.")
+    reader = _Reader(where)
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    parser.StartElementHandler = reader.begin
+    parser.EndElementHandler = reader.end
+    parser.CharacterDataHandler = reader.text
+    parser.StartDoctypeDeclHandler = reader.refuse
+    try:
+        parser.Parse(page, True)
+    # LookupError, ValueError: an encoding that Python does not have, or not for this.
+    except (expat.ExpatError, LookupError, ValueError) as error:
+        if isinstance(error, ScaleError):
+            raise
+        raise ScaleError(
+            f"{where}: {PAGE} is not XML ({error}): check that it is an ATI sensor, or give cpf and cpt in the address."
+        ) from error
+    return {name: text.strip() for name, text in reader.found.items()}
+
+
+class _Reader:
+    """Keeps the text of the elements that are asked for, each of which may be there once."""
+
+    def __init__(self, where: str) -> None:
+        self._where = where
+        self._name: str | None = None
+        self.found: dict[str, str] = {}
+
+    def begin(self, name: str, _attributes: dict[str, str]) -> None:
+        if name in _NAMES and name in self.found:
+            raise ScaleError(
+                f"{self._where}: {PAGE}: {name} is there twice: give cpf and cpt in the address."
+            )
+        self._name = name if name in _NAMES else None
+        if self._name is not None:
+            self.found[self._name] = ""
+
+    def end(self, _name: str) -> None:
+        self._name = None
+
+    def text(self, data: str) -> None:
+        if self._name is not None:
+            self.found[self._name] = (self.found[self._name] + data)[:_LONGEST]
+
+    def refuse(self, *_declaration: Any) -> None:
+        # Without a document type there are no entities, so nothing is expanded and nothing fetched.
+        raise ScaleError(
+            f"{self._where}: {PAGE} has a document type, which a sensor's page has not: check the address."
+        )

@@ -1,0 +1,241 @@
+"""What streams give, into a recording, without keeping the streams waiting for the disk."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from pipeline.devices.sample import Status
+from pipeline.errors import InputError
+from pipeline.recording.errors import SampleError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from types import TracebackType
+    from typing import Self
+
+    from pipeline.devices.drive import Health
+    from pipeline.devices.sample import FlangeSample, WrenchSample
+    from pipeline.recording.writer import RecordingWriter
+
+FLUSH_S = 0.5
+# A minute at 1 kHz: a disk may pause that long.
+_MOST_WAITING = 60_000
+_LOOK_S = 0.1
+_STATUS_EVERY_S = 0.1
+
+
+class Recorder:
+    """
+    Takes samples in the threads of streams, and writes them in its own.
+
+    Samples that come are on the disk half a second later. Changes of a stream's state, of the status that a sensor
+    reports, and what the stream suspects, such as a re-zero, become events. Use it in a ``with`` statement, around
+    the streams.
+
+    When the disk is a minute behind, samples of a device are dropped, for a device waits for nobody: the recording
+    says so in events ``dropped``, and `on_change` is told. A source that can wait is made to wait instead.
+
+    Parameters
+    ----------
+    writer : RecordingWriter
+        Stays open.
+    on_change : callable, optional
+        Told the device and its health when a stream's state or findings changed.
+    clock : callable
+        The samples' clock, s: dates changes of the streams.
+    flush_seconds : float
+        How often what was written is brought to the disk, s.
+    patient : bool
+        Whether the source waits, as a replay that goes by steps does: then nothing is dropped.
+    most_waiting : int
+        Samples that may wait for the disk.
+
+    Attributes
+    ----------
+    failed : threading.Event
+        Set once something cannot be written; what was written before stays.
+    error : InputError or None
+        Why.
+    suspicions : tuple of (float, str)
+        What a stream suspects, such as a re-zero, and when that was heard of, s of the samples' clock.
+    skipped : int
+        Batches with a sample that cannot be recorded, such as an orientation that is no rotation; what follows such
+        a sample in its batch is missing.
+    dropped : int
+        Samples that are missing because the disk was too slow.
+    """
+
+    def __init__(
+        self,
+        writer: RecordingWriter,
+        on_change: Callable[[str, Health], None] | None = None,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        flush_seconds: float = FLUSH_S,
+        patient: bool = False,
+        most_waiting: int = _MOST_WAITING,
+    ) -> None:
+        self._clock = clock
+        self._writer, self._on_change, self._flush_seconds = writer, on_change, flush_seconds
+        self._patient, self._most_waiting = patient, most_waiting
+        # Unbounded by itself: events and the end must always get in; samples are counted.
+        self._queue: queue.SimpleQueue[tuple[int, Callable[[], None]] | None] = queue.SimpleQueue()
+        self._waiting, self._room = 0, threading.Condition()
+        self._lost: dict[str, int] = {}
+        self._health: dict[str, Health] = {}
+        self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
+        self._suspected: dict[str, tuple[str, ...]] = {}
+        self._status, self._told = Status.OK, 0.0
+        self.failed = threading.Event()
+        self.error: InputError | None = None
+        self.suspicions: tuple[tuple[float, str], ...] = ()
+        self.skipped = self.dropped = 0
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Write what has come until now; the streams have ended."""
+        for device in tuple(self._lost):
+            self._say_dropped(device)
+        self._queue.put(None)
+        self._thread.join()
+
+    def samples(self, samples: Sequence[WrenchSample]) -> None:
+        """Take wrenches, oldest first."""
+        self._put("sensor", len(samples), lambda: self._wrenches(samples))
+
+    def poses(self, samples: Sequence[FlangeSample]) -> None:
+        """Take poses of the flange, oldest first."""
+        self._put("robot", len(samples), lambda: self._flanges(samples))
+
+    def health(self, device: str, health: Health) -> None:
+        """Take a change of a stream."""
+        self._health[device] = health
+        if self._on_change is not None:
+            self._on_change(device, health)
+        fields = {"device": device, "state": health.state.value, "findings": list(health.findings)}
+        now = self._clock()
+        self._put(device, 0, lambda: self._writer.event("stream", fields, now))
+        before = self._suspected.get(device, ())
+        self._suspected[device] = health.suspicions
+        # Suspicions are added until somebody has read them; then they begin anew.
+        known = len(before) if health.suspicions[: len(before)] == before else 0
+        for what in health.suspicions[known:]:
+            self._suspect(device, what, now)
+
+    def _suspect(self, device: str, what: str, now: float) -> None:
+        self.suspicions = (*self.suspicions, (now, what))
+        self._put(device, 0, lambda: self._writer.event("suspicion", {"device": device, "what": what}, now))
+
+    # ---- in the threads of streams -----------------------------------------------------------------
+
+    def _put(self, device: str, count: int, write: Callable[[], None]) -> None:
+        if self.error is not None:
+            return
+        if count and not self._take_room(count):
+            self._drop(device, count)
+            return
+        if count and self._lost.get(device):
+            self._say_dropped(device)
+        self._queue.put((count, write))
+
+    def _take_room(self, count: int) -> bool:
+        with self._room:
+            while self._waiting and self._waiting + count > self._most_waiting:
+                if not self._patient:
+                    return False
+                # Not for ever at once: the writing thread may fail meanwhile.
+                self._room.wait(_LOOK_S)
+                if self.error is not None:
+                    return True
+            self._waiting += count
+        return True
+
+    def _drop(self, device: str, count: int) -> None:
+        with self._room:  # two streams may drop at once
+            self.dropped += count
+        begins = not self._lost.get(device)
+        self._lost[device] = self._lost.get(device, 0) + count
+        health = self._health.get(device)
+        if begins and self._on_change is not None and health is not None:
+            words = "The disk is too slow: samples are dropped. Record to another one."
+            self._on_change(device, replace(health, findings=(*health.findings, words)))
+
+    def _say_dropped(self, device: str) -> None:
+        fields, now = {"device": device, "samples": self._lost.pop(device)}, self._clock()
+        self._queue.put((0, lambda: self._writer.event("dropped", fields, now)))
+
+    # ---- in its own thread -------------------------------------------------------------------------
+
+    def _run(self) -> None:
+        flushed = time.monotonic()
+        going = True
+        while going:
+            going = self._next(flushed + self._flush_seconds - time.monotonic())
+            if not going or time.monotonic() - flushed >= self._flush_seconds:
+                # Also without new samples: those before a silence must not wait for its end.
+                self._do(self._writer.flush)
+                flushed = time.monotonic()
+
+    def _next(self, patience: float) -> bool:
+        """Write what comes next; tells whether to go on."""
+        try:
+            found = self._queue.get(timeout=max(patience, 0.001))
+        except queue.Empty:
+            return True
+        if found is None:
+            return False
+        count, write = found
+        self._do(write)
+        with self._room:
+            self._waiting -= count
+            self._room.notify_all()
+        return True
+
+    def _do(self, write: Callable[[], None]) -> None:
+        if self.error is not None:
+            return
+        try:
+            write()
+        except SampleError:  # the device's fault, not the disk's: the recording goes on
+            self.skipped += 1
+        except InputError as error:  # such as a full disk
+            self._fail(error)
+
+    def _fail(self, error: InputError) -> None:
+        self.error = error
+        self.failed.set()
+
+    def _wrenches(self, samples: Sequence[WrenchSample]) -> None:
+        for sample in samples:
+            self._writer.wrench(sample)
+            # A status that flickers would fill the recording with events; every sample has its own anyway.
+            if sample.status != self._status and sample.time - self._told >= _STATUS_EVERY_S:
+                change = {"before": int(self._status), "now": int(sample.status)}
+                self._writer.event("status", {"device": "sensor", **change}, sample.time)
+                self._status, self._told = sample.status, sample.time
+
+    def _flanges(self, samples: Sequence[FlangeSample]) -> None:
+        for sample in samples:
+            self._writer.flange(sample)
+
+
+def health_facts(health: Health) -> dict[str, Any]:
+    """Return the counters of a stream as JSON values."""
+    return {
+        "samples": health.samples,
+        "rate_hz": health.rate,
+        "jitter_s": health.jitter,
+        "lost": health.counters.lost,
+        "bad_checksums": health.counters.bad_checksums,
+        "skipped_bytes": health.counters.skipped_bytes,
+        "reconnected": health.reconnected,
+    }

@@ -1,0 +1,177 @@
+"""How a session computes a calibration, and the poses that it is made from."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from datetime import datetime
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field
+
+from pipeline.session.errors import SessionError
+from pipeline.session.making import (
+    Number,
+    Parameters,
+    Three,
+    check_roles,
+    folder_for,
+    mount_rotation,
+    read_parameters,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from pipeline.calibration import PoseSample
+    from pipeline.calibration.files.capture_file import Captured
+    from pipeline.calibration.orientation import Convention
+
+FEWEST_POSES = 3
+
+# Of a recording's own clock, which may have run for years.
+Moment = Annotated[float, Field(ge=-1e15, le=1e15, allow_inf_nan=False)]
+
+
+class CapturesParameters(Parameters):
+    """
+    As the options of ``contactbench captures``; angles of the mount in degrees, the delay in seconds.
+
+    Attributes
+    ----------
+    leave_out : tuple of float
+        s, on the recording's clock: a capture in which such a moment lies is left out.
+    partial : bool
+        More poses will follow in another recording: fewer than three do.
+    """
+
+    delay: Number | Literal["auto"] | None = None
+    mount: Three | None = None
+    leave_out: tuple[Moment, ...] = ()
+    partial: bool = False
+
+
+def captures(
+    inputs: Mapping[str, Path], parameters: Mapping[str, Any], _created: str | None
+) -> dict[str, bytes]:
+    """
+    Find the still poses of ``recording``: the bytes that ``contactbench captures`` writes.
+
+    Those of ``earlier``, a table of the same run before it was interrupted, come first.
+    """
+    from pipeline.calibration.files.calibration_file import load_calibration
+    from pipeline.calibration.files.capture_recording import capture_any
+    from pipeline.calibration.files.pose_csv import write_poses
+
+    given = read_parameters(CapturesParameters, parameters)
+    recording = check_roles(inputs, "recording", "calibration", "earlier")
+    model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
+    found = capture_any(recording, R_ES=mount_rotation(given.mount), model=model, delay=given.delay)
+    before = _earlier(inputs["earlier"]) if "earlier" in inputs else ()
+    poses = (*before, *_chosen(found, given.leave_out, len(before)))
+    fewest = 1 if given.partial else FEWEST_POSES
+    if len(poses) < fewest:
+        why = "".join(
+            f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.report.rejected[:3]
+        )
+        left = f", {len(given.leave_out)} left out" if given.leave_out else ""
+        needs = (
+            f"a calibration needs {FEWEST_POSES}" if fewest == FEWEST_POSES else "there is nothing to keep"
+        )
+        raise SessionError(
+            f"{recording.name}: {len(poses)} still poses{left}, {needs}: hold more of them still for some seconds.{why}"
+        )
+    with folder_for(given.name, ".csv") as out:
+        write_poses(out, poses)
+        return {given.name: out.read_bytes()}
+
+
+def _earlier(file: Path) -> tuple[PoseSample, ...]:
+    from pipeline.calibration.files.pose_csv import read_poses
+
+    # Their times are on another recording's clock.
+    return tuple(replace(pose, time=None) for pose in read_poses(file).poses)
+
+
+def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple[PoseSample, ...]:
+    """Return the poses in which none of those moments lies, numbered from the ones before on."""
+    spans = [(capture.start, capture.stop) for capture in found.report.captures]
+    kept = [
+        pose
+        for pose, (start, stop) in zip(found.poses, spans, strict=True)
+        if not any(start <= moment <= stop for moment in leave_out)
+    ]
+    if not leave_out and not before:
+        return tuple(kept)
+    return tuple(
+        replace(pose, name=f"pose {number} at {pose.name.partition(' at ')[2]}")
+        for number, pose in enumerate(kept, before + 1)
+    )
+
+
+class CalibrationParameters(Parameters):
+    """As the options of ``contactbench calibrate``; angles of the mount in degrees."""
+
+    euler: str | None = None
+    rotation_vector: bool = False
+    robot: str | None = None
+    radians: bool = False
+    inverse: bool = False
+    mount: Three | None = None
+    estimate_mount: bool = False
+    noise_force: Number | None = None
+    noise_torque: Number | None = None
+    tip: Three = (0.0, 0.0, 100.0)
+    contact_force: Number = 10.0
+
+    def convention(self) -> Convention | None:
+        """Return how orientations are written; None: as the file's columns say."""
+        from pipeline.calibration.orientation import Convention, Kind
+
+        if sum(map(bool, (self.euler, self.rotation_vector, self.robot))) > 1:
+            raise SessionError("euler, rotation_vector and robot contradict each other: give one.")
+        degrees = not self.radians
+        if self.euler:
+            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
+        if self.rotation_vector:
+            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
+        if self.robot:
+            return Convention(Kind.JOINTS, degrees=degrees, robot=self.robot, inverse=self.inverse)
+        return Convention(inverse=True) if self.inverse else None
+
+
+def calibration(
+    inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
+) -> dict[str, bytes]:
+    """Calibrate from ``poses``: the bytes that ``contactbench calibrate`` writes at that time."""
+    import numpy as np
+
+    from pipeline.calibration import ContactTask, PoseNoise, calibrate
+    from pipeline.calibration.files.calibration_file import Mount, save_calibration
+    from pipeline.calibration.files.pose_csv import read_poses
+    from pipeline.calibration.mounting import estimate_mount
+
+    given = read_parameters(CalibrationParameters, parameters)
+    if given.mount is not None and given.estimate_mount:
+        raise SessionError("mount and estimate_mount contradict each other: give one.")
+    poses = check_roles(inputs, "poses")
+    noise = None
+    if (given.noise_force is None) != (given.noise_torque is None):
+        raise SessionError("noise_force, noise_torque: give both or none.")
+    if given.noise_force is not None and given.noise_torque is not None:
+        noise = PoseNoise(given.noise_force, given.noise_torque)
+    tip = np.array(given.tip) / 1000
+    normal = np.array([0.0, 0.0, -1.0 if tip[2] < 0 else 1.0])
+    task = ContactTask(tip, normal, given.contact_force)
+    R_ES = mount_rotation(given.mount)
+    table = read_poses(poses, given.convention(), R_ES=R_ES)
+    mount = None if R_ES is None else Mount.of(R_ES.T)
+    if given.estimate_mount:
+        mounted = estimate_mount(table.poses, noise, task=task)
+        found, mount = mounted.calibration, Mount.of(mounted.R_SE, mounted.rotation_covariance)
+    else:
+        found = calibrate(table.poses, noise, task=task)
+    time = None if created is None else datetime.fromisoformat(created)
+    with folder_for(given.name, ".json") as out:
+        save_calibration(found, out, source=poses, created=time, mount=mount)
+        return {given.name: out.read_bytes()}

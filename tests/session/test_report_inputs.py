@@ -1,0 +1,47 @@
+"""A report in a session is about what was verified, and knows its session."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+
+import pytest
+from report.report_cases import content, probe_file
+
+from pipeline.mesh.sidecar import save_probe_file
+from pipeline.session import Session, SessionError
+from pipeline.session.recompute import compute, newest_inputs
+
+
+@pytest.fixture
+def session(tmp_path):
+    """A probe that was verified, and a newer one that was not."""
+    files = {"old.ply": 1_500, "new.ply": 900}
+    for name, facets in files.items():
+        save_probe_file(probe_file(facets), tmp_path / name)
+    sources = {"probe": hashlib.sha256((tmp_path / "old.ply").read_bytes()).hexdigest()}
+    verified = replace(content(markers=3).verification, sources=sources).to_bytes()
+    with Session.create(tmp_path / "s", by="ada") as session:
+        old = session.add_input(tmp_path / "old.ply", "probe", sensor="SN 7").action.file.sha256
+        session.add_result("verification", "v.json", {"v.json": verified}, {"probe": old}, {})
+        session.add_input(tmp_path / "new.ply", "probe")
+        yield session
+
+
+def test_the_verified_probe_is_taken_not_the_newest(session, monkeypatch):
+    monkeypatch.setattr("pipeline.report.page._PIXELS", 60)
+    inputs = newest_inputs(session.state, "report")
+    old, new = (each.content for each in session.state.inputs)
+    assert inputs["probe"] == old
+    record = compute(session, "report", "r.html", inputs, {})
+    state = session.state
+    assert record.action.parameters["operator"] == "ada"
+    assert record.action.parameters["serials"] == {"sensor": "SN 7"}
+    page = (session.folder / state.result_with(record.action.files["r.html"].sha256).file.path).read_text(
+        "utf-8"
+    )
+    assert state.id in page
+    assert "serial number <bdi>SN 7</bdi>" in page
+    assert newest_inputs(state, "report", {"probe": "new.ply"})["probe"] == new
+    with pytest.raises(SessionError, match="not the probe that was verified"):
+        compute(session, "report", "r.html", {**inputs, "probe": new}, {})

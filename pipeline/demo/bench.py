@@ -1,58 +1,64 @@
-"""Simulate touches of the bundled probes, locate them from files, and compare with the truth."""
+"""The whole job on the virtual bench: weigh, prepare, touch, locate from files, and compare with the truth."""
 
 from __future__ import annotations
 
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 import assets
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.contact.stream import locate_file
-from pipeline.contact.wrench_csv import WrenchReader
-from pipeline.demo.compare import FACE, HEAD, compare_methods
-from pipeline.demo.files import write_bytes, write_csv, write_truth
-from pipeline.demo.gravity import GravityResult, weigh_and_compensate
-from pipeline.demo.housing import FACETS, MeshResult, prepare_probe
+from pipeline.demo.checking import check, clear
+from pipeline.demo.compare import compare_methods
+from pipeline.demo.files import write_bytes, write_csv
+from pipeline.demo.gravity import calibrate_folder
+from pipeline.demo.housing import MeshResult, prepare_probe
 from pipeline.demo.picture import Located, PictureError, draw
-from pipeline.demo.report import DemoReport, ProbeResult
+from pipeline.demo.report import DemoReport, ProbeResult, ours
+from pipeline.demo.tool import draw_tool
+from pipeline.demo.touching import draw_points, locate_folder, press_markers
+from pipeline.demo.weighing import weigh_by_formula, weigh_on_bench
 from pipeline.durable import make_folder
 from pipeline.errors import InputError
 from pipeline.mesh import Probe, load_probe
 from pipeline.mesh.engines import EngineError
-from pipeline.simulation import Touches, draw_touches
+from pipeline.simulation.scenes import Truth
+from pipeline.simulation.scenes.physics import physics
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
+    from pipeline.calibration import Calibration
+    from pipeline.demo.compare import MethodErrors
+    from pipeline.demo.gravity import GravityResult
+    from pipeline.demo.tool import Tool
+    from pipeline.demo.touching import Found, Pressed
 
-    from pipeline.contact import Batch
+    Prepared = tuple[MeshResult | None, str | None]
 
 FEWEST_TOUCHES = 10
 
-_FACE_SHARE = 0.7
-# The face lies at most 12 mm below the tip (the convex one is curved), the head reaches 40 mm down.
-_FACE_DEPTH, _HEAD_DEPTH = 0.012, 0.040
-_FACING = 0.85  # cos 32°: the whole of the convex face, little of the rounding around a flat one
+_TRUE_FACETS = 20_000
+_ON_BENCH = ("gravity.mcap", "touches.mcap", "recording.csv", "wrenches.csv", "touches.csv", "truth.csv")
+_DRAWN = "drawn"
 
 
 @dataclass(frozen=True, eq=False)
-class _Bench:
-    """The files of one probe and what they hold."""
+class _Job:
+    """One probe: where its files are, what hangs on the sensor, and how it was weighed."""
 
     name: str
-    probe: Probe
-    truth: Touches
-    where: NDArray[np.str_]
-    mesh: MeshResult | None
+    folder: Path
+    seed: int
+    tool: Tool
+    calibration: Calibration
     gravity: GravityResult
-    noise: WrenchNoise
-    wrenches: NDArray[np.float64]
-    batch: Batch
-    note: str | None
+    pressed: Pressed | None
+
+    def chance(self, step: int) -> np.random.Generator:
+        return _chance(self.seed, self.name, step)
 
 
 def run(
@@ -62,11 +68,15 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> DemoReport:
-    """Do the main job on bundled probes, and check it against the known truth.
+    """
+    Do the whole job on bundled probes, and check it against the known truth.
 
-    Writes housing.stl, probe.ply, probe.json, poses.csv, calibration.json, calibration.html, recording.csv,
-    wrenches.csv, truth.csv and contacts.csv in a folder per probe, and errors.csv, errors.md and, if it can be
-    drawn, contacts.png. Files that are there are replaced, each in one step.
+    Writes in a folder per probe: housing.stl, probe.ply, probe.json; gravity.mcap, poses.csv, calibration.json,
+    calibration.html; touches.mcap, recording.csv, wrenches.csv, touches.csv, contacts.csv, truth.csv; markers.csv,
+    verification.json, report.html, the bundle runtime/ and contacts.jsonl, see `checking.check`; and in drawn/
+    recording to truth for touches drawn by formula. Beside the folders: errors.csv, errors.md and, if it can be drawn,
+    contacts.png. Files that are there are replaced, each in one step. Without MuJoCo poses and touches are drawn
+    only, nothing is verified or exported, and a note says so.
 
     Parameters
     ----------
@@ -75,9 +85,9 @@ def run(
     probes : sequence of str
         Which of assets.PROBE_NAMES.
     touches : int
-        Per probe, at least 10: seven tenths on the acoustic face, the rest anywhere on the head.
+        Drawn per probe, at least 10: seven tenths on the acoustic face, the rest anywhere on the head.
     seed : int
-        Of chance, at least 0. The same seed gives the same bytes in every CSV file, and a probe the same
+        Of chance, at least 0. The same seed gives the same bytes in every CSV and MCAP file, and a probe the same
         touches whichever others are asked for.
     progress : callable, optional
         Told what is being done, in a few words.
@@ -93,28 +103,111 @@ def run(
     """
     names = _checked(probes, touches, seed)
     make_folder(out)
-    noise = WrenchNoise()
-    results, located, notes = [], [], []
-    for name in names:
-        progress(
-            f"{name}: preparing the mesh, calibrating gravity, simulating and locating {touches:,} touches"
-        )
-        bench = _simulate(out / name, name, touches, seed, noise)
-        progress(f"{name}: comparing the methods")
-        errors, left_out = compare_methods(bench.probe, bench.noise, bench.wrenches, bench.truth, bench.where)
-        region = int(np.count_nonzero(bench.probe.region))
-        result = ProbeResult(name, len(bench.probe.faces), region, tuple(errors), bench.gravity, bench.mesh)
-        results.append(result)
-        located.append(Located(name, bench.batch, bench.truth.points, result.ours.mean_mm))
-        told = left_out if bench.note is None else (bench.note, *left_out)
-        notes += [sentence for sentence in told if sentence not in notes]
+    notes: list[str] = []
+    bench = _has_bench(notes)
+    results, located = [], []
+    # Preparing waits for programs of its own most of the time: meanwhile the bench can work.
+    with ThreadPoolExecutor(1) as pool:
+        meshes = {name: pool.submit(_prepared, out / name, name) for name in names}
+        try:
+            for name in names:
+                job = _weigh_and_press(out / name, name, seed, bench, progress)
+                result, seen = _locate(job, meshes[name], touches, notes, progress)
+                results.append(result)
+                located.append(seen)
+        finally:
+            pool.shutdown(cancel_futures=True)
     progress("drawing the picture")
     picture = _draw(out / "contacts.png", located, notes)
-    sigmas = np.sqrt(np.diagonal(noise.covariance)).tolist()
+    sigmas = job.tool.settings.noise.tolist()
     report = DemoReport(out, touches, seed, sigmas[0], sigmas[3], tuple(results), picture, tuple(notes))
     write_csv(out / "errors.csv", *report.csv_rows())
     write_bytes(out / "errors.md", report.markdown().encode())
     return report
+
+
+def _has_bench(notes: list[str]) -> bool:
+    """Tell whether there is physics; a note says what is done without."""
+    try:
+        physics()
+    except InputError as error:
+        notes.append(
+            "No marker was pressed, so there is no verification and no bundle; poses and touches were drawn by"
+            f" formula: {error}."
+        )
+        return False
+    return True
+
+
+def _chance(seed: int, name: str, step: int) -> np.random.Generator:
+    """Return the chance of one step: what one step draws is the same whatever the others do."""
+    return np.random.default_rng([seed, assets.PROBE_NAMES.index(name), step])
+
+
+def _weigh_and_press(
+    folder: Path, name: str, seed: int, bench: bool, progress: Callable[[str], None]
+) -> _Job:
+    make_folder(folder)
+    tool = draw_tool(_chance(seed, name, 0))
+    pressed: Pressed | None = None
+    if bench:
+        truth = Truth(Probe.from_arrays(*assets.make(name, _TRUE_FACETS), name=name))
+        progress(f"{name}: weighing the tool on the virtual bench")
+        bumped = weigh_on_bench(folder, tool, truth, _chance(seed, name, 1))
+    else:
+        for file in _ON_BENCH:  # of another run: they would not belong to this one
+            (folder / file).unlink(missing_ok=True)
+        clear(folder)
+        bumped = weigh_by_formula(folder, tool, _chance(seed, name, 1))
+    calibration, gravity = calibrate_folder(folder, tool.truth, bumped)
+    if bench:
+        progress(f"{name}: pressing the markers")
+        pressed = press_markers(folder, name, tool, truth, _chance(seed, name, 2))
+    return _Job(name, folder, seed, tool, calibration, gravity, pressed)
+
+
+def _locate(
+    job: _Job,
+    prepared: Future[Prepared],
+    touches: int,
+    notes: list[str],
+    progress: Callable[[str], None],
+) -> tuple[ProbeResult, Located]:
+    """Locate the touches as ``contactbench locate`` would, and compare all methods."""
+    progress(f"{job.name}: preparing the mesh")
+    mesh, note = prepared.result()
+    probe = load_probe(job.folder / "probe.ply", units="m", name=job.name)
+    said = [] if note is None else [note]
+    checked = None
+    if job.pressed is not None:
+        progress(f"{job.name}: verifying the touches, and running them through the bundle")
+        checked = check(job.folder, job.name, job.tool)
+    progress(f"{job.name}: locating and comparing the methods, {touches:,} drawn touches too")
+    touched: tuple[MethodErrors, ...] = ()
+    if job.pressed is not None:
+        touched, found = _compare(job, probe, job.folder, job.pressed, said)
+        if job.pressed.slipped:
+            said.append(
+                f"{job.name}: the tip slipped off at {job.pressed.slipped} touches: they are left out."
+            )
+    make_folder(job.folder / _DRAWN)
+    points = draw_points(job.folder / _DRAWN, job.name, touches, job.tool, job.chance(3))
+    drawn, found_drawn = _compare(job, probe, job.folder / _DRAWN, points, said)
+    notes += [sentence for sentence in dict.fromkeys(said) if sentence not in notes]
+    region = int(np.count_nonzero(probe.region))
+    result = ProbeResult(job.name, len(probe.faces), region, touched, drawn, job.gravity, mesh, checked)
+    if job.pressed is None:
+        return result, Located(job.name, found_drawn.batch, points.points, ours(drawn).mean_mm)
+    return result, Located(job.name, found.batch, job.pressed.points, ours(touched).mean_mm)
+
+
+def _compare(
+    job: _Job, probe: Probe, folder: Path, pressed: Pressed, said: list[str]
+) -> tuple[tuple[MethodErrors, ...], Found]:
+    found = locate_folder(folder, probe, job.calibration, job.tool, pressed)
+    errors, left_out = compare_methods(probe, found.noise, found.wrenches, pressed.points, pressed.where)
+    said += left_out
+    return tuple(errors), found
 
 
 def _draw(file: Path, located: Sequence[Located], notes: list[str]) -> Path | None:
@@ -141,43 +234,10 @@ def _checked(probes: Sequence[str], touches: int, seed: int) -> list[str]:
     return names
 
 
-def _simulate(folder: Path, name: str, count: int, seed: int, noise: WrenchNoise) -> _Bench:
-    """Write the files of one probe, and locate its touches as ``contactbench locate`` would."""
-    make_folder(folder)
-    mesh, note = _prepared(folder, name)
-    rng = np.random.default_rng([seed, assets.PROBE_NAMES.index(name)])
-    tip = float(assets.make(name, FACETS)[0][:, 2].max())
-    truth, where = _touches(name, tip, count, rng)
-    write_truth(folder / "truth.csv", truth, where.tolist())
-    gravity, left = weigh_and_compensate(folder, truth.wrenches, noise, rng)
-    probe = load_probe(folder / "probe.ply", units="m", name=name)
-    whole = WrenchNoise(noise.force, noise.torque, extra=left)
-    solver = ContactSolver(probe, whole)
-    locate_file(solver, folder / "wrenches.csv", folder / "contacts.csv")
-    wrenches = _read_wrenches(folder / "wrenches.csv")
-    batch = solver.locate_batch(wrenches)
-    return _Bench(name, probe, truth, where, mesh, gravity, whole, wrenches, batch, note)
-
-
-def _prepared(folder: Path, name: str) -> tuple[MeshResult | None, str | None]:
+def _prepared(folder: Path, name: str) -> Prepared:
     """Prepare the probe's mesh; without pymeshlab the design stands in, and a note says so."""
+    make_folder(folder)
     try:
         return prepare_probe(folder, name), None
     except EngineError as error:
         return None, f"The probes' meshes were not prepared, their designs were used: {error}"
-
-
-def _touches(name: str, tip: float, count: int, rng: np.random.Generator) -> tuple[Touches, NDArray[np.str_]]:
-    """Draw touches on the acoustic face, then anywhere on the head; `tip` is the largest z, m."""
-    surface = assets.surface(name)
-    on_face = round(_FACE_SHARE * count)
-    face = draw_touches(surface, on_face, rng, above=tip - _FACE_DEPTH, facing=_FACING)
-    head = draw_touches(surface, count - on_face, rng, above=tip - _HEAD_DEPTH)
-    fields = ("points", "normals", "torques", "angles", "wrenches")
-    both = [np.concatenate([getattr(face, field), getattr(head, field)]) for field in fields]
-    return Touches(*both), np.repeat([FACE, HEAD], [on_face, count - on_face])
-
-
-def _read_wrenches(file: Path) -> NDArray[np.float64]:
-    with file.open("rb") as stream:
-        return np.concatenate([rows.wrenches for rows in WrenchReader(stream, str(file))])

@@ -18,9 +18,8 @@ if TYPE_CHECKING:
     from pipeline.contact import Batch, WrenchNoise
     from pipeline.contact.methods import Method
     from pipeline.mesh import Probe
-    from pipeline.simulation import Touches
 
-ALL, FACE, HEAD = "all", "face", "head"
+ALL = "all"
 
 # Enough solves for a median; the literal loop takes up to a millisecond each.
 _TIMED = 400
@@ -34,8 +33,8 @@ class MethodErrors:
     ----------
     method : str
         As in pipeline.contact.methods.
-    where : {"all", "face", "head"}
-        Which touches.
+    where : str
+        Which touches: "all"; "face" and "head" where they were drawn; "0°" and "30°" on markers.
     touches : int
         How many.
     mean_mm, p95_mm, max_mm : float or None
@@ -71,7 +70,7 @@ def compare_methods(
     probe: Probe,
     noise: WrenchNoise,
     wrenches: NDArray[np.float64],
-    truth: Touches,
+    points: NDArray[np.float64],
     where: NDArray[np.str_],
 ) -> tuple[list[MethodErrors], list[str]]:
     """Compare every method with the truth.
@@ -81,13 +80,13 @@ def compare_methods(
     probe : Probe
         The mesh, S, metres.
     noise : WrenchNoise
-        What was added to the wrenches.
+        Of the wrenches, with what calibration leaves uncertain.
     wrenches : (n, 6)
-        As the sensor reads them, S, N and N·m.
-    truth : Touches
-        What was simulated, row by row.
-    where : (n,) of "face" or "head"
-        The part that each touch is on.
+        What is located, S, N and N·m.
+    points : (n, 3)
+        Where the touches truly were, S, m.
+    where : (n,) of str
+        The part that each touch is on, or how it was pressed.
 
     Returns
     -------
@@ -107,7 +106,7 @@ def compare_methods(
         median_us = _median_us(method, wrenches[:_TIMED])
         for part in (ALL, *np.unique(where).tolist()):
             rows = np.flatnonzero((where == part) | (part == ALL))
-            errors.append(_errors(name, part, batch, truth.points, rows, median_us))
+            errors.append(_errors(name, part, batch, points, rows, median_us))
     return errors, notes
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pipeline.demo.tool import RATE_HZ
 from pipeline.durable import write_durably
 from pipeline.errors import InputError
 
@@ -17,8 +18,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pipeline.simulation import Touches
+    from pipeline.simulation.scenes import Moment
 
-RATE_HZ = 200
+
+_CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
 
 
 def write_bytes(file: Path, data: bytes) -> None:
@@ -48,7 +51,7 @@ def write_recording(file: Path, readings: NDArray[np.float64], R_WS: NDArray[np.
     quaternions = Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
     values = np.column_stack([readings, quaternions]).tolist()
     rows = ((t, *row) for t, row in zip(_times(len(readings)), values, strict=True))
-    write_csv(file, ("t", "fx", "fy", "fz", "mx", "my", "mz", "qw", "qx", "qy", "qz"), rows)
+    write_csv(file, ("t", *_CHANNELS, "qw", "qx", "qy", "qz"), rows)
 
 
 def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:
@@ -56,6 +59,30 @@ def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:
     values = np.column_stack([touches.points, touches.normals, touches.torques]).tolist()
     rows = ((t, *row, part) for t, row, part in zip(_times(len(touches)), values, where, strict=True))
     write_csv(file, ("t", "x", "y", "z", "nx", "ny", "nz", "k", "where"), rows)
+
+
+def write_marked(file: Path, rows: Sequence[tuple[float, int, float]], moments: Sequence[Moment]) -> None:
+    """
+    Write the truth about touches of markers.
+
+    Parameters
+    ----------
+    file : Path
+    rows : sequence of (time, marker, tilt)
+        s, from 1, degrees.
+    moments : sequence of Moment
+    """
+    columns = ("t", "marker", "tilt", "x", "y", "z", "nx", "ny", "nz", *_CHANNELS, "k")
+    cells = (
+        (*row, *moment.point_S.tolist(), *moment.normal_S.tolist(), *moment.contact.tolist(), moment.torsion)
+        for row, moment in zip(rows, moments, strict=True)
+    )
+    write_csv(file, columns, cells)
+
+
+def write_wrenches(file: Path, times: NDArray[np.float64], wrenches: NDArray[np.float64]) -> None:
+    """Write wrenches (n, 6), S, N and N·m, with their times (n,), s."""
+    write_csv(file, ("t", *_CHANNELS), np.column_stack([times, wrenches]).tolist())
 
 
 def _times(count: int) -> list[float]:

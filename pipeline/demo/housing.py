@@ -110,6 +110,27 @@ def prepare_probe(folder: Path, name: str) -> MeshResult:
     return _result(content, openings, name)
 
 
+def housing_of(name: str) -> tuple[bytes, NDArray[np.float64], float]:
+    """
+    Return what a technician gets of a bundled probe.
+
+    Parameters
+    ----------
+    name : str
+        One of assets.PROBE_NAMES.
+
+    Returns
+    -------
+    file : bytes
+        A binary STL file, mm in its own frame P.
+    T_SP : (4, 4) float64
+        How it is mounted, translation in m.
+    alpha : float
+        Size of the facets with which its outer surface is well made, m.
+    """
+    return _housing(name), _design(name)[1], _ALPHA
+
+
 @cache
 def _design(name: str) -> tuple[Probe, NDArray[np.float64]]:
     vertices, faces = assets.make(name, FACETS)

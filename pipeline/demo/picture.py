@@ -34,7 +34,8 @@ _SPACING_MM = 3.0  # contacts shown are at least this far apart
 _FACING = 0.3  # cosine between a shown contact's normal and the look at it
 _TRIED = 2_000
 
-_LARGEST_MM = 2.0  # end of the colours
+# End of the colours: for single readings, and where a filter made them quieter.
+_LARGEST_MM, _LARGEST_FILTERED_MM = 2.0, 0.5
 _95_PERCENT = sqrt(5.991)  # standard deviations, two dimensions
 _MM_PER_N = 1.3
 _DISC_MM = 0.85  # radius
@@ -111,20 +112,27 @@ def draw(located: Sequence[Located], pixels_per_inch: int = 100) -> bytes:
     figure = import_module("matplotlib.figure").Figure(figsize=(width, _HEIGHT), dpi=pixels_per_inch)
     colours = import_module("matplotlib").colormaps["cividis"]
     left = (width - _PANEL * len(located)) / 2
+    largest = _end_of_colours(located)
     for i, (one, rows) in enumerate(zip(located, shown, strict=True)):
         x = left + _PANEL * i
         panel = _axes(figure, x, _FOOT, _PANEL, _BODY_HEIGHT)
-        _draw_close(panel, views[i][0], images[2 * i], one, rows, colours)
+        _draw_close(panel, views[i][0], images[2 * i], one, rows, colours, largest)
         inset = _axes(figure, x + 0.15, _FOOT + 0.15, _INSET, _INSET * _INSET_SHAPE)
         _draw_whole(inset, views[i][1], images[2 * i + 1])
         _title(figure, x + _PANEL / 2, one)
-    _draw_legend(figure, width, colours)
+    _draw_legend(figure, width, colours, largest)
     data = BytesIO()
     figure.savefig(data, format="png", metadata={"Software": None})
     return data.getvalue()
 
 
 # ---- what to show ------------------------------------------------------------------------------
+
+
+def _end_of_colours(located: Sequence[Located]) -> float:
+    """Return the error, mm, with the last colour: small ones should not all look the same."""
+    means = [one.mean_mm for one in located if one.mean_mm is not None]
+    return _LARGEST_FILTERED_MM if means and max(means) < _LARGEST_FILTERED_MM else _LARGEST_MM
 
 
 def _close(probe: str) -> View:
@@ -212,13 +220,14 @@ def _draw_close(
     one: Located,
     rows: Sequence[int],
     colours: Any,
+    largest: float,
 ) -> None:
     begin, end = (float(view.project([0.0, 0.0, _tip(one.probe) - 1e-3 * mm])[1]) for mm in _FADE_MM)
     _show(axes, view, image, (end, begin))
     error = errors_mm(one.batch, one.points)
     for row in rows:
         contact = one.batch[row]
-        _draw_contact(axes, view, contact, colours(min(error[row] / _LARGEST_MM, 1.0)))
+        _draw_contact(axes, view, contact, colours(min(error[row] / largest, 1.0)))
         axes.plot(*view.project(one.points[row]), "o", color="black", markersize=2.6, mew=0, zorder=6)
     x, y = view.width / 2 - 0.05 * view.width, -view.height / 2 + 0.07 * view.height
     axes.plot([x - 20, x], [y, y], color=_FAINT, linewidth=2, solid_capstyle="butt")
@@ -270,7 +279,7 @@ def _title(figure: Any, x: float, one: Located) -> None:
     figure.text(x / width, 1 - 0.74 / height, mean, fontsize=15, **place)
 
 
-def _draw_legend(figure: Any, width: float, colours: Any) -> None:
+def _draw_legend(figure: Any, width: float, colours: Any, largest: float) -> None:
     """Explain the marks in one line at the foot, with the scale of colours at its right end."""
     long = 11.6
     axes = _axes(figure, (width - long) / 2, 0.2, long, 0.6)
@@ -287,8 +296,8 @@ def _draw_legend(figure: Any, width: float, colours: Any) -> None:
     axes.text(6.82, 0.3, "located, by error", **text)
     ramp = np.linspace(0, 1, 256)[None]
     axes.imshow(ramp, cmap=colours, extent=(8.85, 11.15, 0.3, 0.46), aspect="auto")
-    for mm in range(int(_LARGEST_MM) + 1):
-        place = 8.85 + 2.3 * mm / _LARGEST_MM
-        label = f"≥ {mm} mm" if mm == _LARGEST_MM else str(mm)
+    for share in (0.0, 0.5, 1.0):
+        place = 8.85 + 2.3 * share
+        label = f"{'≥ ' if share == 1 else ''}{share * largest:g}{' mm' if share == 1 else ''}"
         axes.text(place, 0.13, label, ha="center", va="center", fontsize=12, color=_INK)
     axes.set(xlim=(0, long), ylim=(0, 0.6))

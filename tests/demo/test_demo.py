@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import csv
 import json
-import shutil
 import subprocess
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +15,7 @@ from pipeline import cli, demo
 from pipeline.calibration.files.calibration_file import load_calibration
 from pipeline.contact import ContactSolver, WrenchNoise
 from pipeline.contact.methods import METHODS
-from pipeline.demo import bench, body, compare, gravity, housing, picture
+from pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touching
 from pipeline.demo.report import LIMIT
 from pipeline.demo.view import View
 from pipeline.errors import InputError
@@ -24,47 +23,10 @@ from pipeline.mesh import load_probe
 from pipeline.mesh.engines import EngineError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    pass
 
 TOUCHES = 40
 CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
-
-
-def no_picture(*_: Any) -> list[Any]:
-    raise picture.PictureError("it needs PyVista: pip install 'contactbench[gui]'.")
-
-
-@pytest.fixture
-def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Most tests are about numbers: rendering would only take their time."""
-    monkeypatch.setattr(picture, "render_bodies", no_picture)
-    monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
-
-
-@pytest.fixture(scope="session")
-def meshes(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Path, Any]]:
-    """What preparing makes of each probe: the same every time, and the longest part of a demo."""
-    folders = {name: tmp_path_factory.mktemp(name) for name in demo.PROBE_NAMES}
-    return {name: (folder, housing.prepare_probe(folder, name)) for name, folder in folders.items()}
-
-
-@pytest.fixture(autouse=True, scope="module")
-def prepared(meshes: dict[str, tuple[Path, Any]]) -> Iterator[None]:
-    def copy(folder: Path, name: str) -> Any:
-        source, result = meshes[name]
-        shutil.copytree(source, folder, dirs_exist_ok=True)
-        return result
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(bench, "prepare_probe", copy)
-        yield
-
-
-@pytest.fixture(scope="module")
-def done(tmp_path_factory: pytest.TempPathFactory) -> demo.DemoReport:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(picture, "render_bodies", no_picture)
-        return demo.run(tmp_path_factory.mktemp("demo"), touches=TOUCHES, seed=3)
 
 
 def columns(file: Path) -> dict[str, list[str]]:
@@ -86,7 +48,7 @@ def test_files_of_a_probe_parse(done: demo.DemoReport, name: str) -> None:
     probe = load_probe(folder / "probe.ply", units="m")
     assert 1_900 <= len(probe.faces) <= 2_100
     assert 0 < np.count_nonzero(probe.region) < len(probe.faces)
-    wrenches, truth, contacts = (columns(folder / file) for file in CSV_FILES[1:])
+    wrenches, truth, contacts = (columns(folder / "drawn" / file) for file in CSV_FILES[1:])
     assert list(wrenches) == ["t", "fx", "fy", "fz", "mx", "my", "mz"]
     assert list(truth) == ["t", "x", "y", "z", "nx", "ny", "nz", "k", "where"]
     assert wrenches["t"] == truth["t"] == contacts["t"]
@@ -96,12 +58,12 @@ def test_files_of_a_probe_parse(done: demo.DemoReport, name: str) -> None:
 
 def test_contacts_agree_with_the_reported_errors(done: demo.DemoReport) -> None:
     for result in done.probes:
-        contacts = columns(done.out / result.probe / "contacts.csv")
-        truth = columns(done.out / result.probe / "truth.csv")
+        contacts = columns(done.out / result.probe / "drawn" / "contacts.csv")
+        truth = columns(done.out / result.probe / "drawn" / "truth.csv")
         sure = np.isin(contacts["reason"], ["ok", "vertex"])
         at = [np.array([table[axis] for axis in "xyz"])[:, sure].astype(float) for table in (contacts, truth)]
         error = 1e3 * np.linalg.norm(at[0] - at[1], axis=0)
-        ours = result.ours
+        ours = report.ours(result.drawn)
         assert (ours.mean_mm, ours.max_mm) == (pytest.approx(error.mean()), pytest.approx(error.max()))
 
 
@@ -111,6 +73,7 @@ def test_every_method_on_every_part(done: demo.DemoReport) -> None:
     present = [name for name in METHODS if name not in skipped]
     assert len(table["method"]) == len(demo.PROBE_NAMES) * len(present) * 3
     assert set(table["method"]) == set(present)
+    assert set(table["kind"]) == {"drawn"}
     assert set(table["where"]) == {"all", "face", "head"}
     assert all(0 <= float(share) <= 1 for share in table["answered"] + table["ambiguous"])
     lines = (done.out / "errors.md").read_text(encoding="utf-8").splitlines()
@@ -133,19 +96,16 @@ def test_errors_are_measured_over_settled_touches_only() -> None:
     assert (nothing.mean_mm, nothing.bound_mm, nothing.over_bound) == (None, None, None)
 
 
-@pytest.mark.usefixtures("undrawn")
-def test_same_seed_same_bytes(done: demo.DemoReport, tmp_path: Path) -> None:
-    (tmp_path / "convex").mkdir()
-    (tmp_path / "convex" / "truth.csv").write_text("old")
+@pytest.mark.usefixtures("undrawn", "no_bench")
+def test_a_probe_alone_is_the_same_and_another_seed_is_not(done: demo.DemoReport, tmp_path: Path) -> None:
     demo.run(tmp_path, ["convex"], TOUCHES, 3)
-    for file in ("probe.ply", "poses.csv", "calibration.json", *CSV_FILES):
+    for file in ("probe.ply", "poses.csv", "calibration.json", *(f"drawn/{each}" for each in CSV_FILES)):
         assert (tmp_path / "convex" / file).read_bytes() == (done.out / "convex" / file).read_bytes()
     again = (tmp_path / "errors.csv").read_text().splitlines()
     assert set(again) < set((done.out / "errors.csv").read_text().splitlines())
-    assert not list(tmp_path.rglob("*.tmp"))
     demo.run(tmp_path, ["convex"], TOUCHES, 4)
-    assert (tmp_path / "convex" / "wrenches.csv").read_bytes() != (
-        done.out / "convex" / "wrenches.csv"
+    assert (tmp_path / "convex" / "drawn" / "wrenches.csv").read_bytes() != (
+        done.out / "convex" / "drawn" / "wrenches.csv"
     ).read_bytes()
 
 
@@ -171,18 +131,17 @@ def test_the_mesh_is_prepared_from_a_hollow_housing(done: demo.DemoReport) -> No
         assert any(sentence.startswith(f"{result.probe}: a hollow housing") for sentence in done.sentences())
 
 
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_without_pymeshlab_the_design_stands_in(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     def missing(*_: Any, **__: Any) -> Any:
         raise EngineError("pymeshlab is not installed: pip install 'contactbench[meshlab]'.")
 
     monkeypatch.setattr(housing, "shell_step", missing)
     monkeypatch.setattr(bench, "prepare_probe", housing.prepare_probe)
-    monkeypatch.setattr(picture, "render_bodies", no_picture)
-    monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
-    report = demo.run(tmp_path, ["linear"], TOUCHES, 0)
-    assert report.verified
-    assert report.probes[0].mesh is None
-    assert "pip install 'contactbench[meshlab]'" in report.notes[0]
+    found = demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert found.verified
+    assert found.probes[0].mesh is None
+    assert any("pip install 'contactbench[meshlab]'" in note for note in found.notes)
     assert load_probe(tmp_path / "linear" / "probe.ply", "m").region.any()
 
 
@@ -201,29 +160,25 @@ def test_a_mesh_that_is_not_the_design_fails(done: demo.DemoReport) -> None:
 def test_verified_means_within_the_noise(done: demo.DemoReport) -> None:
     assert done.verified
     for result in done.probes:
-        assert result.ours.mean_mm is not None
-        assert 0.3 < result.ours.mean_mm < 2.0
+        drawn = report.ours(result.drawn).mean_mm
+        assert drawn is not None
+        assert 0.3 < drawn < 2.0
 
 
-@pytest.mark.usefixtures("undrawn")
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_sensor_worse_than_assumed_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    honest = bench.weigh_and_compensate
-    monkeypatch.setattr(
-        bench,
-        "weigh_and_compensate",
-        lambda folder, wrenches, _, rng: honest(folder, wrenches, WrenchNoise(0.2, 0.008), rng),
-    )
+    monkeypatch.setattr(tool.Tool, "noise", lambda *_: WrenchNoise(0.01, 0.0003))
     result = invoke("--out", tmp_path, "--probe", "convex", "--touches", TOUCHES, "--json")
     assert result.exit_code == 1
-    report = json.loads(result.stdout)
-    assert report["verified"] is False
-    ours = report["probes"][0]["errors"][0]
+    found = json.loads(result.stdout)
+    assert found["verified"] is False
+    ours = found["probes"][0]["drawn"][0]
     assert ours["mean_mm"] > LIMIT * ours["bound_mm"]
     assert "convex: mean error" in result.stderr
     assert "FAILED" in result.stderr
 
 
-@pytest.mark.usefixtures("undrawn")
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_calibration_that_is_off_fails(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     honest = gravity.calibrate
 
@@ -231,9 +186,9 @@ def test_a_calibration_that_is_off_fails(monkeypatch: pytest.MonkeyPatch, tmp_pa
         return honest([replace(pose, torque=1.1 * pose.torque) for pose in poses])
 
     monkeypatch.setattr(gravity, "calibrate", wrong)
-    report = demo.run(tmp_path, ["convex"], TOUCHES, 3)
-    assert not report.verified
-    assert "FAILED: it is not what its uncertainty says" in " ".join(report.sentences())
+    found = demo.run(tmp_path, ["convex"], TOUCHES, 3)
+    assert not found.verified
+    assert "FAILED: it is not what its uncertainty says" in " ".join(found.sentences())
 
 
 def test_the_bumped_pose_is_named_and_the_mass_is_right(done: demo.DemoReport) -> None:
@@ -247,7 +202,7 @@ def test_the_bumped_pose_is_named_and_the_mass_is_right(done: demo.DemoReport) -
         assert loaded.mass == weighed.mass
 
 
-@pytest.mark.usefixtures("undrawn")
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_missing_method_is_left_out_with_a_sentence(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
@@ -255,26 +210,26 @@ def test_a_missing_method_is_left_out_with_a_sentence(
         raise InputError("the wrench_axis method needs Embree: pip install 'contactbench[rivals]'")
 
     monkeypatch.setitem(METHODS, "wrench_axis", absent)
-    report = demo.run(tmp_path, ["linear"], TOUCHES, 0)
-    assert "wrench_axis is left out: the wrench_axis method needs Embree" in report.notes[0]
+    found = demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert any("wrench_axis is left out: the wrench_axis method needs Embree" in note for note in found.notes)
     assert "wrench_axis" not in (tmp_path / "errors.csv").read_text()
 
 
 # ---- command -------------------------------------------------------------------------------------
 
 
-@pytest.mark.usefixtures("undrawn")
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_json_is_one_object(tmp_path: Path) -> None:
     result = invoke("--out", tmp_path, "--probe", "linear", "--touches", TOUCHES, "--json")
     assert result.exit_code == 0
-    report = json.loads(result.stdout)
-    assert report["verified"] is True
-    assert report["picture"] is None
-    assert [entry["probe"] for entry in report["probes"]] == ["linear"]
+    found = json.loads(result.stdout)
+    assert found["verified"] is True
+    assert found["picture"] is None
+    assert [entry["probe"] for entry in found["probes"]] == ["linear"]
     assert "× bound" in result.stderr
 
 
-@pytest.mark.usefixtures("undrawn")
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
     result = invoke("--out", tmp_path, "--probe", "linear", "--touches", TOUCHES)
     assert result.exit_code == 0
@@ -315,9 +270,9 @@ def test_out_that_is_a_file(tmp_path: Path, below: str) -> None:
     assert (tmp_path / "taken").read_text() == "mine"
 
 
-@pytest.mark.usefixtures("undrawn")
+@pytest.mark.usefixtures("undrawn", "no_bench")
 def test_a_folder_in_the_place_of_a_file(tmp_path: Path) -> None:
-    (tmp_path / "linear" / "truth.csv").mkdir(parents=True)
+    (tmp_path / "linear" / "drawn" / "truth.csv").mkdir(parents=True)
     with pytest.raises(InputError, match=r"truth\.csv: the file cannot be written"):
         demo.run(tmp_path, ["linear"], TOUCHES, 0)
     assert not list(tmp_path.rglob("*.tmp"))
@@ -326,12 +281,13 @@ def test_a_folder_in_the_place_of_a_file(tmp_path: Path) -> None:
 # ---- picture -------------------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("no_bench")
 def test_picture_is_drawn(tmp_path: Path) -> None:
     pytest.importorskip("pyvista", reason="the picture needs PyVista (extra gui)")
     image_module = pytest.importorskip("PIL.Image", reason="reading the picture needs Pillow")
-    report = demo.run(tmp_path, ["linear", "t-shape"], TOUCHES, 0)
-    assert report.picture == tmp_path / "contacts.png", report.notes
-    with image_module.open(report.picture) as image:
+    found = demo.run(tmp_path, ["linear", "t-shape"], TOUCHES, 0)
+    assert found.picture == tmp_path / "contacts.png", found.notes
+    with image_module.open(found.picture) as image:
         pixels = np.asarray(image.convert("RGB"), dtype=float)
     assert pixels.shape == (800, 1200, 3)
     for half in (pixels[:, :600], pixels[:, 600:]):
@@ -339,6 +295,7 @@ def test_picture_is_drawn(tmp_path: Path) -> None:
         assert np.median(half) == 255
 
 
+@pytest.mark.usefixtures("no_bench")
 @pytest.mark.parametrize("crash", [False, True])
 def test_no_driver_is_a_sentence_not_a_crash(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, crash: bool
@@ -350,9 +307,9 @@ def test_no_driver_is_a_sentence_not_a_crash(
     monkeypatch.setattr(body, "find_spec", lambda _: True)
     monkeypatch.setattr(subprocess, "run", fail)
     (tmp_path / "contacts.png").write_bytes(b"of another run")
-    report = demo.run(tmp_path, ["linear"], TOUCHES, 0)
-    assert report.picture is None
-    assert "apt-get install libegl1 libgl1-mesa-dri" in report.notes[-1]
+    found = demo.run(tmp_path, ["linear"], TOUCHES, 0)
+    assert found.picture is None
+    assert "apt-get install libegl1 libgl1-mesa-dri" in found.notes[-1]
     assert not (tmp_path / "contacts.png").exists()
 
 
@@ -365,7 +322,7 @@ def test_without_pyvista_the_remedy_is_named(monkeypatch: pytest.MonkeyPatch) ->
 def test_shown_contacts_are_settled_seen_and_apart(done: demo.DemoReport) -> None:
     folder = done.out / "t-shape"
     solver = ContactSolver(load_probe(folder / "probe.ply", units="m"))
-    wrenches = bench._read_wrenches(folder / "wrenches.csv")
+    _, wrenches = touching.read_wrenches(folder / "drawn" / "wrenches.csv")
     batch = solver.locate_batch(wrenches)
     rows = picture._choose(picture.Located("t-shape", batch, batch.points, 1.0))
     view = picture._close("t-shape")

@@ -1,0 +1,287 @@
+"""
+A probe on a position-controlled mount, over a flat soft phantom on a platform that moves with six axes.
+
+Left out: the arm that would carry the mount (its joints, limits and bending), what tissue does sideways and between its
+places. The mount follows its set-points as a stiff machine does, and carries weight and inertia of the tool on its
+sensor; neither it nor the platform stands more than 0.1 mm off under 7 N.
+
+On a convex probe at 7 N and a motion as of the paper's quickest, half the time step changes the force by 0.02 N and
+the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
+0.3 degrees less (`pipeline.study.scene_limits` measures it).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.simulation.scenes.physics import OTHER, Moment, Payload, Truth, new_spec
+from pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
+from pipeline.simulation.scenes.setpoints import SetPoints
+from pipeline.simulation.scenes.tissue import (
+    PLACES,
+    Tissue,
+    TissueScene,
+    add_phantom,
+    add_probe,
+    add_six_joints,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.simulation.scenes.platform_motion import PlatformMotion
+
+DOWN = np.diag([1.0, -1.0, -1.0])  # R_BS of a tool that points down, x kept
+_FASTEST = np.repeat([0.25, np.pi / 2], 3)  # m/s and rad/s, of the mount
+_HARDEST = np.repeat([5.0, 30.0], 3)  # m/s² and rad/s²
+
+
+class MovedScene(TissueScene):
+    """
+    What scenes with a phantom on a platform share: where its surface is, and how the probe stands to it.
+
+    The platform goes where its motion says, pulled by a stiff servo that knows it beforehand. Its six joints are the
+    last ones of the model.
+
+    Parameters
+    ----------
+    spec, truth, tissue, places, area
+        As of `TissueScene`.
+    motion : PlatformMotion or None
+        None: it rests.
+    T_BP : (4, 4)
+        Where the middle of the phantom's top rests in B, z up: the frame whose axes the motion is along and about.
+
+    Attributes
+    ----------
+    R_ES : (3, 3)
+    p_ES_E : (3,)
+        How the sensor sits on the flange, m.
+    top : float
+        Height of the probe's face above S, m.
+    start : (n,)
+        Joints at the beginning, m and rad.
+    """
+
+    start: NDArray[np.float64]
+
+    def __init__(
+        self,
+        spec: Any,
+        truth: Truth,
+        tissue: Tissue,
+        places: NDArray[np.float64],
+        area: float,
+        *,
+        motion: PlatformMotion | None,
+        T_BP: NDArray[np.float64],
+        R_ES: NDArray[np.float64],
+        p_ES_E: NDArray[np.float64],
+    ) -> None:
+        super().__init__(spec, truth, tissue, places, area)
+        self.motion, self.T_BP, self.R_ES, self.p_ES_E = motion, T_BP, R_ES, p_ES_E
+        self.top = float(truth.probe.vertices[:, 2].max())
+        self.data.qpos[-6:], self.data.qvel[-6:] = self._platform(0.0), self._platform_speed(0.0)
+
+    # ---- what a controller has to do with ---------------------------------------------------------
+
+    @property
+    def joints(self) -> NDArray[np.float64]:
+        """What the encoders say, (n,)."""
+        raise NotImplementedError
+
+    @property
+    def true_joints(self) -> NDArray[np.float64]:
+        """Where the joints are, (n,)."""
+        raise NotImplementedError
+
+    def command(self, joints: ArrayLike) -> None:
+        """Give the servo its next set-point, (n,)."""
+        raise NotImplementedError
+
+    def joints_for(
+        self, R_BS: NDArray[np.float64], p_BS_B: NDArray[np.float64], near: ArrayLike | None = None
+    ) -> NDArray[np.float64]:
+        """Return joints, (n,), that hold the sensor so; of several the ones found from `near`, or from `start`."""
+        raise NotImplementedError
+
+    # ---- physics and truth -------------------------------------------------------------------------
+
+    def step(self) -> None:
+        """
+        Go on by one time step; the servos know the masses and the weight where everything is now.
+
+        Raises
+        ------
+        PhysicsError
+            See `Scene.step`.
+        """
+        # Before `mj_step` they would be those of the step before, and none at all at the first.
+        self.mujoco.mj_step1(self.model, self.data)
+        self.control()
+        self.mujoco.mj_step2(self.model, self.data)
+        if self._warnings.any():
+            self._fail()
+
+    def moment(self) -> Moment:
+        """Return the truth now, with the forces that the servos give now: what speeds up is felt by the sensor."""
+        self.mujoco.mj_step1(self.model, self.data)
+        self.control()
+        return super().moment()
+
+    def surface(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the middle of the phantom's top in B, m, and the normal that points out of it, both (3,)."""
+        # After a step the poses are those of its beginning.
+        self.mujoco.mj_kinematics(self.model, self.data)
+        body = self.data.body(OTHER)
+        return body.xpos.copy(), -body.xmat.reshape(3, 3)[:, 2]
+
+    def angles(self) -> tuple[float, float]:
+        """
+        Return how far the phantom's normal is turned against the probe's axis, rad.
+
+        In plane: the turn about S's y, along the long side of the face; out of plane: about its x. A probe that turns
+        by them in S, as small as they are, stands upright on the phantom.
+        """
+        _, normal = self.surface()
+        R_BS = self.data.site_xmat[self._site].reshape(3, 3)
+        inward = -R_BS.T @ normal
+        return float(np.arctan2(inward[0], inward[2])), float(np.arctan2(-inward[1], inward[2]))
+
+    def held_at(
+        self, gap: float, pose: ArrayLike | None = None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """
+        Return R_BS (3, 3) and p_BS_B (3,) of a probe upright on the phantom's middle.
+
+        Parameters
+        ----------
+        gap : float
+            m between them.
+        pose : (6,), optional
+            Where the phantom is, as `PlatformMotion.at` says; left out, where it rests.
+        """
+        moved = np.zeros(6) if pose is None else np.asarray(pose, dtype=np.float64)
+        R_BP = self.T_BP[:3, :3]
+        R_BS = R_BP @ Rotation.from_euler("XYZ", moved[3:]).as_matrix() @ DOWN
+        return R_BS, self.T_BP[:3, 3] + R_BP @ moved[:3] - (self.top + gap) * R_BS[:, 2]
+
+    def _pulled(self) -> NDArray[np.float64]:
+        """Return the acceleration (6,) with which the platform stays where it should be."""
+        now = self.time
+        speed = self._platform_speed(now)
+        # Over the step: at a jump in speed the derivative is none, and what it begins with must fit its length.
+        ahead = (self._platform_speed(now + self.step_s) - speed) / self.step_s
+        off = self._platform(now) - self.data.qpos[-6:]
+        return np.asarray(ahead + SERVO**2 * off + 2 * SERVO * (speed - self.data.qvel[-6:]))
+
+    def _push(self, acceleration: NDArray[np.float64], most: NDArray[np.float64] | None = None) -> None:
+        """Give all joints the forces that accelerate them so, gravity and each other met; at most some."""
+        force = np.empty(self.model.nv)
+        self.mujoco.mj_mulM(self.model, self.data, force, acceleration)
+        force += self.data.qfrc_bias
+        self.data.qfrc_applied[:] = force if most is None else np.clip(force, -most, most)
+
+    def _platform(self, time: float) -> NDArray[np.float64]:
+        return np.zeros(6) if self.motion is None else self.motion.at(time)
+
+    def _platform_speed(self, time: float) -> NDArray[np.float64]:
+        return np.zeros(6) if self.motion is None else self.motion.speed(time)
+
+
+def add_platform(spec: Any, T_BP: NDArray[np.float64], tissue: Tissue) -> None:
+    """Add the phantom, which moves along and about the axes of P, z up."""
+    turned = Rotation.from_matrix(T_BP[:3, :3] @ DOWN).as_quat(scalar_first=True)
+    other = spec.worldbody.add_body(name=OTHER, pos=T_BP[:3, 3], quat=turned)
+    # The inverse of DOWN is itself: its rows are the axes of P in the body's frame.
+    add_six_joints(other, DOWN)
+    add_phantom(other, tissue)
+
+
+class PlatformScene(MovedScene):
+    """
+    The probe points down at the phantom; B is where the platform rests, z up.
+
+    Parameters
+    ----------
+    truth : Truth
+    payload : Payload, optional
+    tissue : Tissue, optional
+    motion : PlatformMotion, optional
+        Left out: it rests.
+    gap : float
+        m between probe and phantom at the beginning.
+    step : float
+        s.
+    places : int
+        About how many places of the face feel the tissue.
+    period : float
+        s between set-points.
+
+    Attributes
+    ----------
+    start : (6,)
+        Joints at the beginning: where the flange E, which is S, is in B (m), and turns about the moved x, y, z axes
+        (rad) on top of `DOWN`.
+
+    Raises
+    ------
+    InputError
+        MuJoCo is missing.
+    """
+
+    def __init__(
+        self,
+        truth: Truth,
+        *,
+        payload: Payload | None = None,
+        tissue: Tissue | None = None,
+        motion: PlatformMotion | None = None,
+        gap: float = 0.003,
+        step: float = PRESS_STEP_S,
+        places: int = PLACES,
+        period: float = 0.02,
+    ) -> None:
+        tissue = tissue or Tissue()
+        spec = new_spec(step)
+        turned = Rotation.from_matrix(DOWN).as_quat(scalar_first=True)
+        carrier = spec.worldbody.add_body(name="carrier", quat=turned)
+        add_six_joints(carrier, DOWN)
+        where, area = add_probe(spec, carrier, truth, payload or Payload(), tissue, places)
+        add_platform(spec, np.eye(4), tissue)
+        fixed = {"T_BP": np.eye(4), "R_ES": np.eye(3), "p_ES_E": np.zeros(3)}
+        super().__init__(spec, truth, tissue, where, area, motion=motion, **fixed)
+        self.start = np.array([0.0, 0.0, self.top + gap, 0.0, 0.0, 0.0])
+        self._points = SetPoints(self.start, _FASTEST, _HARDEST, period)
+        self.data.qpos[:6] = self.start
+
+    @property
+    def joints(self) -> NDArray[np.float64]:
+        """Where the mount is, (6,), as `start`: nothing is rounded."""
+        return np.array(self.data.qpos[:6])
+
+    @property
+    def true_joints(self) -> NDArray[np.float64]:
+        """The same."""
+        return self.joints
+
+    def joints_for(
+        self, R_BS: NDArray[np.float64], p_BS_B: NDArray[np.float64], near: ArrayLike | None = None
+    ) -> NDArray[np.float64]:
+        """Return joints, (6,), that hold the sensor so; there are no others, so that `near` does not count."""
+        del near
+        return np.concatenate([p_BS_B, Rotation.from_matrix(R_BS @ DOWN).as_euler("XYZ")])
+
+    def command(self, joints: ArrayLike) -> None:
+        """Give the mount's servo its next set-point, (6,)."""
+        self._points.give(self.time, np.asarray(joints, dtype=np.float64))
+
+    def control(self) -> None:
+        """Pull both sides to where they should be, with the forces that this takes."""
+        now = self.time
+        here, then = self._points.at(now), self._points.at(now + self.step_s)
+        off, slow = here - self.data.qpos[:6], (then - here) / self.step_s - self.data.qvel[:6]
+        self._push(np.concatenate([SERVO**2 * off + 2 * SERVO * slow, self._pulled()]))

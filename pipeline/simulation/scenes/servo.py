@@ -1,0 +1,122 @@
+"""The joints of an arm as its controller sees them: set-points in, rounded angles out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.errors import InputError
+from pipeline.simulation.scenes.setpoints import SetPoints
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.robot import Robot
+
+_MOST_HELD = 500.0  # rad/s², of what it has learned to hold against: motors at their end shall not wind it up
+
+
+@dataclass(frozen=True)
+class ServoSettings:
+    """
+    What the makers of arms do not print, chosen as usual for a light one.
+
+    Attributes
+    ----------
+    period : float
+        s between set-points.
+    bandwidth : float
+        rad/s, with which it follows its set-points; speed is fed forward.
+    stiffness : float
+        rad/s, all three poles of the loop that holds the joints on the path: what pushes them aside for long is met
+        wholly, what comes suddenly within some times 1 / stiffness.
+    counts : int
+        Of an encoder per turn of its joint.
+    """
+
+    period: float = 0.02
+    bandwidth: float = 60.0
+    stiffness: float = 120.0
+    counts: int = 2**17
+
+    def __post_init__(self) -> None:
+        values = (self.period, self.bandwidth, self.stiffness, self.counts)
+        if not (np.isfinite(values).all() and min(values) > 0):
+            raise InputError(
+                f"servo: period, bandwidth, stiffness and counts are {values}: give positive numbers."
+            )
+
+
+class JointServo:
+    """
+    The position servo of an arm: a path along the set-points, and a loop that keeps the joints on it.
+
+    The path keeps the arm's limits of speed and acceleration at every moment. The loop knows no such limits, as it
+    pushes back what pushes; the motors' torque ends it.
+
+    Parameters
+    ----------
+    robot : Robot
+    start : (n,)
+        rad.
+    settings : ServoSettings
+    step : float
+        s between two calls of `acceleration`.
+    """
+
+    def __init__(
+        self, robot: Robot, start: NDArray[np.float64], settings: ServoSettings, step: float
+    ) -> None:
+        self._robot, self._settings, self._step = robot, settings, step
+        self._fastest, self._hardest = robot.velocity_limits, robot.acceleration_limits
+        self._points = SetPoints(start, self._fastest, self._hardest, settings.period)
+        self._place, self._last = np.array(start), 0.0
+        # Of the path, and of what the joints are off it; both up to the last call.
+        self._speed, self._change = np.zeros(len(start)), np.zeros(len(start))
+        self._off, self._sum = np.zeros(len(start)), np.zeros(len(start))
+
+    def command(self, time: float, joints: NDArray[np.float64]) -> None:
+        """
+        Take the next set-point, (n,), rad.
+
+        Raises
+        ------
+        InputError
+            The arm cannot go there, or these are no angles.
+        """
+        self._points.give(time, self._robot.check_joints(joints, "set-point"))
+
+    def acceleration(
+        self, time: float, q: NDArray[np.float64], speed: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """
+        Return the acceleration (n,) that it asks of the joints, rad/s², where they are and go as they do.
+
+        Asked twice at one time, it answers the same.
+        """
+        self._go_on(time)
+        k = self._settings.stiffness
+        self._off = self._place - q
+        held = k**3 * self._sum + 3 * k * k * self._off + 3 * k * (self._speed - speed)
+        return np.asarray(self._change + held)
+
+    def _go_on(self, time: float) -> None:
+        """Take the path to a time."""
+        passed, self._last = time - self._last, time
+        self._speed = self._speed + passed * self._change
+        self._place = self._place + passed * self._speed
+        most = _MOST_HELD / self._settings.stiffness**3
+        self._sum = np.clip(self._sum + passed * self._off, -most, most)
+        wanted, going = self._points.state(time)
+        w = self._settings.bandwidth
+        asked = w * w * (wanted - self._place) + 2 * w * (going - self._speed)
+        low = np.maximum(-self._hardest, (-self._fastest - self._speed) / self._step)
+        high = np.minimum(self._hardest, (self._fastest - self._speed) / self._step)
+        self._change = np.maximum(np.minimum(asked, high), low)
+
+    def read(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return what the encoders say, rad."""
+        count = 2 * np.pi / self._settings.counts
+        return np.asarray(np.round(q / count) * count)

@@ -1,0 +1,99 @@
+"""The set-points of a position servo: what it makes of them between two."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+
+class SetPoints:
+    """
+    The path of a servo that gets a set-point every `period`: to it until the next one is due, without a jump in speed.
+
+    Between two set-points it is the cubic whose speed at each is the mean speed towards it. A set-point that is too far
+    is gone to as fast as the machine can, and passed by as much as stopping takes; after one that does not come it
+    stops as hard as the machine can.
+
+    The speed never passes `fastest`. From one set-point to the next it changes by at most `hardest` times the period;
+    on the way a cubic accelerates up to four times as hard, for some milliseconds: a servo with a bandwidth smooths it.
+
+    Parameters
+    ----------
+    start : (n,)
+    fastest, hardest : (n,)
+        Largest speed and acceleration, per s and per s².
+    period : float
+        s.
+
+    Raises
+    ------
+    InputError
+        A limit or the period is not positive.
+    """
+
+    def __init__(
+        self,
+        start: NDArray[np.float64],
+        fastest: NDArray[np.float64],
+        hardest: NDArray[np.float64],
+        period: float,
+    ) -> None:
+        self._from = self._to = np.array(start, dtype=np.float64)
+        self._speed_from = self._speed_to = np.zeros_like(self._from)
+        self._given = -period
+        self._fastest, self._hardest, self._period = np.asarray(fastest), np.asarray(hardest), period
+        if not (0 < period < np.inf and (self._fastest > 0).all() and (self._hardest > 0).all()):
+            raise InputError(
+                f"set-points every {period} s, speeds up to {self._fastest.tolist()}, accelerations up to"
+                f" {self._hardest.tolist()}: give positive numbers."
+            )
+
+    def give(self, time: float, point: NDArray[np.float64]) -> None:
+        """
+        Take the next one; numbers as those of `start`.
+
+        Raises
+        ------
+        InputError
+            They are not finite, or not as many.
+        """
+        if point.shape != self._to.shape or not np.isfinite(point).all():
+            raise InputError(f"set-point {point.tolist()}: give {len(self._to)} finite numbers.")
+        here, speed = self.state(time)
+        # A cubic that ends with speed b after a is fastest at 4/3 b - a/3, two thirds of the way.
+        most = 0.75 * self._fastest
+        wanted = np.clip((point - here) / self._period, speed / 4 - most, speed / 4 + most)
+        reach = self._hardest * self._period
+        going = speed + np.clip(wanted - speed, -reach, reach)
+        self._from, self._to = here, here + going * self._period
+        self._speed_from, self._speed_to = speed, going
+        self._given = time
+
+    def at(self, time: float) -> NDArray[np.float64]:
+        """Return where it should be at a time, (n,)."""
+        return self.state(time)[0]
+
+    def state(self, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where it should be at a time, and how fast it should go, both (n,)."""
+        u = (time - self._given) / self._period
+        if u >= 1 + 1e-9:
+            return self._stopping((u - 1) * self._period)
+        u = max(u, 0.0)
+        gone, rest = self._to - self._from, self._period
+        a, b = self._speed_from * rest, self._speed_to * rest
+        # Hermite: u³ (a + b - 2 g) + u² (3 g - 2 a - b) + u a.
+        where = self._from + u * (a + u * ((3 * gone - 2 * a - b) + u * (a + b - 2 * gone)))
+        speed = (a + u * (2 * (3 * gone - 2 * a - b) + 3 * u * (a + b - 2 * gone))) / rest
+        return where, speed
+
+    def _stopping(self, late: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the same when the next set-point is late, by some s: braking, within a period at the earliest."""
+        takes = np.maximum(np.abs(self._speed_to) / self._hardest, self._period)
+        over = np.minimum(late / takes, 1.0)
+        return self._to + self._speed_to * takes * (over - over * over / 2), self._speed_to * (1 - over)

@@ -1,0 +1,246 @@
+"""Soft flat tissue as a bed of springs under a probe: what the scenes that press on it share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.errors import InputError
+from pipeline.kernel import SurfaceIndex
+from pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT
+from pipeline.simulation.scenes.physics import (
+    OTHER,
+    PROBE,
+    Moment,
+    Payload,
+    Scene,
+    Truth,
+    physics,
+    sensed_body,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.mesh import Probe
+
+BALL_M = 0.001
+PLACES = 100
+_OUTSIDE_M = 0.001
+# MuJoCo's impedance d, the same at every depth: then a contact is a linear spring, f = (k r - a) / R. The second part
+# acts like a mass 1 / R on each place; so small a d leaves a gram of it.
+_SHARE = 1e-3
+_CARRIAGE_KG, _CARRIAGE_GYRATION = 5.0, 0.17
+FACE_DEPTH_M = 0.012
+_REACH_M = 0.01  # how far the centroid of a bulged area may lie inside the probe
+_HALF_HEIGHT_M = 0.02
+
+
+@dataclass(frozen=True)
+class Tissue:
+    """
+    A soft flat phantom.
+
+    Attributes
+    ----------
+    modulus : float
+        Pressure per depth, N/m³. The default is what a stamp of a probe's size feels on deep tissue of 50 kPa. How
+        much that pushes depends on the shape: at 4 mm 17.2 N on the T-shape, 5.7 N on the linear and 5.0 N on the
+        convex probe. For a wanted force see `depth_for`.
+    damping : float
+        Pressure per speed, N·s/m³.
+    friction : float
+        With gel on it, about 0.1; dry skin up to 0.6.
+    half_size : float
+        Of its square top, m.
+    """
+
+    modulus: float = 3e6
+    damping: float = 5e4
+    friction: float = 0.3
+    half_size: float = 0.1
+
+    def __post_init__(self) -> None:
+        values = (self.modulus, self.damping, self.friction, self.half_size)
+        if not np.isfinite(values).all() or min(values) < 0 or self.modulus == 0 or self.half_size == 0:
+            raise InputError(f"tissue {values}: give positive numbers; damping and friction may be 0.")
+
+
+class TissueScene(Scene):
+    """
+    A probe and tissue that pushes each place of its face by that place's own depth.
+
+    MuJoCo lets a contact act at half its penetration, 2 mm below the skin of a probe that is pressed in by 4 mm. Here
+    every force acts on the probe, at the place that feels it: the truth and the reading are those of this wrench, and
+    friction turns the probe as it would. The side that moves does not feel the difference.
+
+    Parameters
+    ----------
+    spec : mujoco.MjSpec
+        With a probe that `add_probe` and a phantom that `add_phantom` added.
+    truth : Truth
+    tissue : Tissue
+    places : (n, 3)
+        Of the face, S, m; what `add_probe` returned.
+    area : float
+        Of the tissue's top for each, m².
+    """
+
+    def __init__(
+        self, spec: Any, truth: Truth, tissue: Tissue, places: NDArray[np.float64], area: float
+    ) -> None:
+        super().__init__(spec, truth)
+        self.area = area
+        self._make_springs(tissue)
+        self._places = np.full((self.model.ngeom, 3), np.nan)
+        self._places[self.model.geom_bodyid == self.model.body(PROBE).id] = places
+
+    def _touched(
+        self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64], reading: NDArray[np.float64]
+    ) -> Moment:
+        """Return the truth, and the reading, with every force where the probe feels it."""
+        places, forces, moved = self._felt(R_WS, p_WS)
+        reading = reading + np.concatenate([np.zeros(3), np.cross(places - moved, forces).sum(axis=0)])
+        total = forces.sum(axis=0)
+        contact = np.concatenate([total, np.cross(places, forces).sum(axis=0)])
+        sizes = np.linalg.norm(forces, axis=1)
+        if not sizes.any():  # they have just met: where is all that there is to say
+            sizes = np.ones(len(sizes))
+        centroid = sizes @ places / sizes.sum()
+        push = float(np.linalg.norm(total))
+        if push > 0:
+            point, normal = self.truth.along(centroid, -total / push, _REACH_M)
+        else:
+            point, normal = self.truth.nearest(centroid)
+        return Moment(self.time, R_WS, reading, contact, len(places), centroid, point, normal)
+
+    def _felt(
+        self, R_WS: NDArray[np.float64], p_WS: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return where the probe feels forces, the forces on it, and where MuJoCo lets them act; all (n, 3) in S."""
+        contacts = self.data.contact
+        first = contacts.efc_address
+        there = first >= 0
+        # Of an elliptic cone the constraint's forces are those along the contact's axes.
+        along_axes = self.data.efc_force[first[there, None] + np.arange(3)]
+        pairs = contacts.geom[there]
+        probe_second = self.model.geom_bodyid[pairs[:, 1]] == self.model.body(PROBE).id
+        forces = np.einsum("nk,nkd->nd", along_axes, contacts.frame[there].reshape(-1, 3, 3))
+        forces = np.where(probe_second, 1.0, -1.0)[:, None] * forces
+        places = self._places[np.where(probe_second, pairs[:, 1], pairs[:, 0])]
+        return places, forces @ R_WS, (contacts.pos[there] - p_WS) @ R_WS
+
+    def _make_springs(self, tissue: Tissue) -> None:
+        """Turn the tissue's figures into MuJoCo's: a contact at rest pushes with k r / R, R = (1 - d) / d A."""
+        model = self.model
+        other, probe = model.body(OTHER).id, model.body(PROBE).id
+        weight = float(model.body_invweight0[other, 0] + model.body_invweight0[probe, 0])
+        scale = (1 - _SHARE) * weight * self.area
+        # Any contact of a pair takes these from the phantom, whose priority is higher.
+        model.geom_solref[model.geom_bodyid == other] = [-tissue.modulus * scale, -tissue.damping * scale]
+
+
+def add_probe(
+    spec: Any, parent: Any, truth: Truth, payload: Payload, tissue: Tissue, count: int
+) -> tuple[NDArray[np.float64], float]:
+    """Add the sensed probe with a small ball at each of about `count` places; return them, (n, 3), and their area."""
+    places, normals, area = spread(truth.probe, count)
+    body = sensed_body(spec, parent, payload)
+    for place, normal in zip(places, normals, strict=True):
+        body.add_geom(
+            type=physics().mjtGeom.mjGEOM_SPHERE,
+            size=[BALL_M, 0, 0],
+            pos=place - BALL_M * normal,
+            contype=PROBE_BIT,
+            conaffinity=TIP_BIT,
+            **_skin(tissue),
+        )
+    return places, area
+
+
+def add_phantom(body: Any, tissue: Tissue) -> None:
+    """Give a body the phantom: it fills the side z > 0 of its frame, and its surface faces -z."""
+    body.add_geom(
+        type=physics().mjtGeom.mjGEOM_BOX,
+        size=[tissue.half_size, tissue.half_size, _HALF_HEIGHT_M],
+        pos=[0, 0, _HALF_HEIGHT_M],
+        contype=TIP_BIT,
+        conaffinity=PROBE_BIT,
+        priority=1,
+        **_skin(tissue),
+    )
+
+
+def _skin(tissue: Tissue) -> dict[str, Any]:
+    # Both sides of the pair ask for the same; the stiffness is set later, when the weights are known.
+    return {
+        "condim": 3,
+        "friction": [tissue.friction, 0.001, 1e-4],
+        "solimp": [_SHARE, _SHARE, 0.001, 0.5, 2.0],
+    }
+
+
+def add_six_joints(body: Any, axes: NDArray[np.float64] | None = None) -> None:
+    """Let a body move along, and then turn about, three axes: the rows of (3, 3) in its own frame; left out x, y, z."""
+    mujoco = physics()
+    body.mass, body.inertia = _CARRIAGE_KG, np.full(3, _CARRIAGE_KG * _CARRIAGE_GYRATION**2)
+    # Left out, MuJoCo takes the body's own place and turn for those of its mass: a phantom away from the world's origin
+    # would hang from a lever.
+    body.ipos, body.iquat = np.zeros(3), [1.0, 0.0, 0.0, 0.0]
+    body.explicitinertial = True
+    for kind in (mujoco.mjtJoint.mjJNT_SLIDE, mujoco.mjtJoint.mjJNT_HINGE):
+        for axis in np.eye(3) if axes is None else axes:
+            body.add_joint(type=kind, axis=axis)
+
+
+def spread(probe: Probe, count: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """
+    Spread places over what tissue can reach of a probe: what is within 12 mm of its tip, seen from above.
+
+    Parameters
+    ----------
+    probe : Probe
+    count : int
+        About how many.
+
+    Returns
+    -------
+    places, normals : (n, 3)
+        S, m, and outward.
+    area : float
+        Of the tissue's top for each place, m².
+    """
+    low, high = probe.vertices.min(axis=0) - _OUTSIDE_M, probe.vertices.max(axis=0) + _OUTSIDE_M
+    index = SurfaceIndex(probe.vertices, probe.faces)
+    cell = float(np.prod((high - low)[:2])) / count
+    # The first grid shows how much of the rectangle is covered; the second has the right size.
+    for _ in range(2):
+        places, normals = _seen_from_above(probe, index, low, high, cell)
+        if not len(places):
+            raise InputError(
+                f"probe {probe.name}: nothing of it lies within 12 mm of its tip: is it aligned?"
+            )
+        cell, area = cell * len(places) / count, cell
+    return places, normals, area
+
+
+def _seen_from_above(
+    probe: Probe, index: Any, low: NDArray[np.float64], high: NDArray[np.float64], cell: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the surface under the middles of a triangular grid, one per `cell` (m²)."""
+    side = np.sqrt(2 * cell / np.sqrt(3))
+    row = side * np.sqrt(3) / 2
+    count = np.ceil((high - low)[:2] / [side, row]).astype(int) + 1
+    x, y = np.meshgrid(np.arange(count[0]) * side, np.arange(count[1]) * row)
+    x[1::2] += side / 2
+    # Centred: a probe that is the same on both sides gets the same places there.
+    middle = (low + high)[:2] / 2
+    flat = np.column_stack([(x - x.mean()).ravel(), (y - y.mean()).ravel()]) + middle
+    starts = np.column_stack([flat, np.full(len(flat), high[2] + _OUTSIDE_M)])
+    down = np.broadcast_to([0.0, 0.0, -1.0], starts.shape)
+    distances, facets = index.first_hit(starts, np.ascontiguousarray(down))
+    hit = (facets >= 0) & (distances < 2 * _OUTSIDE_M + FACE_DEPTH_M)
+    # Only what is hit: elsewhere the distance is infinite.
+    return starts[hit] + distances[hit, None] * down[hit], probe.normals[facets[hit]]

@@ -1,0 +1,77 @@
+"""What the bench gives: samples, the truth beside them, and what was done to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pipeline.simulation.virtual.commands import Command, Rezero
+
+if TYPE_CHECKING:
+    from pipeline.devices.sample import FlangeSample, WrenchSample
+    from pipeline.simulation.scenes import Moment
+
+
+@dataclass(frozen=True)
+class Done:
+    """
+    A command that took effect.
+
+    Attributes
+    ----------
+    time : float
+        When, s of the bench's clock.
+    command : Command
+    until : float
+        When it is over: a turn at its end, a touch when the tip leaves by itself; else `time`.
+    """
+
+    time: float
+    command: Command
+    until: float
+
+    @property
+    def secret(self) -> bool:
+        """Whether nobody but the truth may tell of it."""
+        return isinstance(self.command, Rezero)
+
+
+@dataclass(frozen=True)
+class Slip:
+    """
+    A tip that was told to press and touched nothing for half a second: it slid off, or never met the probe.
+
+    Attributes
+    ----------
+    time : float
+        When that was found, s of the bench's clock.
+    touch : Done
+        The command.
+    """
+
+    time: float
+    touch: Done
+
+
+@dataclass(frozen=True)
+class Batch:
+    """
+    What the bench gave over some time, each by increasing time.
+
+    Attributes
+    ----------
+    wrenches : tuple of WrenchSample
+    flanges : tuple of FlangeSample
+    truths : tuple of Moment
+        One for every wrench.
+    done : tuple of Done
+        Commands that took effect.
+    slips : tuple of Slip
+        Touches that were found to press nothing.
+    """
+
+    wrenches: tuple[WrenchSample, ...] = ()
+    flanges: tuple[FlangeSample, ...] = ()
+    truths: tuple[Moment, ...] = ()
+    done: tuple[Done, ...] = ()
+    slips: tuple[Slip, ...] = ()

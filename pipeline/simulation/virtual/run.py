@@ -1,0 +1,168 @@
+"""A script from beginning to end, as fast as it goes, into files."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from dataclasses import dataclass
+from functools import partial
+from operator import itemgetter
+from typing import TYPE_CHECKING
+
+from pipeline.durable import scratch_beside
+from pipeline.errors import InputError
+from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
+from pipeline.simulation.virtual.commands import command_fields
+from pipeline.simulation.virtual.script import LONGEST_S, ScriptError
+from pipeline.simulation.virtual.truth_csv import TruthTable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from pipeline.simulation.virtual.bench import VirtualBench
+    from pipeline.simulation.virtual.given import Batch, Slip
+
+# The bench has no calendar: a fixed day, so that the same run gives the same bytes.
+STARTED_NS = 946_684_800 * 10**9  # 2000-01-01
+_SLICE_S = 0.25
+_AFTERWARDS_S = 1.0
+
+
+@dataclass(frozen=True)
+class Ran:
+    """
+    What a run gave.
+
+    Attributes
+    ----------
+    seconds : float
+        Of the bench's clock.
+    wrenches, flanges, commands : int
+        How many there are in the recording and the truth.
+    slips : tuple of Slip
+        Touches that pressed nothing.
+    """
+
+    seconds: float
+    wrenches: int
+    flanges: int
+    commands: int
+    slips: tuple[Slip, ...] = ()
+
+
+def run_script(bench: VirtualBench, out: Path, truth: Path | None = None, address: str = "") -> Ran:
+    """
+    Run the bench until its script ends it, or for a second after the last command is over.
+
+    The recording holds wrenches, flanges, the commands as events `bench`, but for those that happen behind
+    everybody's back, and as events `slipped` the touches that press nothing; the table of the truth holds all commands.
+    Both files come to their names when all is done: what is there after an error is not half a run.
+
+    Parameters
+    ----------
+    bench : VirtualBench
+        With a script; as new.
+    out : Path
+        Recording to write, which must not exist.
+    truth : Path, optional
+        CSV to write, which must not exist either; see `TruthTable`.
+    address : str
+        Of the devices, for the recording.
+
+    Raises
+    ------
+    RecordingError, ScriptError, InputError
+        A file cannot be written, or a command cannot be done.
+    """
+    if not bench.scripted:
+        raise InputError("virtual bench: there is no script: nothing would happen.")
+    _refuse_taken(out, truth)
+    devices = [
+        DeviceInfo("wrench", WRENCH_TOPIC, address, "virtual bench", rate=bench.rate),
+        DeviceInfo("flange", FLANGE_TOPIC, address, "virtual bench", rate=bench.pose_rate),
+    ]
+    about = RecordingInfo(STARTED_NS, 0.0, tuple(devices))
+    with ExitStack() as unfinished:
+        recorded = _scratch(unfinished, out)
+        told = None if truth is None else _scratch(unfinished, truth)
+        wrenches, flanges = _go(bench, about, recorded, told)
+        # The truth first: a recording that is there has its truth beside it.
+        for scratch, file in ((told, truth), (recorded, out)):
+            if scratch is not None and file is not None:
+                _put(scratch, file)
+    return Ran(bench.time, wrenches, flanges, len(bench.log), bench.slips)
+
+
+def _refuse_taken(out: Path, truth: Path | None) -> None:
+    if truth is not None and truth.resolve() == out.resolve():
+        raise InputError(f"{out}: the recording and the truth cannot be one file: give them two names.")
+    for file in (out, truth):
+        if file is not None and not file.parent.is_dir():
+            raise InputError(f"{file}: there is no folder {file.parent}: make it, or choose another place.")
+        if file is not None and file.exists():
+            raise InputError(f"{file}: it exists, and is not written over: choose another name or delete it.")
+
+
+def _scratch(unfinished: ExitStack, file: Path) -> Path:
+    scratch = scratch_beside(file)
+    unfinished.callback(scratch.unlink, missing_ok=True)
+    return scratch
+
+
+def _put(scratch: Path, file: Path) -> None:
+    try:
+        scratch.rename(file)
+    except OSError as error:
+        raise InputError(f"{file}: it cannot be written ({error}): choose another place.") from error
+
+
+def _go(bench: VirtualBench, about: RecordingInfo, out: Path, truth: Path | None) -> tuple[int, int]:
+    """Run, and return how many wrenches and flanges there were."""
+    wrenches = flanges = 0
+    with ExitStack() as files:
+        # Chunks by the bench's clock: by the host's, two runs would differ in their bytes.
+        writer = files.enter_context(RecordingWriter(out, about, clock=lambda: bench.time))
+        table = None
+        if truth is not None:
+            try:
+                file = files.enter_context(truth.open("x", newline="", encoding="utf-8"))
+            except OSError as error:
+                raise InputError(f"{truth}: it cannot be written ({error}): choose another place.") from error
+            table = TruthTable(file)
+        while _goes_on(bench):
+            batch = bench.advance(_SLICE_S)
+            _write(writer, batch)
+            wrenches, flanges = wrenches + len(batch.wrenches), flanges + len(batch.flanges)
+            if table is not None:
+                table.add(batch)
+    return wrenches, flanges
+
+
+def _goes_on(bench: VirtualBench) -> bool:
+    if bench.ended:
+        return False
+    if bench.time > LONGEST_S + _AFTERWARDS_S:
+        left = bench.pending
+        if left:
+            raise ScriptError(
+                f"{left[0].where}: it is due after {LONGEST_S:,.0f} s, the longest run: divide the script."
+            )
+        return False
+    return bench.scripted or bench.time < bench.idle_from + _AFTERWARDS_S
+
+
+def _write(writer: RecordingWriter, batch: Batch) -> None:
+    """Write a batch in the order of time; at one time the commands first, then slips, the wrench, the flange."""
+    rows: list[tuple[float, int, Callable[[], None]]] = []
+    for done in batch.done:
+        if not done.secret:
+            fields = command_fields(done.command)
+            rows.append((done.time, 0, partial(writer.event, "bench", fields, done.time)))
+    for slip in batch.slips:
+        fields = {"touched_at": slip.touch.time, **command_fields(slip.touch.command)}
+        rows.append((slip.time, 1, partial(writer.event, "slipped", fields, slip.time)))
+    rows += [(sample.time, 2, partial(writer.wrench, sample)) for sample in batch.wrenches]
+    rows += [(sample.time, 3, partial(writer.flange, sample)) for sample in batch.flanges]
+    for _, _, write in sorted(rows, key=itemgetter(0, 1)):
+        write()

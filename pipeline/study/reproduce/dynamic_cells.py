@@ -1,0 +1,251 @@
+"""One run of the closed loop over the moving phantom, and what is measured of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from multiprocessing import get_context
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.control.loop import arm_of, run_loop
+from pipeline.control.settings import ControlSettings, Variant
+from pipeline.control.states import State
+from pipeline.simulation.scenes import PlatformMotion, Tissue
+from pipeline.study.control_rig import SceneName, foundation_of, make_rig
+
+if TYPE_CHECKING:
+    from pipeline.control.trace import Trace
+    from pipeline.simulation.scenes import MovedScene
+
+START_S = 4.0  # by then it tracks: half a second in the air, touch, ramp, one small press
+FORCE_N = 7.0
+VERTICAL, IN_PLANE, OUT_OF_PLANE = "vertical", "in plane", "out of plane"
+# The paper's Eq. 11: 10 mm or 10 degrees.
+MOTIONS = {VERTICAL: ("z", 0.010), IN_PLANE: ("ry", np.radians(10)), OUT_OF_PLANE: ("rx", np.radians(10))}
+PERIODS_S = (10.0, 5.0, 2.0)
+METHODS = ("contactbench", "algorithm1", "wrench_axis", "iterative")
+_MOVING_S = 20.0
+
+
+@dataclass(frozen=True)
+class Cell:
+    """
+    One run.
+
+    Attributes
+    ----------
+    scene : {"platform", "arm"}
+    probe, method : str
+    variant : Variant
+    motion : str
+        A key of `MOTIONS`.
+    period : float
+        Of the motion, s.
+    seed : int
+        Of load, biases, calibration and noise.
+    friction : float
+    quick : bool
+        One period only, with coarser physics.
+    """
+
+    scene: SceneName
+    probe: str
+    method: str
+    variant: Variant
+    motion: str
+    period: float
+    seed: int
+    friction: float = 0.1
+    quick: bool = False
+
+    @property
+    def seconds(self) -> float:
+        """How long the platform moves: whole periods, 20 s or as much as the paper's figures show."""
+        periods = 1 if self.quick else max(round(_MOVING_S / self.period), 2)
+        return periods * self.period
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """
+    What is measured while the platform moves, from its first moment on.
+
+    Attributes
+    ----------
+    cell : Cell
+    followed : float
+        Share of the time in which it tracked.
+    force : (least, mean, largest)
+        True, along the probe's axis, N.
+    angle, other : (mean, SD)
+        Of the absolute angle error in the plane of the motion - for a vertical one in plane - and in the other one,
+        degrees.
+    whole : float
+        Mean whole angle between axis and normal, degrees.
+    first : float
+        Largest force before the platform moves, N.
+    lost : int
+        How often the probe left the phantom after its first touch, until the end.
+    place : float
+        Root mean square distance from sensed to true contact, mm.
+    speed : float
+        Largest share of a joint's speed limit that a set-point asked for.
+    held : float
+        Share of the time in which the arm's limits cut what was wanted.
+    step_ms : (median, 99th percentile)
+        Of the controller, ms.
+    ended : str
+        What happened before the end, if it did not follow.
+    """
+
+    cell: Cell
+    followed: float
+    force: tuple[float, float, float]
+    angle: tuple[float, float]
+    other: tuple[float, float]
+    whole: float
+    first: float
+    lost: int
+    place: float
+    speed: float
+    held: float
+    step_ms: tuple[float, float]
+    ended: str
+
+
+def run_cell(cell: Cell, settings: ControlSettings | None = None) -> tuple[Outcome, Trace]:
+    """
+    Run one.
+
+    Parameters
+    ----------
+    cell : Cell
+    settings : ControlSettings, optional
+        Left out, those for the probe.
+
+    Raises
+    ------
+    InputError
+        Something needed is missing, such as MuJoCo or Embree.
+    """
+    axis, size = MOTIONS[cell.motion]
+    base = settings or ControlSettings.for_probe(foundation_of(cell.probe), desired_force=FORCE_N)
+    rig = make_rig(
+        cell.scene,
+        cell.probe,
+        replace(base, variant=cell.variant),
+        cell.seed,
+        method=cell.method,
+        tissue=Tissue(friction=cell.friction),
+        motion=PlatformMotion.along(axis, size, cell.period, START_S),
+        coarse=cell.quick,
+    )
+    trace = run_loop(rig.scene, rig.controller, rig.sensor, START_S + cell.seconds)
+    return outcome_of(cell, trace, rig.scene), trace
+
+
+def outcome_of(cell: Cell, trace: Trace, scene: MovedScene) -> Outcome:
+    """Sum up a run."""
+    moving = trace.between(START_S)
+    limits = arm_of(scene).velocity_limits
+    period = float(np.median(np.diff(trace.time)))
+    speeds = np.abs(np.diff(trace.joints, axis=0)) / period / limits
+    first = trace.between(0.0, START_S - 1.5 * period)  # the last one may end in the jump in speed
+    touched = np.flatnonzero(trace.force > 1.0)
+    away = trace.force[touched[0] :] < 0.05 if len(touched) else np.zeros(1, dtype=np.bool_)
+    ms = 1e3 * np.percentile(trace.step_s, [50, 99])
+    # A run that ended itself early did not follow for the rest; where its periods begin does not matter.
+    missing = max(round(cell.seconds / period) - len(moving) - 1, 0)
+    followed = float(moving.was(State.TRACK).sum()) / max(len(moving) + missing, 1)
+    if not len(moving):
+        nothing = (float("nan"), float("nan"))
+        moved: dict[str, Any] = {"force": (*nothing, float("nan")), "angle": nothing, "other": nothing}
+        moved |= {"whole": float("nan"), "place": float("nan"), "held": float("nan")}
+    else:
+        moved = _moving(cell, moving)
+    return Outcome(
+        cell=cell,
+        followed=followed,
+        first=float(first.peak.max()),
+        lost=int(np.count_nonzero(np.diff(away.astype(int)) == 1)),
+        speed=float(speeds.max()),
+        step_ms=(float(ms[0]), float(ms[1])),
+        ended="" if followed > 0.999 else " ".join(f"{each.reason}" for each in trace.changes[2:]),
+        **moved,
+    )
+
+
+def _moving(cell: Cell, moving: Trace) -> dict[str, Any]:
+    errors = np.degrees(np.abs(moving.angles))
+    mine = 1 if cell.motion == OUT_OF_PLANE else 0
+    off = moving.offset - moving.place
+    return {
+        "force": (float(moving.force.min()), float(moving.force.mean()), float(moving.force.max())),
+        "angle": (float(errors[:, mine].mean()), float(errors[:, mine].std())),
+        "other": (float(errors[:, 1 - mine].mean()), float(errors[:, 1 - mine].std())),
+        "whole": float(np.degrees(moving.tilt).mean()),
+        "place": float(1e3 * np.sqrt(np.nanmean((off**2).sum(axis=1)))),
+        "held": float((moving.share < 0.999).mean()),
+    }
+
+
+def run_cells(
+    cells: Sequence[Cell],
+    kept: Callable[[Cell], bool],
+    *,
+    workers: int,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    settings: ControlSettings | None = None,
+) -> tuple[list[Outcome], dict[Cell, Trace]]:
+    """
+    Run many, each with its own seed: the results do not depend on how many processes share them.
+
+    Parameters
+    ----------
+    cells : sequence of Cell
+    kept : callable
+        Whose trace is wanted.
+    workers : int
+        Processes; 1: in this one.
+    progress : callable, optional
+        Told how many of how many are done. What it raises ends the work, as Ctrl-C does.
+    settings : ControlSettings, optional
+        As of `run_cell`.
+
+    Returns
+    -------
+    list of Outcome
+        In the order of `cells`.
+    dict of Cell to Trace
+    """
+    outcomes: dict[Cell, Outcome] = {}
+    traces: dict[Cell, Trace] = {}
+
+    def take(outcome: Outcome, trace: Trace | None) -> None:
+        outcomes[outcome.cell] = outcome
+        if trace is not None:
+            traces[outcome.cell] = trace
+        progress(len(outcomes), len(cells))
+
+    if workers == 1:
+        for cell in cells:
+            outcome, trace = run_cell(cell, settings)
+            take(outcome, trace if kept(cell) else None)
+        return [outcomes[cell] for cell in cells], traces
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
+        try:
+            jobs = [pool.submit(_run, cell, kept(cell), settings) for cell in cells]
+            for job in as_completed(jobs):
+                take(*job.result())
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return [outcomes[cell] for cell in cells], traces
+
+
+def _run(cell: Cell, keep: bool, settings: ControlSettings | None) -> tuple[Outcome, Trace | None]:
+    outcome, trace = run_cell(cell, settings)
+    return outcome, trace if keep else None

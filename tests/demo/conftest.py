@@ -1,0 +1,76 @@
+from __future__ import annotations
+
+import shutil
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from pipeline import demo
+from pipeline.demo import bench, gravity, housing, picture
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+TOUCHES = 40
+
+
+def no_picture(*_: Any) -> list[Any]:
+    raise picture.PictureError("it needs PyVista: pip install 'contactbench[gui]'.")
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Most tests are about numbers: rendering would only take their time."""
+    monkeypatch.setattr(picture, "render_bodies", no_picture)
+    monkeypatch.setattr(gravity, "write_report", lambda *_, **__: None)
+
+
+@pytest.fixture(scope="session")
+def meshes(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Path, Any]]:
+    """What preparing makes of each probe: the same every time, and the longest part of a demo."""
+    folders = {name: tmp_path_factory.mktemp(name) for name in demo.PROBE_NAMES}
+    return {name: (folder, housing.prepare_probe(folder, name)) for name, folder in folders.items()}
+
+
+@pytest.fixture(autouse=True, scope="package")
+def prepared(meshes: dict[str, tuple[Path, Any]]) -> Iterator[None]:
+    def copy(folder: Path, name: str) -> Any:
+        source, result = meshes[name]
+        shutil.copytree(source, folder, dirs_exist_ok=True)
+        return result
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bench, "prepare_probe", copy)
+        yield
+
+
+def missing() -> Any:
+    raise InputError("the virtual bench needs MuJoCo: pip install 'contactbench[sim]'")
+
+
+@pytest.fixture(scope="package")
+def done(prepared: None, tmp_path_factory: pytest.TempPathFactory) -> demo.DemoReport:
+    """Every probe, without the physics, which takes most of the time."""
+    del prepared
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(picture, "render_bodies", no_picture)
+        patch.setattr(bench, "physics", missing)
+        return demo.run(tmp_path_factory.mktemp("demo"), touches=TOUCHES, seed=3)
+
+
+@pytest.fixture(scope="package")
+def benched(prepared: None, tmp_path_factory: pytest.TempPathFactory) -> demo.DemoReport:
+    """The convex probe on the virtual bench."""
+    del prepared
+    pytest.importorskip("mujoco", reason="the virtual bench needs MuJoCo (extra sim)")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(picture, "render_bodies", no_picture)
+        return demo.run(tmp_path_factory.mktemp("bench"), ["convex"], TOUCHES, seed=3)
+
+
+@pytest.fixture
+def no_bench(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A test of something else does without physics."""
+    monkeypatch.setattr(bench, "physics", missing)

@@ -1,0 +1,14 @@
+"""The probe that all scenes are tried with."""
+
+import pytest
+
+import assets
+from pipeline.mesh import Probe
+from pipeline.simulation.scenes import Truth
+
+
+@pytest.fixture(scope="package")
+def truth() -> Truth:
+    """The T-shape, finely meshed."""
+    vertices, faces = assets.make("t-shape", 20_000)
+    return Truth(Probe.from_arrays(vertices, faces, name="t-shape"))

@@ -32,6 +32,9 @@ Contact = _module.Contact
 Geodesic = _module.Geodesic
 Iterative = _module.Iterative
 Reason = _module.Reason
+Runtime = _module.Runtime
+RuntimeBatch = _module.RuntimeBatch
+RuntimeContact = _module.RuntimeContact
 Scan = _module.Scan
 Solver = _module.Solver
 SurfaceIndex = _module.SurfaceIndex
@@ -44,6 +47,9 @@ __all__ = [
     "Geodesic",
     "Iterative",
     "Reason",
+    "Runtime",
+    "RuntimeBatch",
+    "RuntimeContact",
     "Scan",
     "Solver",
     "SurfaceIndex",

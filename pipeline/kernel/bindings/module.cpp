@@ -9,4 +9,5 @@ NB_MODULE(CONTACTBENCH_MODULE, m) {
     contactbench::bindings::bind_solvers(m);
     contactbench::bindings::bind_surface(m);
     contactbench::bindings::bind_geodesic(m);
+    contactbench::bindings::bind_runtime(m);
 }

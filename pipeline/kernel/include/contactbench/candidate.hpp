@@ -36,6 +36,12 @@ public:
             more_.push_back(c);
         ++count_;
     }
+    // Nothing allocates until more than `n` candidates answer, now and after every `clear`.
+    void reserve(std::size_t n) { more_.reserve(n > inline_count ? n - inline_count : 0); }
+    void clear() {
+        count_ = 0;
+        more_.clear();
+    }
     std::size_t size() const { return count_; }
     Candidate& operator[](std::size_t i) { return i < inline_count ? first_[i] : more_[i - inline_count]; }
     const Candidate& operator[](std::size_t i) const {

@@ -42,10 +42,17 @@ public:
     // `age`: seconds since the sample was taken.
     Answer track(const Wrench& w, double age = 0.0) {
         Answer a;
-        if (age <= gates_.max_age)
-            a = follow(w);
-        else
-            a.reason = Reason::stale;
+        track(w, age, a);
+        return a;
+    }
+
+    // The same into `a`, whatever it held: a controller keeps one whose hits have room for every facet and
+    // vertex and one rival, and then no sample allocates.
+    void track(const Wrench& w, double age, Answer& a) {
+        a.hits.clear();
+        a.chosen = -1;
+        a.reason = Reason::stale;
+        if (age <= gates_.max_age) follow(w, a);
         if (accepted(a.reason)) {
             last_ = a.hits[std::size_t(a.chosen)].point;
             touched_ = true;
@@ -53,7 +60,6 @@ public:
         } else if (touched_ && misses_ < std::numeric_limits<std::int64_t>::max()) {
             ++misses_;
         }
-        return a;
     }
 
     // The contact that `track` will follow next, or null.
@@ -69,20 +75,26 @@ private:
     template <class Search>
     Answer answer(const Wrench& w, const Vec3* previous, Search&& search) const {
         Answer a;
+        answer(w, previous, search, a);
+        return a;
+    }
+
+    // `a` comes without candidates.
+    template <class Search>
+    void answer(const Wrench& w, const Vec3* previous, Search&& search, Answer& a) const {
         a.reason = gate(w, gates_);
-        if (a.reason != Reason::ok) return a;
+        if (a.reason != Reason::ok) return;
         const Query q = make_query(model_->frame, w);
         search(q, gates_.cos_friction, a.hits);
         choose(a, gates_, w.F, previous);
         if (a.hits.size() == 0) look_past_the_cone(q, search, a);
         if (accepted(a.reason) && !model_->convex) look_for_rival(q, previous, a);
-        return a;
     }
 
-    Answer follow(const Wrench& w) {
+    void follow(const Wrench& w, Answer& a) {
         bool covered = false;
         Query query;
-        Answer a = answer(w, previous(), [&](const Query& q, double cap, Hits& hits) {
+        const auto find = [&](const Query& q, double cap, Hits& hits) {
             query = q;
             // The cut was made for the friction cone; past it only a search from the root will do.
             covered = cap == gates_.cos_friction && tracker_.covers(q);
@@ -90,7 +102,8 @@ private:
                 search_from(tracker_.cut(), *model_, q, cap, hits);
             else
                 search(*model_, q, cap, hits);
-        });
+        };
+        answer(w, previous(), find, a);
         if (covered) {
             tracker_.served();
         } else if (a.chosen >= 0) {
@@ -99,7 +112,6 @@ private:
             const double shift = std::hypot(torque_noise_ / query.force, turn * norm(c.point)) / model_->frame.scale;
             tracker_.follow(*model_, query, gates_.cos_friction, c, turn, shift);
         }
-        return a;
     }
 
     // Nothing inside the friction cone: say whether the axis grazes the probe or misses it. On a closed mesh

@@ -1,0 +1,383 @@
+"""
+What an export takes from files of the bench and from a session.
+
+A session is known here by what it offers, not by its class: sessions are a layer above.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from pipeline.calibration.files.calibration_file import load_record
+from pipeline.config.runtime.build import Filters, RobotNames, build_config
+from pipeline.config.runtime.errors import ConfigError
+from pipeline.config.runtime.model import LimitsPart, SensorPart, SourcePart
+from pipeline.config.runtime.mounts import (
+    UNTURNED,
+    Mounts,
+    mount_of,
+    mount_of_angles,
+    mount_reasons,
+)
+from pipeline.config.runtime.verified import rate_reasons, read_verification
+from pipeline.contact.gates import Gates
+from pipeline.contact.noise import WrenchNoise
+from pipeline.filtering import KalmanFilter, LowPass
+from pipeline.mesh.sidecar import load_probe_file
+
+if TYPE_CHECKING:
+    from pipeline.calibration import Calibration
+    from pipeline.calibration.files.calibration_file import CalibrationRecord
+    from pipeline.config.runtime.config import RuntimeConfig
+    from pipeline.config.runtime.model import ControllerPart
+    from pipeline.mesh.sidecar import ProbeFile
+
+_LARGEST_FILE = 512 * 2**20
+
+
+@dataclass(frozen=True)
+class ExportSettings:
+    """
+    What an export needs that neither a calibration nor a probe knows.
+
+    Attributes
+    ----------
+    sensor : str
+        Its model.
+    serial : str or None
+        None: the one that the session knows.
+    rate : float or None
+        Readings a second, Hz; None: that of the verified recording, if the verification says it.
+    noise : WrenchNoise or None
+        Of one reading; None: the scatter within the poses of the calibration, or else `WrenchNoise`'s own.
+    filters : Filters or None
+        None: as `smoothed` and `cutoff` say, at the rate that is found.
+    smoothed : bool
+        Whether the wrench goes through the Kalman filter with its own settings.
+    cutoff : float or None
+        Low-pass of the contact point, Hz; None: none.
+    gates : Gates
+    limits : LimitsPart
+    controller : ControllerPart or None
+    operator : str or None
+        None: who made the newest of what the session gives.
+    names : RobotNames
+    mount : (4,) tuple or None
+        quaternion_ES, w, x, y, z; None: the one that the calibration was made with, if there is one.
+    """
+
+    sensor: str = "unknown"
+    serial: str | None = None
+    rate: float | None = None
+    noise: WrenchNoise | None = None
+    filters: Filters | None = None
+    smoothed: bool = True
+    cutoff: float | None = None
+    gates: Gates = field(default_factory=Gates)
+    limits: LimitsPart = field(
+        default_factory=lambda: LimitsPart(
+            max_force_N=30.0, max_torque_Nm=3.0, max_speed_mps=None, max_turn_radps=None
+        )
+    )
+    controller: ControllerPart | None = None
+    operator: str | None = None
+    names: RobotNames = field(default_factory=RobotNames)
+    mount: tuple[float, float, float, float] | None = None
+
+
+def export_from_files(
+    calibration: Path,
+    probe: Path,
+    verification: Path | None,
+    report: Path | None,
+    settings: ExportSettings,
+    *,
+    created: datetime,
+    unverified: bool = False,
+) -> RuntimeConfig:
+    """
+    Build a config of files.
+
+    Parameters
+    ----------
+    calibration, probe : path
+        JSON, and PLY with its JSON beside it.
+    verification, report : path, optional
+        JSON of ``contactbench verify``, and the HTML report.
+    settings : ExportSettings
+    created : datetime
+    unverified : bool
+        See `build_config`.
+
+    Raises
+    ------
+    UnverifiedError, InputError
+        As `build_config`, or a file cannot be used.
+    """
+    used = [("calibration", calibration), ("probe", probe), ("verification", verification)]
+    return _built(
+        load_record(calibration),
+        load_probe_file(probe),
+        None if verification is None else _read(verification),
+        None if report is None else _read(report),
+        settings,
+        session=None,
+        created=created,
+        sources=[_source(role, file.name, _read(file)) for role, file in used if file is not None],
+        stale=[],
+        mounts=Mounts(),
+        unverified=unverified,
+    )
+
+
+def _built(
+    record: CalibrationRecord,
+    probe_file: ProbeFile,
+    verification: bytes | None,
+    report: bytes | None,
+    settings: ExportSettings,
+    *,
+    session: str | None,
+    created: datetime,
+    sources: list[SourcePart],
+    stale: list[str],
+    mounts: Mounts,
+    unverified: bool,
+) -> RuntimeConfig:
+    checked, rate = None, settings.rate
+    mount = settings.mount or mount_of(record) or mounts.calibrated
+    if verification is not None:
+        checked, verified = read_verification(verification, "verification")
+        mounts = replace(mounts, verified=verified.mount or mounts.verified)
+        stale = [*stale, *_others(verified.sources, sources)]
+        rate = rate or verified.rate
+        stale += rate_reasons(verified.rate, rate, settings.filters)
+    if rate is None:
+        raise ConfigError("the readings a second are unknown: give them with --rate, as the sensor is set.")
+    stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)
+    return build_config(
+        record.calibration,
+        probe_file,
+        sensor=SensorPart(model=settings.sensor, serial=settings.serial or "unknown", rate_Hz=rate),
+        noise=settings.noise or reading_noise(record.calibration),
+        filters=settings.filters or _filters(settings, rate),
+        gates=settings.gates,
+        mount=mount,
+        limits=settings.limits,
+        controller=settings.controller,
+        verification=checked,
+        report=report,
+        operator=settings.operator or "unknown",
+        session=session,
+        created=created,
+        sources=sources,
+        stale=tuple(stale),
+        names=settings.names,
+        unverified=unverified,
+    )
+
+
+def _filters(settings: ExportSettings, rate: float) -> Filters:
+    return Filters(
+        KalmanFilter(rate) if settings.smoothed else None,
+        None if settings.cutoff is None else LowPass(settings.cutoff, rate),
+    )
+
+
+def _others(verified: dict[str, str], sources: list[SourcePart]) -> list[str]:
+    """Say which files are not those that were verified, or not known to be."""
+    hashes = {source.sha256 for source in sources}
+    said = []
+    for role in ("calibration", "probe"):
+        if role not in verified:
+            said.append(f"The verification does not say with which {role} it was made: verify again.")
+        elif verified[role] not in hashes:
+            said.append(f"The verification was made with another {role}: verify again.")
+    return said
+
+
+def _read(file: Path) -> bytes:
+    try:
+        with file.open("rb") as stream:
+            data = stream.read(_LARGEST_FILE + 1)
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"{file}: the file cannot be read ({error}): check the path.") from error
+    if len(data) > _LARGEST_FILE:
+        raise ConfigError(f"{file}: the file is larger than {_LARGEST_FILE >> 20} MiB: choose another.")
+    return data
+
+
+def _source(role: str, name: str, data: bytes) -> SourcePart:
+    return SourcePart(role=role, name=name, sha256=hashlib.sha256(data).hexdigest())
+
+
+def reading_noise(calibration: Calibration) -> WrenchNoise:
+    """Return the scatter of single readings within the poses, root mean square; `WrenchNoise`'s own if unknown."""
+    force = [pose.force_sd for pose in calibration.poses if pose.force_sd is not None]
+    torque = [pose.torque_sd for pose in calibration.poses if pose.torque_sd is not None]
+    if not force or not torque:
+        return WrenchNoise()
+    sigmas = [np.sqrt(np.mean(np.square(each), axis=0)) for each in (force, torque)]
+    return WrenchNoise(*sigmas) if all((each > 0).all() for each in sigmas) else WrenchNoise()
+
+
+# ---- a session ---------------------------------------------------------------------------------
+
+
+class SessionLike(Protocol):
+    """What an export needs of a session."""
+
+    folder: Path
+
+    @property
+    def state(self) -> Any:
+        """Its current inputs and results."""
+
+    @property
+    def records(self) -> tuple[Any, ...]:
+        """Everything that happened."""
+
+    def stale(self) -> dict[tuple[str, str], tuple[str, ...]]:
+        """Say of each current result why it is stale."""
+
+
+def export_from_session(
+    session: SessionLike,
+    settings: ExportSettings,
+    *,
+    created: datetime | None = None,
+    unverified: bool = False,
+) -> RuntimeConfig:
+    """
+    Build a config of a session's newest calibration and probe, and their verification if there is one.
+
+    Parameters
+    ----------
+    session : Session
+    settings : ExportSettings
+    created : datetime, optional
+        Left out: when the newest of what goes into it was made, so that the same session gives the same bytes.
+    unverified : bool
+        See `build_config`.
+
+    Raises
+    ------
+    UnverifiedError
+        Something is stale or rejected, was verified with another calibration or probe, or is reported of another
+        verification; or as in `build_config`.
+    ConfigError, InputError
+        There is no calibration or no probe, or a value is out of its range.
+    """
+    calibration = _newest(session, "calibration", needed=True)
+    probe = _newest(session, "probe", needed=True)
+    verification = _newest(session, "verification")
+    report = _newest(session, "report")
+    used = [each for each in (calibration, probe, verification) if each is not None]
+    stale = [reason for each in used for reason in _doubts(session, each)]
+    stale += _strangers(verification, (calibration, probe))
+    if report is not None:
+        stale += _doubts(session, report)
+        if verification is not None and not set(report.action.inputs.values()) & verification.known_as:
+            stale.append(f"{report.title} is about another verification: make the report anew.")
+    folder = session.folder
+    serials = {each.sensor for each in session.state.current_inputs.values() if each.sensor}
+    serial = settings.serial or (serials.pop() if len(serials) == 1 else None)
+    newest = max((*used, report) if report is not None else used, key=lambda each: each.number)
+    operator = settings.operator or session.records[newest.number - 1].entry.by
+    return _built(
+        load_record(folder / calibration.file.path),
+        _probe_of(folder, probe),
+        None if verification is None else _read(folder / verification.file.path),
+        None if report is None else _read(folder / report.file.path),
+        replace(settings, serial=serial, operator=operator),
+        session=session.state.id,
+        created=datetime.fromisoformat(newest.at) if created is None else created,
+        sources=[
+            SourcePart(role=each.action.kind, name=name, sha256=file.sha256)
+            for each in used
+            # As the journal has them, not as they were added.
+            for name, file in sorted(each.action.files.items())
+        ],
+        stale=stale,
+        mounts=_mounts(session, calibration, verification),
+        unverified=unverified,
+    )
+
+
+def _mounts(session: SessionLike, calibration: Any, verification: Any) -> Mounts:
+    """Say with which mountings a session's results were made, as far as its parameters tell."""
+    used = set(calibration.action.inputs.values())
+    made = [
+        each.action
+        for each in session.state.current_results.values()
+        if each.action.kind == "captures" and used & each.known_as
+    ]
+    found = [mount_of_angles(each.parameters.get("mount")) for each in (calibration.action, *made)]
+    # Poses that were turned when they were found are not turned again.
+    known = next((mount for mount in found if mount is not None), None)
+    if verification is None or not verification.action.parameters:  # made elsewhere
+        return Mounts(known)
+    return Mounts(known, mount_of_angles(verification.action.parameters.get("mount")) or UNTURNED)
+
+
+def _newest(session: SessionLike, kind: str, *, needed: bool = False) -> Any:
+    found = [each for each in session.state.current_results.values() if each.action.kind == kind]
+    # A probe or a calibration may have been made elsewhere and brought in as it is.
+    found += [_brought(each) for each in session.state.current_inputs.values() if each.kind == kind]
+    if needed and not found:
+        raise ConfigError(
+            f"{session.folder}: there is no {kind}: add one, make one with `contactbench session compute`, or name the"
+            " files."
+        )
+    return max(found, key=lambda each: each.number, default=None)
+
+
+def _brought(given: Any) -> Any:
+    """Return an input of a session in the shape of a result: nothing of it was computed here, so nothing is stale."""
+    files = {given.name: given.file, **given.companions}
+    return SimpleNamespace(
+        action=SimpleNamespace(kind=given.kind, name=given.name, files=files, inputs={}, parameters={}),
+        title=f"{given.kind} {given.name}",
+        number=given.number,
+        at=given.at,
+        file=given.file,
+        known_as={given.file.sha256, given.content},
+        mark=None,
+        slot=None,
+    )
+
+
+def _probe_of(folder: Path, result: Any) -> ProbeFile:
+    """Read a probe with its JSON file: in a session, files are not kept under their names."""
+    with tempfile.TemporaryDirectory() as scratch:
+        for name, file in result.action.files.items():
+            (Path(scratch) / name).write_bytes(_read(folder / file.path))
+        mesh = next((name for name in result.action.files if name.endswith(".ply")), result.action.name)
+        return load_probe_file(Path(scratch) / mesh)
+
+
+def _doubts(session: SessionLike, result: Any) -> list[str]:
+    reasons = [f"{result.title}: {reason}"[:1000] for reason in session.stale().get(result.slot, ())]
+    if result.mark is not None and result.mark.mark == "rejected":
+        reasons.append(f"{result.title} was rejected. {result.mark.reason}"[:1000])
+    return reasons
+
+
+def _strangers(verification: Any, rested_on: tuple[Any, ...]) -> list[str]:
+    """Say which of calibration and probe a verification was not made with."""
+    if verification is None:
+        return []
+    used = set(verification.action.inputs.values())
+    return [
+        f"{verification.title} was made with another {each.action.kind} than {each.action.name}: verify again."
+        for each in rested_on
+        if not used & each.known_as
+    ]

@@ -1,0 +1,300 @@
+"""A runtime config from what the bench knows."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from datetime import UTC
+from math import isinf, radians
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from pipeline import __version__
+from pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from pipeline.config.runtime.canonical import fault_of
+from pipeline.config.runtime.check import check_config
+from pipeline.config.runtime.config import RuntimeConfig
+from pipeline.config.runtime.errors import ConfigError, UnverifiedError
+from pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel, SensorPart
+from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
+from pipeline.config.runtime.planes import encode_planes
+from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
+from pipeline.config.vertical import vertical_residual
+from pipeline.mesh.save import encode_probe
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from datetime import datetime
+
+    from numpy.typing import ArrayLike
+
+    from pipeline.calibration import Calibration, GravityModel
+    from pipeline.config.runtime.model import ControllerPart, LimitsPart, SourcePart, VerificationPart
+    from pipeline.contact.gates import Gates
+    from pipeline.contact.noise import WrenchNoise
+    from pipeline.filtering import KalmanFilter, LowPass
+    from pipeline.mesh.sidecar import ProbeFile
+
+_MOST_ORDER = 8
+_UNITS = {"force": "N", "torque": "N*m", "length": "m", "time": "s", "angle": "rad"}
+_FRAMES = {
+    "sensor": "S",
+    "world": "W, z up",
+    "rotation": "R_WS: v_W = R_WS v_S",
+    "wrench": "what the tissue does to the probe, about the origin of S",
+}
+
+
+@dataclass(frozen=True)
+class RobotNames:
+    """What a robot description calls the frames S and W; for the files of other programs."""
+
+    sensor: str = "ft_sensor"
+    world: str = "base_link"
+
+
+@dataclass(frozen=True)
+class Filters:
+    """Of the compensated wrench, and of the contact point; None for none."""
+
+    wrench: KalmanFilter | None
+    location: LowPass | None = None
+
+
+def build_config(
+    calibration: Calibration,
+    probe_file: ProbeFile,
+    *,
+    sensor: SensorPart,
+    noise: WrenchNoise,
+    filters: Filters,
+    gates: Gates,
+    mount: ArrayLike | None,
+    limits: LimitsPart,
+    controller: ControllerPart | None,
+    verification: VerificationPart | None,
+    report: bytes | None,
+    operator: str,
+    session: str | None,
+    created: datetime,
+    sources: Sequence[SourcePart],
+    stale: Sequence[str] = (),
+    names: RobotNames | None = None,
+    unverified: bool = False,
+) -> RuntimeConfig:
+    """
+    Put together a runtime config.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    probe_file : ProbeFile
+        In S.
+    sensor : SensorPart
+    noise : WrenchNoise
+        Of one reading, without the calibration's share (`extra`), which is added here.
+    filters : Filters
+    gates : Gates
+    mount : (4,) array_like, optional
+        Quaternion (w, x, y, z) that turns S into the flange E; None: the controller is given R_WS itself.
+    limits : LimitsPart
+    controller : ControllerPart, optional
+    verification : VerificationPart, optional
+    report : bytes, optional
+        The verification report, HTML.
+    operator : str
+    session : str, optional
+        Its identity.
+    created : datetime
+        With a time zone.
+    sources : sequence of SourcePart
+    stale : sequence of str
+        Why what this rests on no longer holds, in sentences.
+    names : RobotNames, optional
+    unverified : bool
+        Make it even if nobody has shown that it is right: ``verified`` is then false, the reasons are in
+        ``provenance.stale``.
+
+    Raises
+    ------
+    UnverifiedError
+        There are such reasons, and `unverified` is False.
+    ConfigError, InputError
+        A value is out of its range.
+    """
+    reasons = (*stale, *reasons_against(calibration, probe_file, verification))
+    if reasons and not unverified:
+        raise UnverifiedError(reasons)
+    if created.tzinfo is None:
+        raise ConfigError("created: the time has no zone: use datetime.now(UTC).")
+    files = _files(calibration.model, probe_file, names or RobotNames(), report)
+    content = {
+        "schema": SCHEMA,
+        "version": VERSION,
+        "sensor": sensor,
+        "frames": {**_FRAMES, "quaternion_ES": None if mount is None else _floats(mount)},
+        "units": _UNITS,
+        "gravity": _gravity(calibration.model),
+        "noise": _noise(noise, filters.wrench, calibration.model),
+        "filters": {"wrench": _kalman(filters.wrench), "location": _low_pass(filters.location)},
+        "gates": gates_content(gates),
+        "controller": controller,
+        "limits": limits,
+        "verification": verification,
+        "verified": not reasons,
+        **_surface(probe_file),
+        "provenance": {
+            "created": created.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+            "tool": f"contactbench {__version__}",
+            "operator": operator,
+            "session": session,
+            "files": hashes_of(files),
+            "sources": list(sources),
+            "stale": list(reasons),
+        },
+    }
+    try:
+        model = RuntimeModel.model_validate(content)
+    except ValidationError as error:
+        raise ConfigError(f"the config cannot be made: {fault_of(error)}.") from None
+    probe = probe_file.probe.with_region(probe_file.regions.labels)
+    check_config(model, probe, files, "the config cannot be made")
+    return RuntimeConfig(model, probe, MappingProxyType(files))
+
+
+def reasons_against(
+    calibration: Calibration, probe_file: ProbeFile, verification: VerificationPart | None
+) -> tuple[str, ...]:
+    """Say why a config of these would not be verified; empty if it would."""
+    reasons = []
+    if calibration.verdict.level == "refuse":
+        reasons.append(f"The calibration is refused: {calibration.verdict.reasons[0]}"[:1000])
+    if probe_file.frame != "S":
+        reasons.append("The probe is not aligned with the sensor (its frame is P): align it.")
+    health = probe_file.probe.health
+    if not (health.watertight and health.outward):
+        reasons.append("The surface of the probe is open or inside out: prepare it.")
+    if verification is None:
+        reasons.append("Nobody has verified contacts on markers.")
+    elif not verification.passed:
+        reasons.append(f"The verification failed: {verification.diagnosis}"[:1000])
+    return tuple(reasons)
+
+
+# ---- parts -------------------------------------------------------------------------------------
+
+
+def _files(
+    gravity: GravityModel, probe_file: ProbeFile, names: RobotNames, report: bytes | None
+) -> dict[str, bytes]:
+    probe = probe_file.probe.with_region(probe_file.regions.labels)
+    colours = [region.colour for region in probe_file.regions.regions]
+    files = {
+        PROBE: encode_probe(probe, colours),
+        PLANES: encode_planes(probe),
+        ROS2: ros2_yaml(gravity, sensor_frame=names.sensor, world_frame=names.world).encode("ascii"),
+    }
+    if vertical_residual(gravity).weight > 0:  # force_torque_tools takes no mass of zero
+        files[FT_CALIB] = ft_calib_yaml(gravity, com_frame=names.sensor).encode("ascii")
+    if report is not None:
+        files[REPORT] = report
+    return dict(sorted(files.items()))
+
+
+def _surface(probe_file: ProbeFile) -> dict[str, Any]:
+    probe, regions = probe_file.probe, probe_file.regions
+    return {
+        "probe": {
+            "file": PROBE,
+            "name": probe.name,
+            "facets": len(probe.faces),
+            "vertices": len(probe.vertices),
+            "bounds_S_m": probe.bounds.tolist(),
+        },
+        "regions": [
+            {
+                "rank": rank,
+                "name": region.name,
+                "colour": region.colour,
+                "facets": len(regions.faces_of(rank)),
+            }
+            for rank, region in enumerate(regions.regions, 1)
+        ],
+        "planes": {"file": PLANES, "count": len(probe.faces)},
+    }
+
+
+def _gravity(model: GravityModel) -> dict[str, Any]:
+    return {
+        "gravity_W_N": model.gravity_W.tolist(),
+        "force_bias_N": model.force_bias.tolist(),
+        "centre_of_mass_S_m": model.centre_of_mass_S.tolist(),
+        "torque_bias_Nm": model.torque_bias.tolist(),
+        "covariance": model.covariance.tolist(),
+    }
+
+
+def _noise(noise: WrenchNoise, wrench_filter: KalmanFilter | None, gravity: GravityModel) -> dict[str, Any]:
+    if noise.extra is not None:
+        raise ConfigError("noise.extra: the calibration's share is added by itself: leave it out.")
+    force, torque = _floats(np.broadcast_to(noise.force, 3)), _floats(np.broadcast_to(noise.torque, 3))
+    covariance = wrench_covariance(force, torque, wrench_filter, gravity)
+    return {"force_N": force, "torque_Nm": torque, "wrench_covariance": covariance.tolist()}
+
+
+def _kalman(wrench_filter: KalmanFilter | None) -> dict[str, Any] | None:
+    if wrench_filter is None:
+        return None
+    return {
+        "kind": "kalman",
+        "rate_Hz": wrench_filter.rate,
+        "q": wrench_filter.q,
+        "r": wrench_filter.r,
+        "tuned_rate_Hz": wrench_filter.tuned_rate,
+        "per_sample": wrench_filter.per_sample,
+    }
+
+
+def _low_pass(location: LowPass | None) -> dict[str, Any] | None:
+    if location is None:
+        return None
+    if location.order > _MOST_ORDER:
+        raise ConfigError(
+            f"filters.location.order is {location.order}: a runtime takes at most {_MOST_ORDER}."
+        )
+    return {
+        "kind": "lowpass",
+        "rate_Hz": location.rate,
+        "cutoff_Hz": location.cutoff,
+        "order": location.order,
+        "sections": low_pass_sections(location.cutoff, location.rate, location.order).tolist(),
+    }
+
+
+def gates_content(gates: Gates) -> dict[str, Any]:
+    """Return gates as a config holds them."""
+    return {
+        "min_force_N": float(gates.min_force),
+        "friction_angle_rad": radians(gates.friction_angle),
+        "ambiguity_distance_m": float(gates.ambiguity_distance),
+        "torque_ratio": float(gates.torque_ratio),
+        "rival_sigmas": float(gates.rival_sigmas),
+        "follow_distance_m": float(gates.follow_distance),
+        "recent_samples": gates.recent_samples,
+        "max_age_s": float(gates.max_age),
+        "saturation": [None if isinf(limit) else float(limit) for limit in gates.saturation],
+        "region_only": gates.region_only,
+    }
+
+
+def _floats(values: ArrayLike) -> list[float]:
+    listed: list[float] = np.asarray(values, dtype=np.float64).tolist()
+    return listed
+
+
+def hashes_of(files: Mapping[str, bytes]) -> dict[str, str]:
+    """Return the SHA-256 of files."""
+    return {name: hashlib.sha256(data).hexdigest() for name, data in files.items()}

@@ -1,0 +1,266 @@
+"""Whether a config can be true: what a schema cannot tell, and physics can."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.config.runtime.errors import ConfigError
+from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
+from pipeline.config.runtime.planes import check_planes
+from pipeline.config.runtime.values import (
+    gates_of,
+    gravity_of,
+    kalman_of,
+    low_pass_sections,
+    wrench_covariance,
+)
+from pipeline.config.vertical import vertical_residual
+from pipeline.errors import InputError
+from pipeline.mesh.load import MeshFile, settle
+from pipeline.mesh.ply import read_ply
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from pipeline.config.runtime.model import LowPassPart, RuntimeModel
+    from pipeline.mesh import Probe
+
+_AGAIN = "Export the config again."
+_HEAVIEST_N, _LIGHTEST_KG, _HEAVIEST_KG = 1_000.0, 0.02, 50.0
+_FARTHEST_M = 2.0
+_LARGEST_BIAS_N, _LARGEST_BIAS_NM = 2_000.0, 200.0
+_LARGEST_NOISE_N, _LARGEST_NOISE_NM = 100.0, 10.0
+_SURE = 3.0  # sigma: what is lighter than this many weighs nothing that anybody could tell
+_UP = 2.0  # sigma, as in vertical_residual: less may be noise
+_SLOWEST = 1e-6  # of the rate: a filter that is slower has no sections that doubles can hold
+_UNIT, _SECTIONS, _ROUNDING = 1e-9, 1e-12, 1e-9
+_NUMBER = re.compile(r"^        [xyz]: (\S+)$", re.MULTILINE)
+_WEIGHT = re.compile(r"^        force: (\S+)$", re.MULTILINE)
+_LIST = re.compile(r"^ *(\w+): \[(.*)\]$", re.MULTILINE)
+
+
+def decode_mesh(data: bytes, model: RuntimeModel, name: str) -> Probe:
+    """
+    Return the probe, after checking that it is the one that the config describes.
+
+    Raises
+    ------
+    ConfigError
+        It is no mesh as contactbench writes it, or its counts, bounds or regions are not those of the config.
+    """
+    try:
+        raw = read_ply(data)
+        probe = settle(MeshFile(raw, None, "m"), None, model.probe.name)
+    except (InputError, OverflowError, MemoryError) as error:
+        raise ConfigError(f"{name}: {error} {_AGAIN}") from error
+    if not raw.settled:
+        raise ConfigError(f"{name}: the mesh was not written by contactbench. {_AGAIN}")
+    part = model.probe
+    found = {
+        "facets": (part.facets, len(probe.faces)),
+        "vertices": (part.vertices, len(probe.vertices)),
+        "bounds_S_m": (part.bounds_S_m, probe.bounds.tolist()),
+    }
+    for field, (told, true) in found.items():
+        if told != true:
+            raise ConfigError(f"{name}: probe.{field} is {told}, but the mesh has {true}. {_AGAIN}")
+    _check_regions(model, probe, name)
+    return probe
+
+
+def check_config(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes], name: str) -> None:
+    """
+    Refuse a config that cannot be true, or files that do not agree with it.
+
+    Raises
+    ------
+    ConfigError
+        Names the field, its value and the remedy.
+    """
+    try:
+        _check_frames(model)
+        _check_gravity(model)
+        _check_noise(model)
+        _check_filters(model)
+        _check_files(model, probe, files)
+        _check_verified(model, probe)
+    except ConfigError as error:
+        raise ConfigError(f"{name}: {error}") from None
+
+
+def _refuse(field: str, why: str) -> None:
+    raise ConfigError(f"{field} {why} {_AGAIN}")
+
+
+# ---- parts -------------------------------------------------------------------------------------
+
+
+def _check_regions(model: RuntimeModel, probe: Probe, name: str) -> None:
+    ranks = [region.rank for region in model.regions]
+    if ranks != list(range(1, len(ranks) + 1)):
+        raise ConfigError(f"{name}: regions have the ranks {ranks[:20]}, not 1, 2, and so on. {_AGAIN}")
+    if int(probe.region.max()) > len(ranks):
+        raise ConfigError(
+            f"{name}: a facet has the region {probe.region.max()}, but regions lists {len(ranks)}. {_AGAIN}"
+        )
+    counts = np.bincount(probe.region, minlength=len(ranks) + 1)
+    for region in model.regions:
+        if region.facets != counts[region.rank]:
+            raise ConfigError(
+                f"{name}: regions.{region.rank - 1}.facets is {region.facets}, but the mesh has"
+                f" {counts[region.rank]} of that region. {_AGAIN}"
+            )
+    names = [region.name for region in model.regions]
+    if len(set(names)) < len(names):
+        raise ConfigError(f"{name}: two regions have the same name. {_AGAIN}")
+
+
+def _check_frames(model: RuntimeModel) -> None:
+    quaternion = model.frames.quaternion_ES
+    if quaternion is not None and abs(float(np.linalg.norm(quaternion)) - 1) > _UNIT:
+        _refuse("frames.quaternion_ES", f"has the length {np.linalg.norm(quaternion):.9g}, not 1.")
+
+
+def _check_gravity(model: RuntimeModel) -> None:
+    gravity, part = gravity_of(model), model.gravity
+    _check_covariance("gravity.covariance", gravity.covariance)
+    weight = float(np.linalg.norm(gravity.gravity_W))
+    mass = gravity.mass
+    if weight > _HEAVIEST_N or mass > _HEAVIEST_KG:
+        _refuse("gravity.gravity_W_N", f"is {mass:.4g} kg, more than {_HEAVIEST_KG:g}: were they grams?")
+    if mass < _LIGHTEST_KG and mass > _SURE * gravity.mass_sigma:
+        _refuse("gravity.gravity_W_N", f"is {mass:.4g} kg, less than {_LIGHTEST_KG:g}: were they kN?")
+    if gravity.gravity_W[2] > _UP * float(np.sqrt(max(gravity.covariance[2, 2], 0.0))):
+        _refuse("gravity.gravity_W_N", f"points up ({gravity.gravity_W[2]:.4g} N along z of W).")
+    for field, values, most, unit in (
+        ("force_bias_N", part.force_bias_N, _LARGEST_BIAS_N, "N"),
+        ("torque_bias_Nm", part.torque_bias_Nm, _LARGEST_BIAS_NM, "N*m: were they N*mm?"),
+        ("centre_of_mass_S_m", part.centre_of_mass_S_m, _FARTHEST_M, "m: were they mm?"),
+    ):
+        size = float(np.linalg.norm(values))
+        if size > most:
+            _refuse(f"gravity.{field}", f"is {size:.4g}, more than {most:g} {unit}")
+
+
+def _check_noise(model: RuntimeModel) -> None:
+    part = model.noise
+    for field, sigmas, most in (
+        ("force_N", part.force_N, _LARGEST_NOISE_N),
+        ("torque_Nm", part.torque_Nm, _LARGEST_NOISE_NM),
+    ):
+        if not 0 < min(sigmas) <= max(sigmas) <= most:
+            _refuse(
+                f"noise.{field}",
+                f"is {sigmas}: no sensor has less than 0 or more than {most:g}, nor 0 itself.",
+            )
+    wrench_filter = None if model.filters.wrench is None else kalman_of(model.filters.wrench)
+    told = np.array(part.wrench_covariance)
+    _check_covariance("noise.wrench_covariance", told)
+    true = wrench_covariance(part.force_N, part.torque_Nm, wrench_filter, gravity_of(model))
+    deviations = np.sqrt(np.diag(true))
+    # Not any larger, rather than some: NaN is refused too.
+    if not (np.abs(told - true) <= _ROUNDING * np.outer(deviations, deviations)).all():
+        _refuse(
+            "noise.wrench_covariance",
+            "is not what the noise of a reading, the filter and gravity.covariance make together.",
+        )
+
+
+def _check_covariance(field: str, C: NDArray[np.float64]) -> None:
+    deviations = np.sqrt(np.maximum(np.diag(C), 0.0))
+    scale = np.outer(deviations, deviations)
+    if (np.diag(C) < 0).any() or (np.abs(C - C.T) > _ROUNDING * scale).any():
+        _refuse(field, "is not symmetric, or has a variance below 0.")
+    known = deviations > 0
+    if C[~known].any():
+        _refuse(field, "has a covariance where the variance is 0.")
+    # As correlations: the units of the rows differ by orders of magnitude.
+    with np.errstate(all="ignore"):  # what overflows is refused
+        R = C[np.ix_(known, known)] / deviations[known, None] / deviations[known]
+    if not (np.abs(R) <= 1 + _ROUNDING).all():
+        _refuse(field, "has a correlation beyond 1.")
+    if known.any() and float(np.linalg.eigvalsh(0.5 * (R + R.T))[0]) < -_ROUNDING:
+        _refuse(field, "has a negative eigenvalue.")
+
+
+def _check_filters(model: RuntimeModel) -> None:
+    try:
+        gates_of(model.gates)
+    except InputError as error:
+        raise ConfigError(f"gates: {error}. {_AGAIN}") from None
+    if model.filters.location is not None:
+        _check_low_pass(model.filters.location)
+
+
+def _check_low_pass(part: LowPassPart) -> None:
+    if not part.cutoff_Hz < part.rate_Hz / 2:
+        _refuse(
+            "filters.location.cutoff_Hz", f"is {part.cutoff_Hz:g}, not below half of {part.rate_Hz:g} Hz."
+        )
+    if part.cutoff_Hz < _SLOWEST * part.rate_Hz:
+        _refuse("filters.location.cutoff_Hz", f"is {part.cutoff_Hz:g}, too slow for {part.rate_Hz:g} Hz.")
+    true = low_pass_sections(part.cutoff_Hz, part.rate_Hz, part.order)
+    told = np.array(part.sections)
+    if told.shape != true.shape or not (np.abs(told - true) <= _SECTIONS).all():
+        _refuse("filters.location.sections", "are not those of cutoff_Hz, order and rate_Hz.")
+
+
+def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes]) -> None:
+    for field, told, name in (
+        ("probe.file", model.probe.file, PROBE),
+        ("planes.file", model.planes.file, PLANES),
+    ):
+        if told != name:
+            _refuse(field, f"is {told!r}, not {name!r}.")
+    count = check_planes(files[PLANES], probe, PLANES)
+    if model.planes.count != count:
+        _refuse("planes.count", f"is {model.planes.count}, but {PLANES} has {count}.")
+    gravity = gravity_of(model)
+    bias = np.concatenate([gravity.force_bias, gravity.torque_bias])
+    told_ros2 = _NUMBER.findall(_text(files[ROS2], ROS2))[:6]
+    _same_numbers(told_ros2, -bias, f"{ROS2}: offset")
+    _same_numbers(_named(files[ROS2], ROS2, "pos"), gravity.centre_of_mass_S, f"{ROS2}: CoG.pos")
+    weight = np.array([vertical_residual(gravity).weight])
+    _same_numbers(_WEIGHT.findall(_text(files[ROS2], ROS2)), weight, f"{ROS2}: CoG.force")
+    if FT_CALIB in files:
+        _same_numbers(_named(files[FT_CALIB], FT_CALIB, "bias"), bias, f"{FT_CALIB}: bias")
+
+
+def _text(data: bytes, name: str) -> str:
+    try:
+        return data.decode("ascii")
+    except UnicodeDecodeError:
+        raise ConfigError(f"{name}: this is not ASCII. {_AGAIN}") from None
+
+
+def _named(data: bytes, name: str, key: str) -> list[str]:
+    lists = dict(_LIST.findall(_text(data, name)))
+    return [each.strip() for each in lists.get(key, "").split(",")]
+
+
+def _same_numbers(told: list[str], true: NDArray[np.float64], where: str) -> None:
+    try:
+        same = [float(each) for each in told] == true.tolist()
+    except ValueError:
+        same = False
+    if not same:
+        _refuse(where, "is not what gravity in contactbench.json says.")
+
+
+def _check_verified(model: RuntimeModel, probe: Probe) -> None:
+    if not model.verified:
+        return
+    if model.verification is None or not model.verification.passed:
+        _refuse("verified", "is true, but verification is not there or not passed.")
+    if model.provenance.stale:
+        _refuse("verified", f"is true, but provenance.stale says: {model.provenance.stale[0]:.200}")
+    if not (probe.health.watertight and probe.health.outward):
+        _refuse("verified", "is true, but the surface of the probe is open or inside out.")
+    part = model.verification
+    if part is not None and (part.mean_error_m > part.limit_mean_m or part.max_error_m > part.limit_max_m):
+        _refuse("verification.passed", "is true, but an error exceeds its limit.")

@@ -1,0 +1,181 @@
+"""
+A runtime config: one folder or zip file that a robot's controller loads.
+
+========================  ==========================================================================================
+``contactbench.json``     everything there is to know, see `pipeline.config.runtime.model`
+``contactbench.sha256``   the hash of that file, as ``sha256sum --check`` takes it; it holds the hashes of the others
+``probe.ply``             the mesh in S, m, with the region of every facet
+``planes.csv``            its facets as planes in priority order
+``ros2.yaml``             for ros2_control: offsets and gravity compensation
+``ft_calib.yaml``         for force_torque_tools; not for a sensor that carries no weight
+``report.html``           the verification report, if there is one
+========================  ==========================================================================================
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from pipeline.config.runtime.canonical import decode_json, encode_json
+from pipeline.config.runtime.check import check_config, decode_mesh
+from pipeline.config.runtime.errors import ConfigError
+from pipeline.config.runtime.pack import (
+    CHECKSUM,
+    CONFIG,
+    KNOWN,
+    PROBE,
+    check_names,
+    check_size,
+    encode_zip,
+    read_bundle,
+)
+from pipeline.config.runtime.swap import write_folder
+from pipeline.config.runtime.values import gravity_of
+from pipeline.durable import make_folder, write_durably
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+
+    from pipeline.calibration import GravityModel
+    from pipeline.config.runtime.model import RuntimeModel
+    from pipeline.mesh import Probe
+
+_AGAIN = "copy or export the bundle again."
+
+
+@dataclass(frozen=True, eq=False)
+class RuntimeConfig:
+    """
+    A runtime config that was checked.
+
+    Make one with `load` or `build_config`: they check; the bare constructor does not.
+
+    Attributes
+    ----------
+    model : RuntimeModel
+    probe : Probe
+        In S, with its regions.
+    files : mapping of str to bytes
+        The bundle's other files, ``probe.ply`` among them.
+    """
+
+    model: RuntimeModel
+    probe: Probe
+    files: Mapping[str, bytes]
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> RuntimeConfig:
+        """
+        Load a bundle, and believe nothing in it.
+
+        Parameters
+        ----------
+        path : str or path
+            A folder or a zip file.
+
+        Raises
+        ------
+        ConfigError
+            It is damaged, was changed, is of a newer version, contradicts itself, or cannot be true; the message
+            names the file and the field.
+        """
+        return cls.from_files(read_bundle(Path(path)), str(path))
+
+    @classmethod
+    def from_files(cls, files: Mapping[str, bytes], name: str = "bundle") -> RuntimeConfig:
+        """
+        Check the files of a bundle.
+
+        Parameters
+        ----------
+        files : mapping
+            File name -> content.
+        name : str
+            What messages call the bundle.
+
+        Raises
+        ------
+        ConfigError
+            As `load`.
+        """
+        check_names(list(files), name)
+        for file, content in files.items():
+            check_size(file, len(content), name)
+        if files[CHECKSUM] != checksum(files[CONFIG]):
+            raise ConfigError(
+                f"{name}: {CONFIG} does not have the hash in {CHECKSUM}, it was changed: {_AGAIN}"
+            )
+        model = decode_json(files[CONFIG], f"{name}: {CONFIG}")
+        others = {file: content for file, content in files.items() if file not in (CONFIG, CHECKSUM)}
+        _check_hashes(model, others, name)
+        probe = decode_mesh(others[PROBE], model, f"{name}: {PROBE}")
+        check_config(model, probe, others, name)
+        return cls(model, probe, MappingProxyType(others))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """
+        Write the bundle in one step: there is the old one or this one, also after a power cut.
+
+        Parameters
+        ----------
+        path : str or path
+            A name that ends in .zip is a zip file, any other a folder: new, empty, or an older bundle.
+
+        Raises
+        ------
+        ConfigError
+            It cannot be written there. What was there stays.
+        """
+        target = Path(path)
+        files = self.encoded()
+        for file, content in files.items():
+            check_size(file, len(content), str(target))
+        try:
+            if target.suffix.lower() == ".zip":
+                make_folder(target.absolute().parent)
+                write_durably(target, encode_zip(files))
+            else:
+                make_folder(target.absolute().parent)
+                write_folder(target, files, KNOWN)
+        except (OSError, ValueError) as error:
+            if isinstance(error, ConfigError):
+                raise
+            raise ConfigError(
+                f"{target}: the bundle cannot be written ({error}): choose a place that is writable and has space."
+            ) from error
+
+    def encoded(self) -> dict[str, bytes]:
+        """Return all files of the bundle; the same config gives the same bytes."""
+        config = encode_json(self.model.to_json())
+        return {CONFIG: config, CHECKSUM: checksum(config), **dict(sorted(self.files.items()))}
+
+    @property
+    def gravity(self) -> GravityModel:
+        """What to take off a reading."""
+        return gravity_of(self.model)
+
+
+def checksum(config: bytes) -> bytes:
+    """Return the content of ``contactbench.sha256``."""
+    return f"{hashlib.sha256(config).hexdigest()}  {CONFIG}\n".encode("ascii")
+
+
+def _check_hashes(model: RuntimeModel, files: Mapping[str, bytes], name: str) -> None:
+    listed = model.provenance.files
+    if strangers := sorted(set(listed) ^ set(files)):
+        where = (
+            "listed in provenance.files but missing"
+            if strangers[0] in listed
+            else "not listed in provenance.files"
+        )
+        raise ConfigError(f"{name}: {strangers[0]} is {where}: {_AGAIN}")
+    for file, content in files.items():
+        if hashlib.sha256(content).hexdigest() != listed[file]:
+            raise ConfigError(
+                f"{name}: {file} does not have the hash in provenance.files, it was changed: {_AGAIN}"
+            )

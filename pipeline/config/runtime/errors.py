@@ -1,0 +1,28 @@
+"""What the runtime config raises."""
+
+from __future__ import annotations
+
+from pipeline.errors import InputError
+
+
+class ConfigError(InputError):
+    """A runtime config that cannot be made, written or trusted: names the file, the field, and the remedy."""
+
+
+class UnverifiedError(ConfigError):
+    """
+    An export that is refused because nobody has shown that its contacts are right.
+
+    Attributes
+    ----------
+    reasons : tuple of str
+        Each in a sentence.
+    """
+
+    def __init__(self, reasons: tuple[str, ...]) -> None:
+        super().__init__(
+            "the config is not verified, and is not written: "
+            + " ".join(reasons)
+            + " Mend that; or export it as unverified, for trials without a person."
+        )
+        self.reasons = reasons

@@ -1,0 +1,282 @@
+"""
+The schema of a runtime config: what a controller needs to compensate, filter and locate, in any language.
+
+One JSON object, ``contactbench.json``. Every number is SI and finite, every field is there; ``null`` says that there
+is none. What a number means is in its name: ``force_bias_N``. R_WS turns S into W (v_W = R_WS v_S).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Final, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+SCHEMA: Final = "contactbench.runtime"
+VERSION: Final = 1
+
+# Wide enough for every device there is, narrow enough that no square overflows and no unit is mistaken unnoticed.
+_Number = Annotated[float, Field(ge=-1e9, le=1e9)]
+_Positive = Annotated[float, Field(gt=0, le=1e9)]
+_NotNegative = Annotated[float, Field(ge=0, le=1e9)]
+_Three = Annotated[list[_Number], Field(min_length=3, max_length=3)]
+_ThreeSigmas = Annotated[list[_NotNegative], Field(min_length=3, max_length=3)]
+_Four = Annotated[list[_Number], Field(min_length=4, max_length=4)]
+_Six = Annotated[list[_Number], Field(min_length=6, max_length=6)]
+_SixLimits = Annotated[list[_Positive | None], Field(min_length=6, max_length=6)]
+_Matrix6 = Annotated[list[_Six], Field(min_length=6, max_length=6)]
+_Twelve = Annotated[list[_Number], Field(min_length=12, max_length=12)]
+_Matrix12 = Annotated[list[_Twelve], Field(min_length=12, max_length=12)]
+_Count = Annotated[int, Field(ge=0, le=2**31 - 1)]
+_Text = Annotated[str, Field(max_length=1_000)]
+_Hash = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+# A name in the bundle, never a path out of it.
+_File = Annotated[str, Field(pattern="^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$")]
+_Time = Annotated[str, Field(pattern="^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$")]
+
+
+class Part(BaseModel):
+    """A JSON object: every field named, of its own type, finite."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", allow_inf_nan=False, frozen=True)
+
+
+class UnitsPart(Part):
+    """The only units there are; written down so that nobody has to know."""
+
+    force: Literal["N"]
+    torque: Literal["N*m"]
+    length: Literal["m"]
+    time: Literal["s"]
+    angle: Literal["rad"]
+
+
+class FramesPart(Part):
+    """
+    The frames, in words.
+
+    W is the frame that the calibration's orientations were given in, normally the robot's base: not a levelled world.
+    The direction of gravity in it was measured (``gravity_W_N``); its z axis only points more up than down. A
+    controller must give its orientations in the same frame.
+
+    ``quaternion_ES`` (w, x, y, z) turns S into the flange E, so that R_WS = R_WE R_ES; null: the calibration's
+    orientations were the sensor's own, and the controller gives R_WS itself.
+    """
+
+    sensor: Literal["S"]
+    world: Literal["W, z up"]
+    rotation: Literal["R_WS: v_W = R_WS v_S"]
+    wrench: Literal["what the tissue does to the probe, about the origin of S"]
+    quaternion_ES: _Four | None
+
+
+class SensorPart(Part):
+    """
+    Which sensor this config belongs to: with another one it is wrong.
+
+    ``unknown``: nobody said. ``rate_Hz`` are readings a second: at another rate the filters act at another frequency.
+    """
+
+    model: _Text
+    serial: _Text
+    rate_Hz: _Positive
+
+
+class GravityPart(Part):
+    """
+    As GravityModel: a still sensor reads F = R_SW g + F0, M = L x (R_SW g) + M0.
+
+    ``covariance`` is of gravity_W_N, force_bias_N, centre_of_mass_S_m, torque_bias_Nm, in this order.
+    """
+
+    gravity_W_N: _Three
+    force_bias_N: _Three
+    centre_of_mass_S_m: _Three
+    torque_bias_Nm: _Three
+    covariance: _Matrix12
+
+
+class NoisePart(Part):
+    """
+    How uncertain a wrench is.
+
+    ``force_N`` and ``torque_Nm`` are of one reading. ``wrench_covariance`` is of a compensated, filtered wrench (N²,
+    N²·m, N²·m²), the calibration's share included, on average over all orientations: what the runtime takes.
+    """
+
+    force_N: _ThreeSigmas
+    torque_Nm: _ThreeSigmas
+    wrench_covariance: _Matrix6
+
+
+class KalmanPart(Part):
+    """
+    As KalmanFilter: each channel a random walk seen through white noise.
+
+    ``per_sample`` adds Q and R per sample whatever the time; else both belong to ``tuned_rate_Hz`` and follow time.
+    """
+
+    kind: Literal["kalman"]
+    rate_Hz: _Positive
+    q: _Positive
+    r: _Positive
+    tuned_rate_Hz: _Positive
+    per_sample: bool
+
+
+class LowPassPart(Part):
+    """As LowPass: a Butterworth filter of the contact point; the sections are what the runtime takes."""
+
+    kind: Literal["lowpass"]
+    rate_Hz: _Positive
+    cutoff_Hz: _Positive
+    order: Annotated[int, Field(ge=1, le=8)]
+    sections: Annotated[list[_Six], Field(min_length=1, max_length=4)]
+
+
+class FiltersPart(Part):
+    """Of the compensated wrench, and of the contact point."""
+
+    wrench: KalmanPart | None
+    location: LowPassPart | None
+
+
+class GatesPart(Part):
+    """
+    As Gates; a limit of null is none.
+
+    ``saturation``: where Fx, Fy, Fz (N), Mx, My, Mz (N·m) of a raw reading end. Without limits a reading at the end of
+    its range is taken for a touch: give them, or pass NaN for a sample that the sensor itself flags.
+    """
+
+    min_force_N: _NotNegative
+    friction_angle_rad: Annotated[float, Field(gt=0, lt=1.5708)]
+    ambiguity_distance_m: _NotNegative
+    torque_ratio: Annotated[float, Field(ge=1, le=1e9)]
+    rival_sigmas: _NotNegative
+    follow_distance_m: _NotNegative
+    recent_samples: _Count
+    max_age_s: _NotNegative
+    saturation: _SixLimits
+    region_only: bool
+
+
+class ProbePart(Part):
+    """The mesh: binary PLY in S, metres, with the priority of each facet in the property ``region``."""
+
+    file: _File
+    name: _Text
+    facets: Annotated[int, Field(ge=4, le=2_000_000)]
+    vertices: Annotated[int, Field(ge=4, le=2_000_000)]
+    bounds_S_m: Annotated[list[_Three], Field(min_length=2, max_length=2)]
+
+
+class RegionPart(Part):
+    """A region; rank 1 is preferred to 2, and any to none."""
+
+    rank: Annotated[int, Field(ge=1, le=1_000)]
+    name: _Text
+    colour: Annotated[str, Field(pattern="^#[0-9a-f]{6}$")]
+    facets: _Count
+
+
+class PlanesPart(Part):
+    """
+    The facets as planes in priority order, for controllers that run the loop of Cao et al. (2023) themselves.
+
+    The columns nx, ny, nz, d are those of n . p + d = 0 as the paper prints it: n points outwards, d in m.
+    """
+
+    file: _File
+    count: _Count
+
+
+class ControllerPart(Part):
+    """
+    Gains of admittance control along S's z axis and about x and y; see the control documentation.
+
+    ``M`` x'' + ``B`` x' + ``K`` x = error; the error is a force in N along z, and a torque in N·m about x and y.
+    """
+
+    desired_force_N: _Positive
+    force_mass_kg: _Positive
+    force_damping_Nspm: Annotated[_Positive, Field(description="N*s/m")]
+    force_stiffness_Npm: Annotated[_NotNegative, Field(description="N/m")]
+    angle_inertia: Annotated[_Positive, Field(description="N*m*s²/rad")]
+    angle_damping: Annotated[_Positive, Field(description="N*m*s/rad")]
+    angle_stiffness: Annotated[_NotNegative, Field(description="N*m/rad")]
+
+
+class LimitsPart(Part):
+    """What a controller must never exceed."""
+
+    max_force_N: _Positive
+    max_torque_Nm: _Positive
+    max_speed_mps: _Positive | None
+    max_turn_radps: _Positive | None
+
+
+class VerificationPart(Part):
+    """What was measured on markers; lengths in m. ``ratio`` is the error over the noise bound."""
+
+    touches: _Count
+    markers: _Count
+    mean_error_m: _NotNegative
+    sd_error_m: _NotNegative
+    p95_error_m: _NotNegative
+    max_error_m: _NotNegative
+    ratio: _NotNegative | None
+    p99_time_s: _NotNegative | None
+    limit_mean_m: _Positive
+    limit_max_m: _Positive
+    passed: bool
+    diagnosis: Annotated[str, Field(max_length=10_000)]
+
+
+class SourcePart(Part):
+    """A file that something here was computed from."""
+
+    role: _Text
+    name: _Text
+    sha256: _Hash
+
+
+class ProvenancePart(Part):
+    """Who, when, with what, and the hash of every other file of the bundle."""
+
+    created: _Time
+    tool: _Text
+    operator: _Text
+    session: _Text | None
+    files: Annotated[dict[_File, _Hash], Field(min_length=1, max_length=50)]
+    sources: Annotated[list[SourcePart], Field(max_length=200)]
+    stale: Annotated[list[_Text], Field(max_length=100)]
+
+
+class RuntimeModel(Part):
+    """
+    A whole config.
+
+    ``verified`` is true only if ``verification`` passed and nothing it rests on was stale at the export.
+    """
+
+    schema_: Literal["contactbench.runtime"] = Field(alias="schema")
+    version: Literal[1]
+    units: UnitsPart
+    frames: FramesPart
+    sensor: SensorPart
+    gravity: GravityPart
+    noise: NoisePart
+    filters: FiltersPart
+    gates: GatesPart
+    probe: ProbePart
+    regions: Annotated[list[RegionPart], Field(max_length=1_000)]
+    planes: PlanesPart
+    controller: ControllerPart | None
+    limits: LimitsPart
+    verification: VerificationPart | None
+    verified: bool
+    provenance: ProvenancePart
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the JSON object."""
+        return self.model_dump(mode="json", by_alias=True)

@@ -1,0 +1,149 @@
+"""What a person says of an export, as plain values: options of the command, and settings ``config.*`` of a session."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from pipeline.config.runtime.build import RobotNames
+from pipeline.config.runtime.errors import ConfigError
+from pipeline.config.runtime.model import LimitsPart
+from pipeline.config.runtime.mounts import mount_of_angles
+from pipeline.contact import Gates, WrenchNoise
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pipeline.config.runtime.bench import ExportSettings
+
+KIND, SERIAL = "config", "devices.serial"
+_GIVE_PAIR = "--noise-force and --noise-torque: give both or none."
+
+_Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
+_Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
+_Name = Annotated[str, Field(min_length=1, max_length=200)]
+_Three = tuple[_Number, _Number, _Number]
+_Six = tuple[_Positive, _Positive, _Positive, _Positive, _Positive, _Positive]
+
+
+class ExportOptions(BaseModel):
+    """
+    As the options of ``contactbench config export``; None: what the session or the files know.
+
+    Attributes
+    ----------
+    sensor : str
+        Model of the sensor.
+    serial : str or None
+        Its serial number.
+    rate : float or None
+        Readings a second, Hz.
+    mount : three floats or None
+        Angles of the sensor in the flange about the fixed x, y, z, degrees.
+    noise_force, noise_torque : float or None
+        Standard deviation of one reading, N and N·m; both or none.
+    cutoff : float or None
+        Low-pass of the contact point, Hz.
+    no_filter : bool
+        Whether the wrench is left unfiltered.
+    saturation : six floats or None
+        Where the channels end, N and N·m.
+    region_only : bool
+        Whether contacts outside every region are refused.
+    max_force, max_torque : float
+        What a controller must never exceed, N and N·m.
+    sensor_frame, world_frame : str
+        S and W, as the robot description names them.
+    operator : str or None
+        Who is answerable.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    sensor: _Name = "unknown"
+    serial: _Name | None = None
+    rate: _Positive | None = None
+    mount: _Three | None = None
+    noise_force: _Positive | None = None
+    noise_torque: _Positive | None = None
+    cutoff: _Positive | None = None
+    no_filter: bool = False
+    saturation: _Six | None = None
+    region_only: bool = False
+    max_force: _Positive = 30.0
+    max_torque: _Positive = 3.0
+    sensor_frame: _Name = "ft_sensor"
+    world_frame: _Name = "base_link"
+    operator: _Name | None = None
+
+    @classmethod
+    def checked(cls, values: Mapping[str, Any]) -> ExportOptions:
+        """Return options; ConfigError, with the first that is wrong."""
+        try:
+            return cls.model_validate(dict(values))
+        except ValidationError as error:
+            first = error.errors(include_url=False)[0]
+            where = str(first["loc"][0]) if first["loc"] else "options"
+            raise ConfigError(
+                f"--{where.replace('_', '-')} ({KIND}.{where}): {first['msg']}: correct it."
+            ) from None
+
+    @classmethod
+    def stored(cls, settings: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> ExportOptions:
+        """
+        Return what a session's settings say, and what was given instead.
+
+        Parameters
+        ----------
+        settings : mapping
+            Key -> object with the attribute ``value``, as `State.settings`; null is as if it was never set. Of keys
+            that are not ``config.*`` only the device's serial number counts.
+        given : mapping, optional
+            Option -> value that counts more.
+
+        Raises
+        ------
+        ConfigError
+            A value is out of its range.
+        """
+        own = {
+            key.removeprefix(f"{KIND}."): setting.value
+            for key, setting in settings.items()
+            if key.startswith(f"{KIND}.") and setting.value is not None
+        }
+        device = settings.get(SERIAL)
+        if device is not None and device.value:
+            own.setdefault("serial", device.value)
+        return cls.checked({**own, **(given or {})})
+
+    def settings(self) -> ExportSettings:
+        """Return them as an export takes them; ConfigError where two contradict each other."""
+        from pipeline.config.runtime.bench import ExportSettings
+
+        noise = None
+        if (self.noise_force is None) != (self.noise_torque is None):
+            raise ConfigError(_GIVE_PAIR)
+        if self.noise_force is not None and self.noise_torque is not None:
+            noise = WrenchNoise(self.noise_force, self.noise_torque)
+        gates = Gates(region_only=self.region_only)
+        if self.saturation is not None:
+            gates = Gates(region_only=self.region_only, saturation=self.saturation)
+        return ExportSettings(
+            sensor=self.sensor,
+            serial=self.serial,
+            rate=self.rate,
+            noise=noise,
+            smoothed=not self.no_filter,
+            cutoff=self.cutoff,
+            mount=mount_of_angles(self.mount),
+            gates=gates,
+            limits=LimitsPart(
+                max_force_N=self.max_force,
+                max_torque_Nm=self.max_torque,
+                max_speed_mps=None,
+                max_turn_radps=None,
+            ),
+            operator=self.operator,
+            names=RobotNames(self.sensor_frame, self.world_frame),
+        )

@@ -1,0 +1,92 @@
+"""
+Settings of an export as a JSON file: those parts of a config that neither a calibration nor a probe knows.
+
+``controller`` and ``limits`` are as in ``contactbench.json``; ``gates`` too, but what is left out there is as ever;
+``filters`` are its two filters without ``sections``. What a file leaves out as a whole is as without a file.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+from pydantic import Field, ValidationError
+from pydantic_core import from_json
+
+from pipeline.config.runtime.build import Filters, gates_content
+from pipeline.config.runtime.canonical import fault_of
+from pipeline.config.runtime.errors import ConfigError
+from pipeline.config.runtime.model import ControllerPart, GatesPart, KalmanPart, LimitsPart, Part
+from pipeline.config.runtime.values import gates_of, kalman_of
+from pipeline.contact.gates import Gates
+from pipeline.errors import InputError
+from pipeline.filtering import LowPass
+
+if TYPE_CHECKING:
+    from pipeline.config.runtime.bench import ExportSettings
+
+_LARGEST = 2**20
+
+
+class _LowPass(Part):
+    kind: Literal["lowpass"] = "lowpass"
+    rate_Hz: Annotated[float, Field(gt=0, le=1e9)]
+    cutoff_Hz: Annotated[float, Field(gt=0, le=1e9)]
+    order: Annotated[int, Field(ge=1, le=8)] = 2
+
+
+class _Filters(Part):
+    wrench: KalmanPart | None
+    location: _LowPass | None
+
+
+class _Settings(Part):
+    controller: ControllerPart | None = None
+    limits: LimitsPart | None = None
+    gates: dict[str, Any] | None = None
+    filters: _Filters | None = None
+
+
+def with_file(settings: ExportSettings, data: bytes, name: str) -> ExportSettings:
+    """
+    Return settings in which the parts of a file take the place of their own.
+
+    Parameters
+    ----------
+    settings : ExportSettings
+    data : bytes
+        JSON.
+    name : str
+        What messages call it.
+
+    Raises
+    ------
+    ConfigError
+        It is no JSON, or a field is unknown, missing, of the wrong type or out of its range.
+    """
+    if len(data) > _LARGEST:
+        raise ConfigError(f"{name}: larger than {_LARGEST >> 20} MiB: choose a file of settings.")
+    try:
+        given = _Settings.model_validate(from_json(data, allow_inf_nan=False))
+        return replace(settings, **_parts(given, settings.gates))
+    except ValidationError as error:
+        raise ConfigError(f"{name}: {fault_of(error)}: correct it.") from None
+    except InputError as error:
+        raise ConfigError(f"{name}: {error}") from None
+    except ValueError as error:
+        raise ConfigError(f"{name}: this is not JSON ({error!s:.100}): correct it.") from None
+
+
+def _parts(given: _Settings, gates: Gates) -> dict[str, Any]:
+    parts: dict[str, Any] = {
+        name: value for name in ("controller", "limits") if (value := getattr(given, name)) is not None
+    }
+    if given.gates is not None:
+        parts["gates"] = gates_of(GatesPart.model_validate({**gates_content(gates), **given.gates}))
+    if given.filters is not None:
+        wrench, location = given.filters.wrench, given.filters.location
+        parts["filters"] = Filters(
+            None if wrench is None else kalman_of(wrench),
+            None if location is None else LowPass(location.cutoff_Hz, location.rate_Hz, location.order),
+        )
+    return parts

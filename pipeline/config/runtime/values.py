@@ -1,0 +1,93 @@
+"""What the parts of a config stand for: the project's own values, and what follows from them."""
+
+from __future__ import annotations
+
+from math import degrees, inf
+from typing import TYPE_CHECKING, cast
+
+import numpy as np
+from scipy.signal import butter
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration.model import GravityModel
+from pipeline.contact.gates import Gates
+from pipeline.filtering import KalmanFilter
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.config.runtime.model import GatesPart, KalmanPart, RuntimeModel
+
+# The covariance of a compensated wrench is of second degree in the rotation: the mean over the 24 rotations of a cube
+# is the mean over all rotations, exactly.
+_ORIENTATIONS = Rotation.create_group("O").as_matrix()
+
+
+def gravity_of(model: RuntimeModel) -> GravityModel:
+    """Return the gravity model of a config."""
+    part = model.gravity
+    return GravityModel(
+        np.array(part.gravity_W_N),
+        np.array(part.force_bias_N),
+        np.array(part.centre_of_mass_S_m),
+        np.array(part.torque_bias_Nm),
+        np.array(part.covariance),
+    )
+
+
+def kalman_of(part: KalmanPart) -> KalmanFilter:
+    """Return the wrench filter, fresh; InputError if a number is out of its range."""
+    return KalmanFilter(
+        part.rate_Hz, q=part.q, r=part.r, tuned_rate=part.tuned_rate_Hz, per_sample=part.per_sample
+    )
+
+
+def gates_of(part: GatesPart) -> Gates:
+    """Return the gates; InputError if a number is out of its range."""
+    saturation = tuple(inf if limit is None else limit for limit in part.saturation)
+    return Gates(
+        min_force=part.min_force_N,
+        friction_angle=degrees(part.friction_angle_rad),
+        ambiguity_distance=part.ambiguity_distance_m,
+        torque_ratio=part.torque_ratio,
+        rival_sigmas=part.rival_sigmas,
+        follow_distance=part.follow_distance_m,
+        recent_samples=part.recent_samples,
+        max_age=part.max_age_s,
+        saturation=cast("tuple[float, float, float, float, float, float]", saturation),
+        region_only=part.region_only,
+    )
+
+
+def wrench_covariance(
+    force: ArrayLike, torque: ArrayLike, wrench_filter: KalmanFilter | None, gravity: GravityModel
+) -> NDArray[np.float64]:
+    """
+    Return how uncertain a compensated, filtered wrench is, on average over all orientations.
+
+    (sigma of a reading times what the filter leaves of white noise)² plus the calibration's share, which no filter
+    removes.
+
+    Parameters
+    ----------
+    force, torque : (3,)
+        Standard deviation of one reading, N and N·m.
+    wrench_filter : KalmanFilter or None
+    gravity : GravityModel
+
+    Returns
+    -------
+    (6, 6)
+        Force before torque, N², N²·m, N²·m².
+    """
+    left = 1.0 if wrench_filter is None else wrench_filter.figures().noise_left
+    sigmas = np.concatenate([np.asarray(force, dtype=np.float64), np.asarray(torque, dtype=np.float64)])
+    share = gravity.wrench_covariance(_ORIENTATIONS).mean(axis=0)
+    total: NDArray[np.float64] = np.diag((sigmas * left) ** 2) + 0.5 * (share + share.T)
+    return total
+
+
+def low_pass_sections(cutoff: float, rate: float, order: int) -> NDArray[np.float64]:
+    """Return the second-order sections of a Butterworth low-pass, (n, 6), as `LowPass` has them; Hz."""
+    sections: NDArray[np.float64] = butter(order, cutoff, fs=rate, output="sos")
+    return sections

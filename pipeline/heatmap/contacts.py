@@ -1,0 +1,288 @@
+"""The contacts behind a heatmap: from what `contactbench locate` wrote, or located in a recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.contact import ContactSolver, Gates, WrenchNoise
+from pipeline.contact.contact_csv import HEADER, REASONS
+from pipeline.contact.wrench_csv import WrenchReader
+from pipeline.heatmap.heatmap import HeatmapError
+from pipeline.heatmap.judging import measured_noise, settled, usual_step, with_calibration
+from pipeline.tables import TableReader, Wording
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.calibration import GravityModel
+    from pipeline.mesh import Probe
+    from pipeline.recording.tracks import FlangeTrack, WrenchTrack
+
+# At these the point is where the wrench says, if not always surely the only one.
+USED = ("ok", "vertex", "ambiguous", "outside_region")
+_LONGEST_STEPS = 5.0  # medians: a contact does not last through a gap in the recording
+_BLOCK_ROWS = 65_536
+
+_CONTACTS = Wording(
+    header=HEADER.decode().strip(),
+    rows="contacts",
+    meaning="m, in the sensor frame S",
+    text="a reason",
+    error=HeatmapError,
+)
+_POINTS = Wording(
+    header="x_mm,y_mm,z_mm", rows="points", meaning="mm, in the sensor frame S", error=HeatmapError
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """
+    Contacts as arrays; n of them.
+
+    Attributes
+    ----------
+    points : (n, 3)
+        S, m.
+    seconds : (n,)
+        How long each stands for: until the next sample, at most five usual steps.
+    sigmas : (n,)
+        Largest standard deviation of each point, m; NaN: unknown.
+    forces : (n,) or None
+        |F|, N; None: unknown.
+    duration : float
+        Of the whole recording, s.
+    left_out : dict of str to int
+        Samples without a contact, by reason.
+    notes : tuple of str
+        Sentences.
+    counted : {"samples", "touches"}
+        What one of them is.
+    known_errors : (n,) or None
+        Distance to the marker that was touched, m; None: not known by itself.
+    settled : (n,) or None
+        Where the force was steady; None: not known.
+    times : (n,) or None
+        s since the recording's first sample, or the start of the first touch; None: not known.
+    noise : WrenchNoise or None
+        Of a sample, with what the calibration leaves uncertain; None: the contacts came with theirs.
+    """
+
+    points: NDArray[np.float64]
+    seconds: NDArray[np.float64]
+    sigmas: NDArray[np.float64]
+    forces: NDArray[np.float64] | None
+    duration: float
+    left_out: dict[str, int]
+    notes: tuple[str, ...] = ()
+    counted: str = "samples"
+    known_errors: NDArray[np.float64] | None = None
+    settled: NDArray[np.bool_] | None = None
+    noise: WrenchNoise | None = None
+    times: NDArray[np.float64] | None = None
+
+    @property
+    def moments(self) -> NDArray[np.float64]:
+        """The times (n,), s; all 0 where they are not known."""
+        return np.zeros(len(self.points)) if self.times is None else self.times
+
+    def errors(self, truth: ArrayLike, most: float) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+        """Return the distance (n,) to the nearest of true points (k, 3), m, and which (n,) are within `most`."""
+        from scipy.spatial import cKDTree
+
+        distance, _ = cKDTree(np.asarray(truth, dtype=np.float64)).query(self.points)
+        return np.asarray(distance), np.asarray(distance <= most)
+
+
+def read_contacts(file: Path, wrenches: Path | None = None) -> Contacts:
+    """
+    Read a file of contacts.
+
+    Parameters
+    ----------
+    file : path
+        CSV as ``contactbench locate`` writes it.
+    wrenches : path, optional
+        The CSV file that the contacts were located from, for the forces: row by row the same.
+
+    Raises
+    ------
+    HeatmapError
+        A file cannot be used, or the two do not belong together.
+    """
+    columns = ("t", "x", "y", "z", "sigma_max_mm")
+    try:
+        with file.open("rb") as stream:
+            table = TableReader(stream, str(file), _CONTACTS)
+            table.select(columns, text="reason", allow_nan=columns[1:])
+            blocks = [(rows.numbers, rows.text) for rows in table]
+    except (OSError, ValueError) as error:
+        raise _unread(file, error) from error
+    numbers = np.concatenate([each for each, _ in blocks])
+    reasons = np.concatenate([text for _, text in blocks if text is not None])
+    known = np.isin(reasons, np.array(REASONS, dtype=np.bytes_))
+    if not known.all():
+        row = int(np.argmin(known))
+        raise HeatmapError(
+            f"{file}: row {row + 1}: {reasons[row].decode()!r} is no reason: give a file that `contactbench"
+            " locate` wrote."
+        )
+    forces = None if wrenches is None else _forces(wrenches, len(numbers), file)
+    return _contacts(numbers[:, 0], numbers[:, 1:4], reasons, 1e-3 * numbers[:, 4], forces, ())
+
+
+def read_points(file: Path) -> NDArray[np.float64]:
+    """Return points (k, 3), S, m, of a CSV file with x_mm, y_mm, z_mm: markers, for instance; HeatmapError."""
+    try:
+        with file.open("rb") as stream:
+            table = TableReader(stream, str(file), _POINTS)
+            table.select(("x_mm", "y_mm", "z_mm"))
+            return 1e-3 * np.concatenate([rows.numbers for rows in table])
+    except (OSError, ValueError) as error:
+        raise _unread(file, error) from error
+
+
+def locate_recording(
+    file: Path,
+    probe: Probe,
+    model: GravityModel,
+    *,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    R_ES: ArrayLike | None = None,
+    delay: float = 0.0,
+    progress: Callable[[int, int], None] | None = None,
+) -> Contacts:
+    """
+    Compensate and locate the wrenches of a recording of one sensor and one robot.
+
+    Parameters
+    ----------
+    file : path
+    probe : Probe
+        In S.
+    model : GravityModel
+    noise : WrenchNoise, optional
+        Of a sample; measured in the recording by default. What the calibration leaves uncertain is added.
+    gates : Gates, optional
+    R_ES : (3, 3), optional
+        Orientation of the sensor in the flange.
+    delay : float
+        How much later a wrench is heard than its pose, s.
+    progress : callable, optional
+        Gets the bytes read so far, and those in the file.
+
+    Raises
+    ------
+    InputError
+        The recording cannot be used.
+    """
+    from pipeline.recording import read_recording
+
+    recording = read_recording(file, progress)
+    if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
+        raise HeatmapError(
+            f"{file}: there are {len(recording.wrenches)} sensors and {len(recording.flanges)} robots in it: record one"
+            " of each, the robot with --pose."
+        )
+    (track,), (poses,) = recording.wrenches.values(), recording.flanges.values()
+    parts = list(_compensated(track, poses, model, R_ES, delay))
+    if not parts:
+        raise HeatmapError(f"{file}: no reading has a pose beside it: record the robot all the time.")
+    times, wrenches, R_WS = (np.concatenate(column) for column in zip(*parts, strict=True))
+    said = [*recording.warnings]
+    if lost := len(track.times) - len(times):
+        said.append(f"{lost:,} readings are left out: no good, or without a pose beside them.")
+    own = noise or measured_noise(times, wrenches)
+    if own is None:
+        said.append("The recording does not tell its noise: the usual one of a sensor is taken.")
+    total = with_calibration(own or WrenchNoise(), model, R_WS)
+    solver = ContactSolver(probe, total, gates)
+    found = [
+        solver.locate_batch(wrenches[row : row + _BLOCK_ROWS]) for row in range(0, len(times), _BLOCK_ROWS)
+    ]
+    points, reasons, sigmas = (
+        np.concatenate(column)
+        for column in zip(*((each.points, each.reasons, each.sigma_max) for each in found), strict=True)
+    )
+    names = np.array(REASONS, dtype=np.bytes_)[reasons]
+    forces = np.linalg.norm(wrenches[:, :3], axis=1)
+    return replace(_contacts(times, points, names, sigmas, forces, tuple(said)), noise=total)
+
+
+def _compensated(
+    track: WrenchTrack,
+    poses: FlangeTrack,
+    model: GravityModel,
+    R_ES: ArrayLike | None,
+    delay: float,
+) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
+    """Yield times, wrenches without weight and bias, and orientations of the readings that are good and have a pose."""
+    from pipeline.calibration.files.pose_csv import sensor_orientations
+    from pipeline.calibration.orientation import Convention
+    from pipeline.recording.convert import poses_at
+
+    for begin in range(0, len(track.times), _BLOCK_ROWS):
+        rows = slice(begin, begin + _BLOCK_ROWS)
+        quaternions, there = poses_at(poses, track.times[rows] - delay)
+        kept = there & track.usable[rows]
+        if not kept.any():
+            continue
+        R_WS = sensor_orientations(quaternions[kept, :4], Convention(), R_ES)
+        wrenches = np.ascontiguousarray(model.compensate(R_WS, track.wrenches[rows][kept]))
+        yield track.times[rows][kept], wrenches, R_WS
+
+
+def _contacts(
+    times: NDArray[np.float64],
+    points: NDArray[np.float64],
+    reasons: NDArray[np.bytes_],
+    sigmas: NDArray[np.float64],
+    forces: NDArray[np.float64] | None,
+    notes: tuple[str, ...],
+) -> Contacts:
+    used = np.isin(reasons, np.array(USED, dtype=np.bytes_)) & np.isfinite(points).all(axis=1)
+    names, counts = np.unique(reasons[~used], return_counts=True)
+    usual = usual_step(times)
+    seconds = np.clip(np.append(np.diff(times), usual), 0.0, _LONGEST_STEPS * usual)
+    return Contacts(
+        points[used],
+        seconds[used],
+        sigmas[used],
+        None if forces is None else forces[used],
+        float(np.ptp(times)) + usual,
+        {name.decode(): int(count) for name, count in zip(names, counts, strict=True)},
+        notes,
+        settled=None if forces is None else settled(times, forces)[used],
+        times=times[used] - times[0],
+    )
+
+
+def _forces(file: Path, count: int, contacts: Path) -> NDArray[np.float64]:
+    try:
+        with file.open("rb") as stream:
+            parts = [
+                np.linalg.norm(rows.wrenches[:, :3], axis=1)
+                for rows in WrenchReader(stream, str(file), allow_nan=True)
+            ]
+    except (OSError, ValueError) as error:
+        raise _unread(file, error) from error
+    forces = np.concatenate(parts)
+    if len(forces) != count:
+        raise HeatmapError(
+            f"{file} has {len(forces):,} rows, {contacts} {count:,}: give the wrenches that these contacts were located"
+            " from."
+        )
+    return forces
+
+
+def _unread(file: Path, error: Exception) -> Exception:
+    if isinstance(error, HeatmapError) or not isinstance(error, OSError):
+        return error
+    return HeatmapError(f"{file}: the file cannot be read ({error}): check the path.")

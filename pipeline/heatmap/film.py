@@ -1,0 +1,345 @@
+"""
+A heatmap through time as a film: MP4, or an animated GIF.
+
+Drawn without a screen, like the PNG, from the same two sides and on one scale of colours. The rays are cast once, so
+that a frame is only its colours. The same contacts give the same bytes with the same libraries.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from io import BytesIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.durable import scratch_beside, sync_folder
+from pipeline.errors import InputError
+from pipeline.heatmap import picture
+from pipeline.heatmap.bells import vertex_normals
+from pipeline.heatmap.colours import colours
+from pipeline.heatmap.heatmap import HeatmapError
+from pipeline.heatmap.windowing import empty_words
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh.engines.errors import Cancelled
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from numpy.typing import NDArray
+
+    from pipeline.heatmap.heatmap import Heatmap
+    from pipeline.heatmap.playback import Playback
+    from pipeline.heatmap.windowing import Selection
+
+SUFFIXES = (".mp4", ".gif")
+SLOWEST, FASTEST = 0.1, 50.0  # times the real speed
+_RATES = {".mp4": 25, ".gif": 10}  # frames a second; a GIF counts in hundredths
+_MOST_FRAMES = 15_000  # ten minutes of MP4
+_HEAD, _FOOT = 0.17, 0.28  # of a look's width: above and below the looks
+_INK, _TRACK, _BAR = (34, 34, 34), (222, 224, 228), (0, 90, 156)
+
+
+@dataclass(frozen=True)
+class FilmSettings:
+    """
+    How contacts are shown through time.
+
+    Attributes
+    ----------
+    speed : float
+        Seconds of the recording in a second of the film, 0.1 to 50.
+    window : float or None
+        s: only the last seconds are shown; None: what was touched stays.
+    pixels : int
+        Width of each of the two looks.
+    """
+
+    speed: float = 1.0
+    window: float | None = None
+    pixels: int = 400
+
+    def check(self) -> None:
+        """Refuse what makes no film; HeatmapError."""
+        if not SLOWEST <= self.speed <= FASTEST:
+            raise HeatmapError(f"a speed of {self.speed:g}: choose {SLOWEST:g} to {FASTEST:g} times.")
+        if self.window is not None and not 0 < self.window < np.inf:
+            raise HeatmapError(f"a window of {self.window:g} s: choose more than 0 s, or none.")
+
+
+def moments(playback: Playback, selection: Selection, settings: FilmSettings, rate: int) -> list[Selection]:
+    """Return what each frame of a film shows; HeatmapError: there is nothing, or it would be too long."""
+    settings.check()
+    start = selection.start or 0.0
+    end = min(playback.duration, np.inf if selection.end is None else selection.end)
+    if not end > start or not playback.frame(selection).contacts:
+        raise HeatmapError(empty_words(playback.contacts, selection))
+    count = int(np.ceil((end - start) / settings.speed * rate)) + 1
+    if count > _MOST_FRAMES:
+        raise HeatmapError(
+            f"a film of {count / rate / 60:.0f} minutes is too long: choose a higher speed, or a shorter time window."
+        )
+    ends = np.minimum(start + np.arange(count) * settings.speed / rate, end)
+    begins = np.full(count, start) if settings.window is None else np.maximum(ends - settings.window, start)
+    return [
+        replace(selection, start=float(begin), end=float(until))
+        for begin, until in zip(begins, ends, strict=True)
+    ]
+
+
+def frames(
+    playback: Playback, selection: Selection, settings: FilmSettings, rate: int = 25
+) -> Iterator[tuple[float, NDArray[np.uint8]]]:
+    """Yield how much of a film is done, 0 to 1, and its frames (h, w, 3); both sides are even numbers."""
+    parts = moments(playback, selection, settings, rate)
+    whole = playback.heatmap(selection)
+    largest = playback.top(selection, settings.window)
+    views = [_View(whole, look, settings.pixels) for look in picture.looks(whole)]
+    page = _Page(playback, whole, settings, largest)
+    first, last = parts[0].end or 0.0, parts[-1].end or 0.0
+    for number, part in enumerate(parts):
+        at = part.end or 0.0
+        made = playback.heatmap(part)
+        looks = [view.seen(made, largest) for view in views]
+        yield (
+            (number + 1) / len(parts),
+            page.drawn(looks, at, (at - first) / max(last - first, 1e-9), made.contacts),
+        )
+
+
+def write_film(
+    file: Path,
+    playback: Playback,
+    selection: Selection,
+    settings: FilmSettings | None = None,
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> int:
+    """
+    Write a film; nothing is left of one that was not finished.
+
+    Parameters
+    ----------
+    file : Path
+        Ends in .mp4 or .gif.
+    playback : Playback
+    selection : Selection
+        Its time window is what the film runs through.
+    settings : FilmSettings, optional
+    progress, cancelled : callable, optional
+        Gets the share that is done; says whether to stop.
+
+    Returns
+    -------
+    int
+        How many frames it has.
+
+    Raises
+    ------
+    InputError
+        There is nothing to show, the program for MP4 is missing, or the file cannot be written.
+    Cancelled
+        `cancelled` answered True.
+    """
+    kind = file.suffix.lower()
+    if kind not in SUFFIXES:
+        raise HeatmapError(f"{file}: a film ends in .mp4 or .gif.")
+    settings = settings or FilmSettings()
+    rate, shown = _RATES[kind], 0
+
+    def followed() -> Iterator[NDArray[np.uint8]]:
+        nonlocal shown
+        for share, image in frames(playback, selection, settings, rate):
+            if cancelled is not None and cancelled():
+                raise Cancelled
+            shown += 1
+            yield image
+            if progress is not None:
+                progress(share)
+
+    scratch = scratch_beside(file).with_suffix(kind)
+    try:
+        (_write_mp4 if kind == ".mp4" else _write_gif)(scratch, followed(), rate)
+        scratch.replace(file)
+        sync_folder(file.parent)
+    except OSError as error:
+        raise InputError(
+            f"{file}: the film cannot be written ({error}): choose a folder that exists and has room."
+        ) from error
+    finally:
+        scratch.unlink(missing_ok=True)
+    return shown
+
+
+def _write_mp4(file: Path, images: Iterator[NDArray[np.uint8]], rate: int) -> None:
+    try:
+        import imageio_ffmpeg
+    except ImportError as error:
+        raise HeatmapError(
+            "a film as .mp4 needs ffmpeg: pip install 'contactbench[video]', or name a file that ends in .gif."
+        ) from error
+    file.touch()  # ffmpeg's own words about a folder that is not there are long
+    first = next(images)
+    # one thread and no date or version in the file: the same frames give the same bytes
+    exact = ["-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"]
+    writer = imageio_ffmpeg.write_frames(
+        str(file),
+        (first.shape[1], first.shape[0]),
+        fps=rate,
+        codec="libx264",
+        quality=None,
+        macro_block_size=2,
+        ffmpeg_log_level="error",
+        output_params=["-crf", "20", "-preset", "medium", "-movflags", "+faststart", *exact],
+    )
+    writer.send(None)
+    try:
+        writer.send(np.ascontiguousarray(first))
+        for image in images:
+            writer.send(np.ascontiguousarray(image))
+    finally:
+        writer.close()
+
+
+def _write_gif(file: Path, images: Iterator[NDArray[np.uint8]], rate: int) -> None:
+    from PIL import Image
+
+    def pages() -> Iterator[Any]:
+        for image in images:
+            yield Image.fromarray(image).quantize(
+                255, method=Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE
+            )
+
+    shown = pages()
+    first = next(shown)
+    with file.open("wb") as stream:
+        first.save(
+            stream,
+            format="GIF",
+            save_all=True,
+            append_images=shown,
+            duration=1000 // rate,
+            loop=0,
+            disposal=1,
+        )
+
+
+class _View:
+    """
+    One look at a probe: what lies under each pixel, found once.
+
+    Its `seen` is what `picture.render` gives, with a scale of colours of its own.
+    """
+
+    def __init__(self, heatmap: Heatmap, look: picture.Look, pixels: int) -> None:
+        probe = heatmap.probe
+        fine, rows = picture._SMOOTHING, round(picture._HIGH * pixels)
+        step = look.width / (fine * pixels)
+        across, down = (np.arange(fine * n) + 0.5 - 0.5 * fine * n for n in (pixels, rows))
+        x, y = np.meshgrid(step * across, -step * down)
+        eye = look.middle + 4.0 * probe.size * look.toward
+        origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
+        directions = np.ascontiguousarray(np.broadcast_to(-look.toward, origins.shape))
+        t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, directions)
+        self._hit = faces >= 0
+        self._shape = (rows, fine, pixels, fine, 3)
+        self._corners = probe.faces[faces[self._hit]]
+        points = origins[self._hit] - t[self._hit, None] * look.toward
+        self._shares = _barycentric(probe.vertices[self._corners], points)
+        lit = (self._shares[..., None] * vertex_normals(probe)[self._corners]).sum(axis=1)
+        lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
+        light = np.asarray(picture._LIGHT) @ np.stack([look.right, look.up, look.toward])
+        self._bright = np.clip(lit @ light, 0.0, 1.0)
+
+    def seen(self, heatmap: Heatmap, largest: float) -> NDArray[np.uint8]:
+        """Return (h, w, 3)."""
+        base = np.einsum("ij,ijk->ik", self._shares, colours(heatmap, largest)[self._corners])
+        known = np.einsum("ij,ij->i", self._shares, heatmap.known[self._corners])
+        bright = self._bright
+        shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
+        image = np.ones((len(self._hit), 3))
+        image[self._hit] = np.clip(base * shade[:, None], 0.0, 1.0)
+        blocks = image.reshape(self._shape).mean(axis=(1, 3))
+        return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
+
+
+def _barycentric(corners: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the weights (k, 3) of points (k, 3) on facets with these corners (k, 3, 3)."""
+    a, b, c = np.moveaxis(corners, 1, 0)
+    normal = np.cross(b - a, c - a)
+    double = np.einsum("ij,ij->i", normal, normal)
+    v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
+    w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
+    return np.column_stack([1 - v - w, v, w])
+
+
+class _Page:
+    """What is around the looks: a heading, the scale, and how late it is."""
+
+    def __init__(self, playback: Playback, whole: Heatmap, settings: FilmSettings, largest: float) -> None:
+        pixels = settings.pixels
+        self._head = 2 * round(_HEAD * pixels / 2)
+        self._high = round(picture._HIGH * pixels)
+        foot = round(_FOOT * pixels)
+        height = self._head + self._high + foot
+        self._page = _background(whole, largest, pixels, (2 * pixels, height + height % 2))
+        self._duration, self._window = playback.duration, settings.window
+        self._counted, self._speed = whole.counted, settings.speed
+        self._font = _font(max(10, pixels // 26))
+
+    def drawn(
+        self, looks: list[NDArray[np.uint8]], time: float, share: float, contacts: int
+    ) -> NDArray[np.uint8]:
+        from PIL import Image, ImageDraw
+
+        page = self._page.copy()
+        for column, look in enumerate(looks):
+            left = column * look.shape[1]
+            page[self._head : self._head + self._high, left : left + look.shape[1]] = look
+        image = Image.fromarray(page)
+        pen, wide = ImageDraw.Draw(image), page.shape[1]
+        last = "" if self._window is None else f", last {self._window:g} s"
+        pen.text((12, self._head * 0.48), f"{time:.1f} of {self._duration:.1f} s{last}", _INK, self._font)
+        said = f"{contacts:,} {self._counted}, {self._speed:g}x"
+        pen.text((wide - 12, self._head * 0.48), said, _INK, self._font, anchor="ra")
+        bottom = self._head - 6
+        pen.rectangle((12, bottom, wide - 13, bottom + 3), _TRACK)
+        pen.rectangle((12, bottom, 12 + round(share * (wide - 25)), bottom + 3), _BAR)
+        return np.asarray(image, dtype=np.uint8)
+
+
+def _font(size: int) -> Any:
+    import matplotlib as mpl
+    from PIL import ImageFont
+
+    return ImageFont.truetype(str(Path(mpl.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf"), size)
+
+
+def _background(whole: Heatmap, largest: float, pixels: int, size: tuple[int, int]) -> NDArray[np.uint8]:
+    """Return heading and scale on white, (h, w, 3); `size` is width and height."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+    from PIL import Image
+
+    side = 4.0  # inches of a look, as in the PNG
+    high = size[1] * side / pixels
+    style: dict[Any, Any] = {"font.family": ["DejaVu Sans"], "font.size": 11.0, "text.parse_math": False}
+    with mpl.rc_context(style), warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
+        figure = Figure(figsize=(2 * side, high), dpi=pixels / side)
+        words = f"{whole.title} on {whole.probe.name}"
+        figure.text(0.5, 1 - 0.17 / high, words, ha="center", va="center", fontsize=13, color=picture._INK)
+        picture._scale(figure, replace(whole, values=_ending(whole.values, largest)), (2 * side, high))
+        figure.text(0.5, 0.13 / high, picture._note(whole), ha="center", color=picture._FAINT, fontsize=9)
+        data = BytesIO()
+        figure.savefig(data, format="png", facecolor="white")
+    image = Image.open(data).convert("RGB")
+    return np.asarray(image.resize(size) if image.size != size else image, dtype=np.uint8).copy()
+
+
+def _ending(values: NDArray[np.float64], largest: float) -> NDArray[np.float64]:
+    """Return values whose colours end at `largest`: the scale is that of the whole film."""
+    return np.where(np.isfinite(values), largest, np.nan)

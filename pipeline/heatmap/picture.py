@@ -1,0 +1,223 @@
+"""
+A heatmap as a PNG: the touched part of the probe from two sides, with a scale in the quantity's unit.
+
+The surface is drawn by casting a ray through every pixel: that needs no graphics driver and gives the same bytes
+on every machine with the same libraries.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.heatmap.bells import vertex_normals
+from pipeline.heatmap.colours import MAP, NO_DATA, colours
+from pipeline.kernel import SurfaceIndex
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.heatmap.heatmap import Heatmap
+
+_ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides are seen
+_MARGIN = 1.25  # of the touched part's size
+_LEAST_M = 0.03  # shown, at least
+_LONG = 1.3  # a touched part this much longer than wide is shown lengthwise
+_HIGH = 0.78  # of the width
+_SMOOTHING = 2  # rays per pixel and axis
+_LIGHT = (-0.35, 0.55, 0.76)  # right, up, toward the eye
+_INK, _FAINT = "#222222", "#595959"
+_ONE = {"contacts": "contact", "samples": "sample", "touches": "touch"}
+_NICE = np.array([1.0, 2.0, 5.0])
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """An orthographic look: its middle in S (m), unit vectors right, up and toward the eye, and its width (m)."""
+
+    middle: NDArray[np.float64]
+    right: NDArray[np.float64]
+    up: NDArray[np.float64]
+    toward: NDArray[np.float64]
+    width: float
+
+
+def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: bool = True) -> bytes:
+    """
+    Return a heatmap as a PNG image.
+
+    Parameters
+    ----------
+    heatmap : Heatmap
+    pixels : int
+        Width of each of the two looks.
+    note : str
+        A line at the foot.
+    legend : bool
+        With a heading.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    first, second = looks(heatmap)
+    side, low, high = 4.0, 1.15, 0.55 if legend else 0.25
+    size = (2 * side, _HIGH * side + low + high)
+    style: dict[Any, Any] = {"font.family": ["DejaVu Sans"], "font.size": 11.0, "text.parse_math": False}
+    with mpl.rc_context(style), warnings.catch_warnings():
+        # A name in letters that the font lacks is drawn as boxes; that is no matter for a warning by Python.
+        warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
+        figure = Figure(figsize=size, dpi=pixels / side)
+        for column, look in enumerate((first, second)):
+            axes = figure.add_axes(
+                (column * side / size[0], low / size[1], side / size[0], _HIGH * side / size[1])
+            )
+            axes.imshow(render(heatmap, look, pixels), extent=(-0.5, 0.5, -_HIGH / 2, _HIGH / 2))
+            axes.set_axis_off()
+            axes.set(xlim=(-0.5, 0.5), ylim=(-_HIGH / 2, _HIGH / 2))
+            _triad(axes, look)
+        if legend:
+            words = f"{heatmap.title} on {heatmap.probe.name}"
+            figure.text(0.5, 1 - 0.33 / size[1], words, ha="center", va="center", fontsize=14, color=_INK)
+        _scale(figure, heatmap, size)
+        _ruler(figure, first, size, side)
+        figure.text(0.5, 0.13 / size[1], note or _note(heatmap), ha="center", color=_FAINT, fontsize=9)
+        data = BytesIO()
+        figure.savefig(data, format="png", metadata={"Software": None}, facecolor="white")
+    return data.getvalue()
+
+
+def looks(heatmap: Heatmap) -> tuple[Look, Look]:
+    """Return two looks at the part with data, from the side that has most of it and from the opposite one."""
+    probe, known = heatmap.probe, heatmap.known
+    touched = probe.vertices[known]
+    middle = 0.5 * (touched.min(axis=0) + touched.max(axis=0))
+    normal = np.nan_to_num(heatmap.values)[known] @ vertex_normals(probe)[known]
+    longest, ratio = _longest((touched - middle)[:, :2])
+    # What is long lies across the picture, whichever way it is touched.
+    y, x = (longest[1], longest[0]) if ratio > _LONG else (normal[0], -normal[1])
+    azimuth = float(np.arctan2(y, x)) + np.radians(20.0)  # not head-on: depth shows
+    low = -1.0 if normal[2] < -0.3 * np.linalg.norm(normal) else 1.0
+    first, second = (_look(touched, middle, azimuth + turn, low) for turn in (0.0, np.pi))
+    width = max(first.width, second.width)
+    return replace(first, width=width), replace(second, width=width)
+
+
+def _longest(flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
+    """Return the direction (2,) in which points (n, 2) are spread most, and how much more than across it."""
+    values, vectors = np.linalg.eigh(np.cov(flat.T) if len(flat) > 2 else np.eye(2))
+    longest = vectors[:, 1] * (1.0 if vectors[np.argmax(np.abs(vectors[:, 1])), 1] > 0 else -1.0)
+    return longest, float(np.sqrt(values[1] / max(values[0], 1e-12 * values[1]))) if values[1] > 0 else 1.0
+
+
+def _look(touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: float, low: float) -> Look:
+    e = np.radians(low * _ELEVATION)
+    toward = np.array([np.sin(azimuth) * np.cos(e), -np.cos(azimuth) * np.cos(e), np.sin(e)])
+    right = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
+    up = np.cross(toward, right)
+    flat = (touched - middle) @ np.column_stack([right, up])
+    width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, _HIGH]).max()))
+    centre = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
+    middle = middle + centre[0] * right + centre[1] * up
+    return Look(middle, right, up, toward, width)
+
+
+def render(heatmap: Heatmap, look: Look, pixels: int) -> NDArray[np.uint8]:
+    """Return the surface on white as one sees it, `pixels` wide: (height, pixels, 3)."""
+    probe, rows = heatmap.probe, round(_HIGH * pixels)
+    step = look.width / (_SMOOTHING * pixels)
+    across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
+    x, y = np.meshgrid(step * across, -step * down)
+    eye = look.middle + 4.0 * probe.size * look.toward
+    origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
+    directions = np.broadcast_to(-look.toward, origins.shape)
+    t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, np.ascontiguousarray(directions))
+    hit = faces >= 0
+    image = np.ones((len(origins), 3))
+    points = origins[hit] - t[hit, None] * look.toward
+    image[hit] = _seen(heatmap, look, probe.faces[faces[hit]], points)
+    blocks = image.reshape(rows, _SMOOTHING, pixels, _SMOOTHING, 3).mean(axis=(1, 3))
+    return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
+
+
+def _seen(
+    heatmap: Heatmap, look: Look, corners: NDArray[np.int32], points: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the colour (k, 3) of points on facets: interpolated and lit, data less than the rest."""
+    probe = heatmap.probe
+    a, b, c = np.moveaxis(probe.vertices[corners], 1, 0)
+    normal = np.cross(b - a, c - a)
+    double = np.einsum("ij,ij->i", normal, normal)
+    v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
+    w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
+    shares = np.column_stack([1 - v - w, v, w])[..., None]
+    base = (shares * colours(heatmap)[corners]).sum(axis=1)
+    lit = (shares * vertex_normals(probe)[corners]).sum(axis=1)
+    lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
+    light = np.asarray(_LIGHT) @ np.stack([look.right, look.up, look.toward])
+    bright = np.clip(lit @ light, 0.0, 1.0)
+    known = (shares[..., 0] * heatmap.known[corners]).sum(axis=1)
+    # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
+    shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
+    lit_colour: NDArray[np.float64] = np.clip(base * shade[:, None], 0.0, 1.0)
+    return lit_colour
+
+
+def _triad(axes: Any, look: Look) -> None:
+    """Draw the axes of S in the lower left corner."""
+    origin = np.array([-0.41, 0.09 - _HIGH / 2])
+    for letter, axis in zip("xyz", np.eye(3), strict=True):
+        along = 0.075 * np.array([axis @ look.right, axis @ look.up])
+        if np.linalg.norm(along) < 0.02:
+            continue
+        axes.annotate(
+            "",
+            origin + along,
+            origin,
+            arrowprops={"arrowstyle": "-|>", "color": _INK, "shrinkA": 0, "shrinkB": 0, "lw": 1.1},
+        )
+        place = origin + along * (1 + 0.026 / np.linalg.norm(along))
+        axes.text(*place, letter, ha="center", va="center", color=_INK, fontsize=10)
+
+
+def _ruler(figure: Any, look: Look, size: tuple[float, float], side: float) -> None:
+    """Draw a length for scale beside the colours; both looks have the same."""
+    length = _nice(0.15 * 1e3 * look.width)
+    share = 1e-3 * length / look.width * side / size[0]
+    axes = figure.add_axes((0.95 - share, 0.8 / size[1], share, 0.1 / size[1]))
+    axes.set_axis_off()
+    axes.plot([0, 1], [0.5, 0.5], color=_INK, lw=2, solid_capstyle="butt")
+    axes.set(xlim=(0, 1), ylim=(0, 1))
+    place = {"ha": "center", "va": "bottom", "color": _INK, "fontsize": 10}
+    figure.text(0.95 - share / 2, 0.9 / size[1], f"{length:g} mm", **place)
+
+
+def _nice(length: float) -> float:
+    power = 10.0 ** np.floor(np.log10(length))
+    return float(power * _NICE[_NICE * power <= length * (1 + 1e-12)].max())
+
+
+def _scale(figure: Any, heatmap: Heatmap, size: tuple[float, float]) -> None:
+    """Draw the colours with numbers, and the grey of no data beside them."""
+    axes = figure.add_axes((0.2, 0.84 / size[1], 0.46, 0.16 / size[1]))
+    largest = heatmap.top or 1.0
+    axes.imshow(np.linspace(0, 1, 256)[None], cmap=MAP, extent=(0, largest, 0, 1), aspect="auto")
+    axes.set(yticks=[], xlim=(0, largest))
+    axes.locator_params(axis="x", nbins=6)
+    axes.tick_params(colors=_INK, labelsize=10, length=3)
+    over = f" (up to {heatmap.largest:.3g})" if heatmap.top < heatmap.largest else ""
+    axes.set_xlabel(f"{heatmap.title}, {heatmap.unit}{over}", color=_INK, fontsize=11, labelpad=2)
+    key = figure.add_axes((0.72, 0.84 / size[1], 0.03, 0.16 / size[1]))
+    key.set(xticks=[], yticks=[], facecolor=NO_DATA)
+    figure.text(0.76, 0.92 / size[1], "no data", va="center", color=_INK, fontsize=10)
+
+
+def _note(heatmap: Heatmap) -> str:
+    counted = heatmap.counted if heatmap.contacts != 1 else _ONE.get(heatmap.counted, heatmap.counted)
+    return (
+        f"{heatmap.contacts:,} {counted}; Gaussian along the surface, bandwidth"
+        f" {1e3 * heatmap.bandwidth:.3g} mm; seen from two sides; axes of the sensor frame S"
+    )

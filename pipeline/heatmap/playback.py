@@ -1,0 +1,318 @@
+"""
+A heatmap that moves through time: the bells of all contacts once, and then only weights that change.
+
+A frame is one product of a sparse matrix with the weights of the sources in the window, so that it takes
+milliseconds. Contacts that share a cell of half a bandwidth stay one source at the middle of all of them, whatever the
+window: a frame differs from the heatmap of only these contacts by about 1 % of a bell's width.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.heatmap.bells import Bells
+from pipeline.heatmap.heatmap import (
+    _DENSITY_UNITS,
+    _SCALES,
+    _UNITS,
+    Heatmap,
+    HeatmapError,
+    _check_bandwidth,
+    default_bandwidth,
+)
+from pipeline.heatmap.windowing import Selection, force_mask, shown
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.heatmap.contacts import Contacts
+    from pipeline.mesh import Probe
+
+_WINDOWS = 16  # places of the window at which the end of the colours is looked for
+_TOP = 95.0  # per cent of the known vertices are below the last colour
+_NEARLY = 0.8  # of the largest value: nearer than that, the colours end at it
+_PAUSE = 0.5  # s without a contact: the next one is another touch
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """
+    A heatmap at one moment.
+
+    Attributes
+    ----------
+    values : (v,)
+        In `unit`; NaN: no data.
+    unit : str
+    contacts : int
+        How many are in it.
+    """
+
+    values: NDArray[np.float64]
+    unit: str
+    contacts: int
+
+
+@dataclass(frozen=True)
+class Value:
+    """
+    What a frame says of one place.
+
+    Attributes
+    ----------
+    value : float
+        In `unit`; NaN: no data.
+    plus_minus : float
+        1 sigma, in `unit`: of a density, by the number of touches behind it; of a mean, the spread of what it is
+        the mean of; of a peak, the sensor's noise; NaN: unknown.
+    unit : str
+    """
+
+    value: float
+    plus_minus: float
+    unit: str
+
+
+class Playback:
+    """
+    Contacts on a probe, ready to be shown for any window of time and range of force.
+
+    Making one takes as long as a heatmap; its frames take milliseconds. Any thread may use it, one at a time.
+
+    Parameters
+    ----------
+    probe : Probe
+    contacts : Contacts
+        In order of time; see `in_order`.
+    bandwidth : float, optional
+        Standard deviation of the Gaussian, m; by default that of the contacts.
+
+    Raises
+    ------
+    HeatmapError
+        There is no contact, or the bandwidth does not suit the probe.
+    """
+
+    def __init__(self, probe: Probe, contacts: Contacts, bandwidth: float | None = None) -> None:
+        self.probe, self.contacts = probe, contacts
+        self.bandwidth = default_bandwidth(contacts.sigmas) if bandwidth is None else bandwidth
+        if not len(contacts.points):
+            raise HeatmapError("there is no contact to draw: touch the probe while recording.")
+        _check_bandwidth(probe, self.bandwidth)
+        self._bells = Bells(probe, contacts.points, self.bandwidth)
+        self._tops: dict[tuple[object, ...], float] = {}
+        self._masks: dict[tuple[object, ...], NDArray[np.bool_]] = {}
+        self._matrix = self._bells._bells.T.tocsr()
+        self._peaks = _Peaks(self._bells, len(probe.vertices))
+
+    @property
+    def duration(self) -> float:
+        """Of the recording, s; the last contact is not later."""
+        return max(self.contacts.duration, float(self.contacts.moments[-1]))
+
+    def unit(self, selection: Selection) -> str:
+        """Return the unit of a quantity, for people."""
+        return _UNITS.get(selection.quantity, _DENSITY_UNITS[selection.normalisation])
+
+    # ---- frames ----------------------------------------------------------------------------------
+
+    def frame(self, selection: Selection) -> Frame:
+        """
+        Return what a selection looks like; its bandwidth is not looked at.
+
+        Nothing selected is no error: every value is NaN then. HeatmapError: the contacts do not have the quantity.
+        """
+        rows, values = self._chosen(selection)
+        nothing = np.full(len(self.probe.vertices), np.nan)
+        if not len(rows):
+            return Frame(nothing, self.unit(selection), 0)
+        scale = _SCALES.get(selection.quantity, 1.0)
+        if selection.quantity == "density":
+            spread = self._spread(rows, self._weights(rows, selection))
+            result = np.where(spread > 0, scale * spread, np.nan)
+        elif values is None:
+            result = nothing
+        elif selection.quantity == "peak":
+            result = self._peaks.of(self._bells._source_of[rows], values[rows])
+        else:
+            result = scale * self._mean(rows, values[rows])
+        return Frame(result, self.unit(selection), len(rows))
+
+    def heatmap(self, selection: Selection) -> Heatmap:
+        """Return a frame as a heatmap, to be drawn."""
+        made = self.frame(selection)
+        return Heatmap(
+            self.probe,
+            made.values,
+            selection.quantity,
+            made.unit,
+            self.bandwidth,
+            selection.normalisation,
+            made.contacts,
+            float("nan"),
+            (),
+            self.contacts.counted,
+        )
+
+    def top(self, selection: Selection, window: float | None = None) -> float:
+        """
+        Return where the colours should end, so that every moment is drawn on one scale.
+
+        Parameters
+        ----------
+        window : float, optional
+            s: a window of this length will move through the selection's time; left out, it stays or grows.
+
+        Returns
+        -------
+        float
+            In the unit; 0 where there is no contact.
+        """
+        key = (selection, window)
+        if key not in self._tops:
+            self._tops[key] = max(
+                (_top(self.frame(part).values) for part in self._moments(selection, window)), default=0.0
+            )
+        return self._tops[key]
+
+    def at(self, selection: Selection, frame: Frame, face: int, point: NDArray[np.float64]) -> Value:
+        """Return what a frame of a selection says at a point (3,) of a facet, S, m."""
+        corners = self.probe.faces[face]
+        values = frame.values[corners]
+        shares = _shares(self.probe.vertices[corners], point)
+        known = np.isfinite(values) & (shares > 1e-9)
+        if not known.any():
+            return Value(float("nan"), float("nan"), frame.unit)
+        value = float((shares * np.nan_to_num(values))[known].sum() / shares[known].sum())
+        nearest = int(corners[np.argmax(np.where(known, shares, -1.0))])
+        return Value(value, self._plus_minus(selection, nearest), frame.unit)
+
+    # ---- what is in it ---------------------------------------------------------------------------
+
+    def _chosen(self, selection: Selection) -> tuple[NDArray[np.intp], NDArray[np.float64] | None]:
+        """Return the numbers of the contacts in a selection, and what each of all has of the quantity."""
+        values, use = shown(self.contacts, selection)
+        key = (selection.quantity, selection.least_force, selection.most_force)
+        if key not in self._masks:
+            self._masks = {key: use & force_mask(self.contacts, selection)}
+        moments = self.contacts.moments
+        first = 0 if selection.start is None else int(np.searchsorted(moments, selection.start, "left"))
+        last = (
+            len(moments) if selection.end is None else int(np.searchsorted(moments, selection.end, "right"))
+        )
+        return first + np.flatnonzero(self._masks[key][first:last]), values
+
+    def _weights(self, rows: NDArray[np.intp], selection: Selection) -> NDArray[np.float64]:
+        if selection.normalisation == "seconds":
+            return self.contacts.seconds[rows]
+        weights = np.ones(len(rows))
+        if selection.normalisation == "rate":
+            start, end = selection.start or 0.0, selection.end
+            length = min(np.inf if end is None else end, self.contacts.duration) - max(start, 0.0)
+            weights /= max(length if selection.timed else self.contacts.duration, 1e-9)
+        return weights
+
+    def _spread(self, rows: NDArray[np.intp], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+        sums = np.bincount(self._bells._source_of[rows], weights, minlength=self._matrix.shape[1])
+        spread: NDArray[np.float64] = self._matrix @ sums
+        return spread
+
+    def _mean(self, rows: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:
+        total = self._spread(rows, np.ones(len(rows)))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            mean = self._spread(rows, values) / total
+        # as the heatmap has it: a mean lies among its values, whatever rounding says far out in the bells
+        return np.where(total > 0, np.clip(mean, values.min(initial=0), values.max(initial=0)), np.nan)
+
+    def _moments(self, selection: Selection, window: float | None) -> list[Selection]:
+        start = selection.start or 0.0
+        end = self.duration if selection.end is None else selection.end
+        if window is None or window >= end - start:
+            return [selection]
+        return [
+            replace(selection, start=float(at), end=float(at) + window)
+            for at in np.linspace(start, end - window, _WINDOWS)
+        ]
+
+    # ---- how sure --------------------------------------------------------------------------------
+
+    def _plus_minus(self, selection: Selection, vertex: int) -> float:
+        """Return 1 sigma at a vertex, in the unit; NaN: unknown."""
+        rows, values = self._chosen(selection)
+        if selection.quantity == "peak":
+            noise = self.contacts.noise
+            return (
+                float("nan")
+                if noise is None
+                else float(np.sqrt(np.linalg.eigvalsh(noise.covariance[:3, :3])[-1]))
+            )
+        begin, end = self._matrix.indptr[vertex : vertex + 2]
+        heights = np.zeros(self._matrix.shape[1])
+        heights[self._matrix.indices[begin:end]] = self._matrix.data[begin:end]
+        bell = heights[self._bells._source_of[rows]]
+        scale = _SCALES.get(selection.quantity, 1.0)
+        if selection.quantity == "density":
+            # samples of one touch say the same thing: what counts is how many touches there were
+            each = np.bincount(self._touch_of[rows], bell * self._weights(rows, selection))
+            return scale * float(np.sqrt(each @ each))
+        if values is None or not bell.sum() > 0:
+            return float("nan")
+        mean = float(np.average(values[rows], weights=bell))
+        return scale * float(np.sqrt(np.average((values[rows] - mean) ** 2, weights=bell)))
+
+    @cached_property
+    def _touch_of(self) -> NDArray[np.intp]:
+        """(n,) number of the touch that each contact belongs to."""
+        if self.contacts.counted == "touches":
+            return np.arange(len(self.contacts.points))
+        return np.concatenate([[0], np.cumsum(np.diff(self.contacts.moments) > _PAUSE)])
+
+
+class _Peaks:
+    """The largest value within one bandwidth, by pairs of a vertex and a source in order of the vertices."""
+
+    def __init__(self, bells: Bells, count: int) -> None:
+        rows, vertices, distances = bells._reached
+        near = distances <= bells._bandwidth
+        corners = bells._probe.faces[bells._faces]
+        sources = np.concatenate([rows[near], np.repeat(np.arange(len(corners)), 3)])
+        vertices = np.concatenate([vertices[near], corners.ravel()])
+        order = np.argsort(vertices, kind="stable")
+        self._sources, self._count, self._there = sources[order], len(corners), count
+        self._vertices, self._begins = np.unique(vertices[order], return_index=True)
+
+    def of(self, source_of: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:
+        largest = np.full(self._count, -np.inf)
+        np.maximum.at(largest, source_of, values)
+        result = np.full(self._there, np.nan)
+        found = np.maximum.reduceat(largest[self._sources], self._begins)
+        result[self._vertices] = np.where(np.isfinite(found), found, np.nan)
+        return result
+
+
+def _top(values: NDArray[np.float64]) -> float:
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return 0.0
+    high, largest = float(np.percentile(known, _TOP)), float(known.max())
+    return high if 0 < high < _NEARLY * largest else largest
+
+
+def _shares(corners: NDArray[np.float64], point: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the barycentric weights (3,) of a point on a facet."""
+    a, b, c = corners
+    normal = np.cross(b - a, c - a)
+    parts = np.array(
+        [
+            np.cross(c - b, point - b) @ normal,
+            np.cross(a - c, point - c) @ normal,
+            np.cross(b - a, point - a) @ normal,
+        ]
+    )
+    parts = np.clip(parts, 0.0, None)
+    total = parts.sum()
+    return parts / total if total > 0 else np.full(3, 1 / 3)

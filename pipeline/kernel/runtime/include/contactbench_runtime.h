@@ -1,0 +1,127 @@
+/* Where the probe is touched, from a force-torque sensor, in a controller's own loop.
+ *
+ * A bundle is the folder that contactbench exports: contactbench.json, probe.ply and what else it names. A zip
+ * archive is unpacked first.
+ *
+ * Units: N, N*m, m, s; the sensor's frame S. R_WS turns S into W (v_W = R_WS v_S), row major.
+ * W: the frame that the orientations of the calibration were given in, normally the robot's base. It need not be
+ * level: the bundle holds gravity in it. R_WS from any other frame leaves part of the tool's weight in the force.
+ * Threads: one cb_runtime serves one stream; different ones are independent.
+ * Memory: nothing is allocated or freed between cb_open and cb_close.
+ * No function throws; NULL is refused, never followed.
+ */
+#ifndef CONTACTBENCH_RUNTIME_H
+#define CONTACTBENCH_RUNTIME_H
+
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define CB_API __attribute__((visibility("default")))
+#else
+#define CB_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define CB_RUNTIME_VERSION "1.0.0"
+#define CB_BUNDLE_VERSION 1 /* of contactbench.json */
+
+typedef struct cb_runtime cb_runtime;
+
+/* What cb_open, or a wrong call, says. */
+enum {
+    CB_OK = 0,
+    CB_ERROR_ARGUMENT = 1,  /* NULL, or a struct of a size this library does not know */
+    CB_ERROR_FILE = 2,      /* missing, unreadable or too large */
+    CB_ERROR_JSON = 3,      /* contactbench.json is not well-formed */
+    CB_ERROR_SCHEMA = 4,    /* another schema, or a field missing, unknown or of the wrong type */
+    CB_ERROR_VERSION = 5,   /* written by another version */
+    CB_ERROR_VALUE = 6,     /* out of range, or without physical sense */
+    CB_ERROR_HASH = 7,      /* a file is not the one that was exported */
+    CB_ERROR_MESH = 8,      /* probe.ply is not a mesh, or not the one described */
+    CB_ERROR_MEMORY = 9,
+    CB_ERROR_PROCESSOR = 10 /* the library was built for a newer one */
+};
+
+/* Why a contact was, or was not, given: cb_contact.reason. Act only where cb_update returned CB_OK and the reason is
+ * CB_OK_FACET or CB_VERTEX. */
+enum {
+    CB_NO_ANSWER = -1, /* no sample was looked at: cb_update was not called, or failed */
+    CB_OK_FACET = 0,
+    CB_VERTEX = 1,
+    CB_AMBIGUOUS = 2, /* another contact cannot be ruled out; the likeliest is given */
+    CB_LOW_FORCE = 3,
+    CB_TANGENTIAL = 4,
+    CB_OFF_SURFACE = 5,
+    CB_OUTSIDE_REGION = 6,
+    CB_SATURATED = 7,      /* a raw channel is at its limit; the filters hold */
+    CB_STALE = 8,          /* the time did not increase; the sample was not used (but see cb_reset) */
+    CB_NOT_FINITE = 9,     /* NaN or infinity in the sample; it was not used. Also for what a sensor flags: give NaN */
+    CB_NOT_A_ROTATION = 10 /* R_WS is off by more than 1e-3; the sample was not used */
+};
+
+/* Start as CB_ERROR_INIT, or give NULL. `message` names the file, the field and the remedy. Where `size` is not
+ * sizeof(cb_error), cb_open returns NULL and writes nothing: not a word of why. */
+typedef struct {
+    uint32_t size;
+    int32_t code;
+    char message[512];
+} cb_error;
+
+/* Start as CB_CONTACT_INIT: zeros would read as a contact. NaN and -1 stand for what there is none of. */
+typedef struct {
+    uint32_t size;
+    int32_t reason;
+    int32_t face, vertex; /* vertex: when the contact is on one */
+    int32_t region;       /* rank, 0 for none */
+    int32_t candidates;   /* the chosen one included */
+    double time;
+    double point[3], normal[3];       /* outward */
+    double torque_about_normal;       /* local torque k on the probe, k * normal */
+    double force[3], torque[3];       /* on the probe, about the origin of S: compensated, filtered */
+    double covariance[9];             /* of `point`, m^2 */
+    double filtered_point[3];         /* low-passed; held while contact is lost for a moment */
+    double runner_up_distance;        /* to the likeliest other candidate */
+} cb_contact;
+
+#define CB_ERROR_INIT {sizeof(cb_error), CB_OK, ""}
+#define CB_CONTACT_INIT                                                                                             \
+    {                                                                                                               \
+        sizeof(cb_contact), CB_NO_ANSWER, -1, -1, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0}, 0.0     \
+    }
+
+/* Set `size` to sizeof(cb_info). */
+typedef struct {
+    uint32_t size;
+    int32_t verified; /* 1: the figures of this probe were measured and passed */
+    int32_t facets, vertices;
+    double rate_Hz; /* what your samples have to come at: filters, noise and figures belong to it */
+    double max_age_s, max_force_N, max_torque_Nm;
+    char sensor_model[128], sensor_serial[128], probe[128]; /* cut short where they are longer */
+} cb_info;
+
+/* Returns NULL after a failure, with `error` filled in. */
+CB_API cb_runtime* cb_open(const char* bundle_folder, cb_error* error);
+/* One raw reading Fx Fy Fz Mx My Mz. Returns CB_OK when `contact` was filled in: its reason says the rest. After a
+ * failure its reason is CB_NO_ANSWER, and nothing else of it was written. */
+CB_API int cb_update(cb_runtime* runtime, const double wrench[6], const double R_WS[9], double time,
+                     cb_contact* contact);
+/* R_WS from the flange's orientation R_WE, by the mounting that the bundle holds; CB_ERROR_VALUE where it holds
+ * none and R_WS has to come from elsewhere. */
+CB_API int cb_sensor_rotation(const cb_runtime* runtime, const double R_WE[9], double R_WS[9]);
+CB_API int cb_describe(const cb_runtime* runtime, cb_info* info);
+/* The next sample is a first one, whatever its time: after a clock was set, or the tool was changed. A time that lies
+ * in the future makes those after it stale; once stale times have increased without a break for 50 samples, or
+ * for longer than max_age_s, the stream starts anew by itself. */
+CB_API int cb_reset(cb_runtime* runtime);
+CB_API void cb_close(cb_runtime* runtime);
+CB_API const char* cb_version(void);
+CB_API const char* cb_reason_name(int reason);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

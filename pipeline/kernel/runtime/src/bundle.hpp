@@ -1,0 +1,19 @@
+// A bundle's folder: its files read once, their hashes checked, its probe built.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "config.hpp"
+
+namespace contactbench::runtime {
+
+struct Bundle {
+    Config config;
+    std::shared_ptr<const Model> model;
+};
+
+// Throws LoadError, or std::bad_alloc.
+Bundle load_bundle(const std::string& folder);
+
+}  // namespace contactbench::runtime

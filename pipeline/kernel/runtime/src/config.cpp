@@ -1,0 +1,248 @@
+#include "config.hpp"
+
+#include <cmath>
+
+#include "fields.hpp"
+#include "physics.hpp"
+
+namespace contactbench::runtime {
+
+namespace {
+
+Vec3 three(const std::vector<double>& v, std::size_t i = 0) { return {v[i], v[i + 1], v[i + 2]}; }
+
+void read_kind(const Json& root) {
+    const Json* schema = root.find("schema");
+    const Json* version = root.find("version");
+    if (!schema || schema->type != Json::Type::text || schema->text != "contactbench.runtime")
+        fail(CB_ERROR_SCHEMA, "schema", "this is no runtime config of contactbench");
+    if (!version || version->type != Json::Type::integer) fail(CB_ERROR_SCHEMA, "version", "not a whole number");
+    if (version->integer != CB_BUNDLE_VERSION)
+        fail(CB_ERROR_VERSION, "version",
+             std::to_string(version->integer) + ", and this library reads " + std::to_string(CB_BUNDLE_VERSION) +
+                 ": update the older of the two");
+}
+
+void read_units(const Json& json) {
+    const Fields f(json, "units", {"force", "torque", "length", "time", "angle"});
+    f.literal("force", "N"), f.literal("torque", "N*m"), f.literal("length", "m");
+    f.literal("time", "s"), f.literal("angle", "rad");
+}
+
+void read_frames(const Json& json, Config& c) {
+    const Fields f(json, "frames", {"sensor", "world", "rotation", "wrench", "quaternion_ES"});
+    f.literal("sensor", "S"), f.literal("world", "W, z up");
+    f.literal("rotation", "R_WS: v_W = R_WS v_S");
+    f.literal("wrench", "what the tissue does to the probe, about the origin of S");
+    if (f.is_null("quaternion_ES")) return;
+    const auto q = f.numbers("quaternion_ES", 4);
+    const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(std::fabs(size - 1.0) <= 1e-9)) fail(CB_ERROR_VALUE, f.path("quaternion_ES"), "its length is not 1");
+    const double w = q[0] / size, x = q[1] / size, y = q[2] / size, z = q[3] / size;
+    c.R_ES = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+              2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+              2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+}
+
+void read_sensor(const Json& json, Config& c) {
+    const Fields f(json, "sensor", {"model", "serial", "rate_Hz"});
+    c.sensor_model = f.text("model"), c.sensor_serial = f.text("serial");
+    c.rate = f.number("rate_Hz", positive);
+}
+
+std::vector<double> read_gravity(const Json& json, Config& c) {
+    const Fields f(json, "gravity",
+                   {"gravity_W_N", "force_bias_N", "centre_of_mass_S_m", "torque_bias_Nm", "covariance"});
+    c.settings.gravity = {three(f.numbers("gravity_W_N", 3)), three(f.numbers("force_bias_N", 3)),
+                          three(f.numbers("centre_of_mass_S_m", 3)), three(f.numbers("torque_bias_Nm", 3))};
+    auto covariance = f.matrix("covariance", 12, 12);
+    check_covariance("gravity.covariance", covariance, 12);
+    check_gravity(c.settings.gravity, covariance);
+    return covariance;
+}
+
+void read_wrench_filter(const Json& json, Config& c) {
+    if (json.type == Json::Type::null) return;
+    const Fields f(json, "filters.wrench", {"kind", "rate_Hz", "q", "r", "tuned_rate_Hz", "per_sample"});
+    f.literal("kind", "kalman");
+    c.settings.filter_wrench = true;
+    c.settings.kalman = {f.number("rate_Hz", positive), f.number("q", positive), f.number("r", positive),
+                         f.number("tuned_rate_Hz", positive), f.flag("per_sample")};
+}
+
+void read_low_pass(const Json& json, Config& c) {
+    if (json.type == Json::Type::null) return;
+    const Fields f(json, "filters.location", {"kind", "rate_Hz", "cutoff_Hz", "order", "sections"});
+    f.literal("kind", "lowpass");
+    const double rate = f.number("rate_Hz", positive), cutoff = f.number("cutoff_Hz", positive);
+    const std::int64_t order = f.integer("order", 1, 8);
+    const std::size_t count = f.array("sections", 1, 4).size();
+    const auto v = f.matrix("sections", count, 6);
+    for (std::size_t i = 0; i < v.size(); i += 6)
+        c.settings.sections.push_back({{v[i], v[i + 1], v[i + 2]}, {v[i + 3], v[i + 4], v[i + 5]}});
+    check_low_pass(c.settings.sections, rate, cutoff, int(order));
+}
+
+void read_noise(const Json& json, Config& c, const std::vector<double>& calibration) {
+    const Fields f(json, "noise", {"force_N", "torque_Nm", "wrench_covariance"});
+    const auto force = f.numbers("force_N", 3, not_negative), torque = f.numbers("torque_Nm", 3, not_negative);
+    const auto s = f.matrix("wrench_covariance", 6, 6);
+    check_covariance("noise.wrench_covariance", s, 6);
+    std::copy(s.begin(), s.end(), &c.settings.noise.s[0][0]);
+    check_noise(force, torque, c.settings, calibration);
+}
+
+void read_gates(const Json& json, Gates& g) {
+    const Fields f(json, "gates",
+                   {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "torque_ratio", "rival_sigmas",
+                    "follow_distance_m", "recent_samples", "max_age_s", "saturation", "region_only"});
+    g.min_force = f.number("min_force_N", not_negative);
+    const double angle = f.number("friction_angle_rad", {0.0, 1.5708, true});
+    // By way of degrees, in whole 90 of them: as the Python runtime does, to the last bit.
+    const double degrees = angle * (180.0 / M_PI);
+    if (!(degrees < 90.0)) fail(CB_ERROR_VALUE, f.path("friction_angle_rad"), "not below a right angle");
+    g.cos_friction = std::cos(degrees * (M_PI / 180.0));
+    g.ambiguity_distance = f.number("ambiguity_distance_m", not_negative);
+    g.torque_ratio = f.number("torque_ratio", {1.0, 1e9});
+    g.rival_sigmas = f.number("rival_sigmas", not_negative);
+    g.follow_distance = f.number("follow_distance_m", not_negative);
+    g.recent_samples = f.integer("recent_samples", 0, 2147483647);
+    g.max_age = f.number("max_age_s", not_negative);
+    const auto limits = f.limits("saturation", 6, HUGE_VAL);
+    std::copy(limits.begin(), limits.end(), g.saturation);
+    g.region_only = f.flag("region_only");
+}
+
+void read_probe_part(const Json& json, Config& c) {
+    const Fields f(json, "probe", {"file", "name", "facets", "vertices", "bounds_S_m"});
+    c.probe_file = f.file("file");
+    if (c.probe_file != "probe.ply") fail(CB_ERROR_VALUE, f.path("file"), "not 'probe.ply'");
+    c.probe_name = f.text("name");
+    c.facets = std::size_t(f.integer("facets", 4, 2'000'000));
+    c.vertices = std::size_t(f.integer("vertices", 4, 2'000'000));
+    const auto bounds = f.matrix("bounds_S_m", 2, 3);
+    c.low = three(bounds), c.high = three(bounds, 3);
+}
+
+void read_regions(const std::vector<Json>& rows, Config& c) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Fields f(rows[i], "regions[" + std::to_string(i) + "]", {"rank", "name", "colour", "facets"});
+        c.regions.push_back({f.integer("rank", 1, 1000), f.integer("facets", 0, 2147483647)});
+        if (c.regions.back().rank != std::int64_t(i) + 1) fail(CB_ERROR_VALUE, f.path("rank"), "not 1, 2 and so on");
+        f.text("name");
+        const std::string colour = f.text("colour");
+        if (colour.size() != 7 || colour[0] != '#' ||
+            colour.find_first_not_of("0123456789abcdef", 1) != std::string::npos)
+            fail(CB_ERROR_VALUE, f.path("colour"), "not like #1f77b4");
+    }
+}
+
+void read_planes(const Json& json, Config& c) {
+    const Fields f(json, "planes", {"file", "count"});
+    if (f.file("file") != "planes.csv") fail(CB_ERROR_VALUE, f.path("file"), "not 'planes.csv'");
+    c.planes = std::size_t(f.integer("count", 0, 2147483647));
+}
+
+void read_controller(const Json& json) {
+    if (json.type == Json::Type::null) return;
+    const Fields f(json, "controller",
+                   {"desired_force_N", "force_mass_kg", "force_damping_Nspm", "force_stiffness_Npm",
+                    "angle_inertia", "angle_damping", "angle_stiffness"});
+    for (const char* name :
+         {"desired_force_N", "force_mass_kg", "force_damping_Nspm", "angle_inertia", "angle_damping"})
+        f.number(name, positive);
+    f.number("force_stiffness_Npm", not_negative), f.number("angle_stiffness", not_negative);
+}
+
+void read_limits(const Json& json, Config& c) {
+    const Fields f(json, "limits", {"max_force_N", "max_torque_Nm", "max_speed_mps", "max_turn_radps"});
+    c.max_force = f.number("max_force_N", positive), c.max_torque = f.number("max_torque_Nm", positive);
+    for (const char* name : {"max_speed_mps", "max_turn_radps"})
+        if (!f.is_null(name)) f.number(name, positive);
+}
+
+// Returns whether it passed.
+bool read_verification(const Json& json) {
+    if (json.type == Json::Type::null) return false;
+    const Fields f(json, "verification",
+                   {"touches", "markers", "mean_error_m", "sd_error_m", "p95_error_m", "max_error_m", "ratio",
+                    "p99_time_s", "limit_mean_m", "limit_max_m", "passed", "diagnosis"});
+    for (const char* name : {"touches", "markers"}) f.integer(name, 0, 2147483647);
+    for (const char* name : {"mean_error_m", "sd_error_m", "p95_error_m", "max_error_m"}) f.number(name, not_negative);
+    for (const char* name : {"ratio", "p99_time_s"})
+        if (!f.is_null(name)) f.number(name, not_negative);
+    for (const char* name : {"limit_mean_m", "limit_max_m"}) f.number(name, positive);
+    f.text("diagnosis", 10'000);
+    const bool within = f.number("mean_error_m") <= f.number("limit_mean_m") &&
+                        f.number("max_error_m") <= f.number("limit_max_m");
+    const bool passed = f.flag("passed");
+    return passed && within;
+}
+
+bool is_time(std::string_view text) {
+    constexpr std::string_view shape = "0000-00-00T00:00:00Z";
+    if (text.size() != shape.size()) return false;
+    for (std::size_t i = 0; i < shape.size(); ++i)
+        if (shape[i] == '0' ? text[i] < '0' || text[i] > '9' : text[i] != shape[i]) return false;
+    return true;
+}
+
+// Returns whether nothing was stale.
+bool read_provenance(const Json& json, Config& c) {
+    const Fields f(json, "provenance",
+                   {"created", "tool", "operator", "session", "files", "sources", "stale"});
+    if (!is_time(f.text("created"))) fail(CB_ERROR_VALUE, f.path("created"), "not like 2026-01-02T03:04:05Z");
+    f.text("tool"), f.text("operator");
+    if (!f.is_null("session")) f.text("session");
+    const Json& files = f.at("files");
+    if (files.type != Json::Type::object || files.members.empty() || files.members.size() > 50)
+        fail(CB_ERROR_SCHEMA, f.path("files"), "not an object of 1 to 50 files");
+    for (const auto& [name, hash] : files.members) {
+        if (!is_file_name(name)) fail(CB_ERROR_VALUE, f.path("files"), "holds a name that is no file of a bundle");
+        if (hash.type != Json::Type::text || !is_hash(hash.text))
+            fail(CB_ERROR_VALUE, f.path("files") + "." + name, "not a SHA-256");
+        c.files.emplace_back(name, hash.text);
+    }
+    const auto& sources = f.array("sources", 0, 200);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const Fields s(sources[i], "provenance.sources[" + std::to_string(i) + "]", {"role", "name", "sha256"});
+        s.text("role"), s.text("name"), s.hash("sha256");
+    }
+    for (const Json& item : f.array("stale", 0, 100)) to_text(item, f.path("stale"), 1000);
+    return f.array("stale", 0, 100).empty();
+}
+
+}  // namespace
+
+Config read_config(std::string_view text) {
+    const Json root = parse_json(text);
+    if (root.type != Json::Type::object) fail(CB_ERROR_JSON, "the file", "not an object");
+    read_kind(root);
+    const Fields f(root, "",
+                   {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates",
+                    "probe", "regions", "planes", "controller", "limits", "verification", "verified",
+                    "provenance"});
+    Config c;
+    read_units(f.at("units"));
+    read_frames(f.at("frames"), c);
+    read_sensor(f.at("sensor"), c);
+    const auto calibration = read_gravity(f.at("gravity"), c);
+    const Fields filters(f.at("filters"), "filters", {"wrench", "location"});
+    read_wrench_filter(filters.at("wrench"), c);
+    read_low_pass(filters.at("location"), c);
+    read_noise(f.at("noise"), c, calibration);
+    read_gates(f.at("gates"), c.settings.gates);
+    read_probe_part(f.at("probe"), c);
+    read_regions(f.array("regions", 0, 1000), c);
+    read_planes(f.at("planes"), c);
+    read_controller(f.at("controller"));
+    read_limits(f.at("limits"), c);
+    const bool passed = read_verification(f.at("verification"));
+    const bool fresh = read_provenance(f.at("provenance"), c);
+    c.verified = f.flag("verified");
+    if (c.verified && !(passed && fresh))
+        fail(CB_ERROR_VALUE, "verified", "true, but the verification is missing, did not pass, or is stale");
+    return c;
+}
+
+}  // namespace contactbench::runtime

@@ -1,0 +1,58 @@
+// contactbench-no_allocation BUNDLE SAMPLES: counts what the heap is asked for between cb_open and cb_close, and
+// fails if it is anything. malloc itself is counted, so nothing can go past operator new.
+#include <cstdio>
+#include <cstdlib>
+
+#include "contactbench_runtime.h"
+#include "samples.hpp"
+
+namespace {
+long requests = 0;
+bool counting = false;
+}  // namespace
+
+// glibc's own names: these definitions stand in front of malloc for the whole process.
+extern "C" {
+void* __libc_malloc(size_t);
+void* __libc_calloc(size_t, size_t);
+void* __libc_realloc(void*, size_t);
+void* __libc_memalign(size_t, size_t);
+void __libc_free(void*);
+#define COUNTED __attribute__((visibility("default")))
+COUNTED void* malloc(size_t n) { return requests += counting, __libc_malloc(n); }
+COUNTED void* calloc(size_t n, size_t size) { return requests += counting, __libc_calloc(n, size); }
+COUNTED void* realloc(void* p, size_t n) { return requests += counting, __libc_realloc(p, n); }
+COUNTED void* aligned_alloc(size_t to, size_t n) { return requests += counting, __libc_memalign(to, n); }
+COUNTED void* memalign(size_t to, size_t n) { return requests += counting, __libc_memalign(to, n); }
+COUNTED void free(void* p) { requests += counting && p, __libc_free(p); }
+}
+
+int main(int argc, char** argv) {
+    if (argc != 3) return 2;
+    cb_error error{};
+    error.size = sizeof error;
+    counting = true;
+    cb_runtime* runtime = cb_open(argv[1], &error);
+    counting = false;
+    const long opening = requests;
+    const auto samples = read_samples(argv[2]);
+    if (!runtime || samples.empty() || opening == 0) {
+        std::fprintf(stderr, "%s\n", runtime ? "no samples, or nothing was counted" : error.message);
+        return 2;
+    }
+    cb_contact contact{};
+    contact.size = sizeof contact;
+    long crowded = 0;
+    requests = 0;
+    counting = true;
+    for (const Sample& s : samples) {
+        cb_update(runtime, s.wrench, s.R_WS, s.time, &contact);
+        crowded += contact.candidates > 4;
+    }
+    cb_reset(runtime);
+    counting = false;
+    std::printf("%ld requests in cb_open, %ld in %zu updates, %ld of them with more than four candidates\n", opening,
+                requests, samples.size(), crowded);
+    cb_close(runtime);
+    return requests == 0 ? 0 : 1;
+}

@@ -1,0 +1,7 @@
+"""What is wrong with a report's input."""
+
+from pipeline.errors import InputError
+
+
+class ReportError(InputError):
+    """No report can be made; the message says why and what to do."""

@@ -1,0 +1,257 @@
+"""What a report says in tables: numbers as text."""
+
+from __future__ import annotations
+
+from datetime import UTC
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import scipy
+
+from pipeline import __version__
+from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
+from pipeline.calibration.wording import plain, signed, with_sigma
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pipeline.calibration.files.calibration_file import CalibrationRecord
+    from pipeline.mesh.sidecar import ProbeFile
+    from pipeline.verification.figures import ForceAccuracy, Summary, TouchFigure, Verification
+
+MOST_TOUCHES = 400  # rows of the last table
+NOTHING = "\N{EN DASH}"
+# Of a verification's settings: how they are called on the page. What is not here is shown by its own name.
+_SETTINGS = {
+    "windows": "force windows, N",
+    "samples": "samples of a touch",
+    "repeats": "touches wanted of each marker",
+    "order": "order of the markers",
+    "touch_N": "touched above, N",
+    "release_N": "released below, N",
+    "settle_s": "time to settle, s",
+    "steady_N": "steady within, N",
+    "slip_m": "slipped beyond, m",
+    "gap_s": "longest gap, s",
+    "noise_force": "noise of a force sample, N",
+    "noise_torque": "noise of a torque sample, N·m",
+    "resamples": "resamples of the bootstrap",
+    "seed": "seed of the bootstrap",
+    "rate_hz": "readings a second, Hz",
+}
+_UNSAID = {
+    "noise_force": "measured within the touches",
+    "noise_torque": "measured within the touches",
+    "order": "any",
+    "filters": "none",
+    "mount": "none given: the sensor is not turned against the flange",
+}
+
+
+def tiles(verification: Verification) -> list[tuple[str, str]]:
+    """Return the main numbers, each with a sentence."""
+    limits, overall, times = verification.limits, verification.overall, verification.times
+    if overall is None:
+        return []
+    found = [
+        (
+            f"{overall.mean_mm:.2f} mm",
+            f"mean error; the limit is {1e3 * limits.mean_m:g} mm{_interval(verification)}",
+        ),
+        (f"{overall.max_mm:.2f} mm", f"largest error; the limit is {1e3 * limits.max_m:g} mm"),
+    ]
+    if verification.ratio is not None:
+        words = "times the error that the sensor's noise and the calibration explain (1 would be perfect)"
+        found.append((f"{verification.ratio:.1f} ×", words))
+    if times is not None:
+        words = f"to find one contact, in 99 of 100 cases; the limit is {1e3 * limits.p99_s:g} ms"
+        found.append((f"{1e6 * times.p99_s:.0f} µs", words))
+    if verification.force is not None:
+        found.append(_force_tile(verification.force))
+    return found
+
+
+def _force_tile(force: ForceAccuracy) -> tuple[str, str]:
+    """Return the mean deviation of the force, and how many touches, the largest and the share in words."""
+    of = f" of {force.of}" if force.of > force.touches else ""
+    touches = f"{force.touches}{of} touch{'es' * (max(force.touches, force.of) != 1)}"
+    scatter = f", ± {_number(force.sd_N)} N" if force.touches > 1 else ""
+    words = (
+        f"deviation of the force from the reference{scatter}; largest {force.max_N:.2f} N, {force.rms_percent:.1f} %"
+        f" (rms) of the force, over {touches}"
+    )
+    return f"{signed(f'{force.mean_N:.2f}')} N", words
+
+
+def _interval(verification: Verification) -> str:
+    if verification.ci is None:
+        return ""
+    low, high = verification.ci.mean_mm
+    return f"; with {100 * verification.ci.level:g} % confidence {low:.2f} to {high:.2f} mm"
+
+
+def summaries(verification: Verification) -> list[tuple[str, list[dict[str, str]]]]:
+    """Return tables of errors: a title and rows. Those with one row say nothing that is not in the first."""
+    tables = [
+        ("marker", verification.per_marker),
+        ("repeat", verification.per_repeat),
+        ("force", verification.per_force),
+        ("angle to the surface's normal", verification.per_angle),
+    ]
+    found = [
+        (title, [_summary(each) for each in rows])
+        for title, rows in tables
+        if len(rows) > 1 or title == "marker"
+    ]
+    if verification.overall is not None and found:
+        found[0][1].append(_summary(verification.overall) | {"name": "all", "last": "yes"})
+    return found
+
+
+def _summary(each: Summary) -> dict[str, str]:
+    numbers: dict[str, float | None] = {"mean": each.mean_mm, "p95": each.p95_mm, "max": each.max_mm}
+    numbers |= {"bias": float(np.linalg.norm(each.bias_mm)), "sd": each.sd_mm, "scatter": each.scatter_mm}
+    if each.touches < 2:  # one touch has no spread, and its 95 % are the touch itself
+        numbers |= {"sd": None, "scatter": None, "p95": None}
+    return {"name": each.name, "touches": str(each.touches), "last": ""} | {
+        name: _number(value) for name, value in numbers.items()
+    }
+
+
+def settings_rows(settings: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return how it was verified, one row for each setting; what is grouped stands beside its group's name."""
+    rows = []
+    for name, value in settings.items():
+        if isinstance(value, dict) and name not in _UNSAID:
+            inner = settings_rows(value)
+            rows += (
+                inner if name == "protocol" else [(f"{_called(name)}: {row}", said) for row, said in inner]
+            )
+        else:
+            said = _UNSAID.get(name, NOTHING) if value in (None, [], (), {}) else _value(value)
+            rows.append((_called(name), said))
+    return rows
+
+
+def _called(name: str) -> str:
+    return _SETTINGS.get(name, name.replace("_", " "))
+
+
+def versions() -> list[tuple[str, str]]:
+    """Return what computed this: packages and their versions."""
+    return [
+        ("contactbench and its kernel", __version__),
+        ("numpy", np.__version__),
+        ("scipy", scipy.__version__),
+    ]
+
+
+def vector_words(verification: Verification) -> str:
+    """Return the bias that all touches share and the scatter about it, in a sentence."""
+    overall, ci = verification.overall, verification.ci
+    if overall is None:
+        return ""
+    parts = []
+    for number, (name, value) in enumerate(zip("xyz", overall.bias_mm, strict=True)):
+        range_ = ""
+        if ci is not None:
+            low, high = (signed(f"{end:.2f}") for end in ci.bias_mm[number])
+            range_ = f" ({low} to {high})"
+        parts.append(f"{name} {signed(f'{value:.2f}')}{range_}")
+    size = float(np.linalg.norm(overall.bias_mm))
+    shift = f"{size:.2f} mm in the sensor frame: {', '.join(parts)} mm."
+    if overall.touches < 2:
+        return f"The one touch is off by {shift}"
+    words = f"On average the touches are off by {shift}"
+    return f"{words} About that the points scatter by {_number(overall.scatter_mm)} mm (rms)."
+
+
+def _number(value: float | None) -> str:
+    return NOTHING if value is None else f"{value:.2f}"
+
+
+def touch_rows(verification: Verification) -> list[dict[str, Any]]:
+    """Return the rows of the table of touches, rejected ones too."""
+    return [_touch(touch) for touch in verification.touches[:MOST_TOUCHES]]
+
+
+def _touch(touch: TouchFigure) -> dict[str, Any]:
+    error = touch.error_mm
+    return {
+        "number": touch.number,
+        "marker": touch.marker or "",
+        "force": f"{touch.force_N:.1f}",
+        "angle": "" if touch.angle_deg is None else f"{touch.angle_deg:.0f}",
+        "error": "" if error is None else " / ".join(signed(f"{value:.2f}") for value in error),
+        "distance": "" if touch.distance_mm is None else f"{touch.distance_mm:.2f}",
+        "predicted": "" if touch.predicted_mm is None else f"{touch.predicted_mm:.2f}",
+        "reason": "" if touch.accepted else touch.reason or "rejected",
+    }
+
+
+def calibration_facts(record: CalibrationRecord) -> dict[str, Any]:
+    """Return what the page says of the calibration."""
+    calibration, created = record.calibration, record.created
+    sigma = np.sqrt(np.diag(calibration.covariance))
+    model = calibration.model
+    rows = [("mass of probe and holder", "kg", [with_sigma(model.mass, model.mass_sigma)])]
+    for name, unit, part, scale in (
+        ("centre of mass", "mm", CENTRE_OF_MASS, 1e3),
+        ("force offset", "N", FORCE_BIAS, 1.0),
+        ("torque offset", "mN·m", TORQUE_BIAS, 1e3),
+    ):
+        pairs = zip(scale * model.vector[part], scale * sigma[part], strict=True)
+        rows.append((name, unit, [with_sigma(float(value), float(s)) for value, s in pairs]))
+    return {
+        "word": {"good": "good", "usable": "usable", "refuse": "refused"}[calibration.verdict.level.value],
+        "reasons": calibration.verdict.reasons,
+        "rows": rows,
+        "poses": len(calibration.poses),
+        "used": int(calibration.kept.sum()),
+        "share": plain(1e3 * calibration.contact_error),
+        "created": None if created is None else created.astimezone(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "tool": record.tool,
+        "source": record.source,
+    }
+
+
+def mesh_steps(content: ProbeFile) -> list[dict[str, str]]:
+    """Return the mesh's history: step, what was asked for, what came of it."""
+    return [
+        {
+            "step": str(entry.get("step", "")),
+            "asked": _words(entry.get("parameters")),
+            "result": _words(entry.get("result")),
+            "facets": str((entry.get("output") or {}).get("facets", "")),
+            "tool": str(entry.get("tool", "")),
+        }
+        for entry in content.history
+        if isinstance(entry.get("output") or {}, dict)
+    ]
+
+
+_LONGEST = 240
+
+
+def _words(value: Any) -> str:
+    if not isinstance(value, dict):
+        return ""
+    words = "; ".join(
+        f"{name.replace('_', ' ')} {_value(each)}"
+        for name, each in value.items()
+        if each not in (None, [], {}, "")
+    )
+    return words if len(words) <= _LONGEST else f"{words[:_LONGEST]}…"
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, dict):
+        return ", ".join(f"{name.replace('_', ' ')} {_value(each)}" for name, each in value.items())
+    if isinstance(value, list | tuple):
+        pair = len(value) == 2 and all(isinstance(each, int | float) for each in value)
+        return (" to " if pair else ", ").join(map(_value, value))
+    return str(value)

@@ -1,0 +1,155 @@
+"""
+A verification as one HTML page for people who have never seen the program.
+
+The page needs nothing beside itself: no script, no font, no other file. The same content gives the same bytes.
+"""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import dataclass, field
+from datetime import UTC
+from typing import TYPE_CHECKING, Any
+
+from pipeline import __version__
+from pipeline.mesh.regions.exchange import mesh_hash
+from pipeline.report.errors import ReportError
+from pipeline.report.facts import (
+    calibration_facts,
+    mesh_steps,
+    settings_rows,
+    summaries,
+    tiles,
+    touch_rows,
+    vector_words,
+    versions,
+)
+from pipeline.report.text import printable
+from pipeline.report.touches import MOST_SHOWN, error_map, marker_views
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from datetime import datetime
+
+    from pipeline.calibration.files.calibration_file import CalibrationRecord
+    from pipeline.mesh.sidecar import ProbeFile
+    from pipeline.verification.figures import Verification
+
+__all__ = ["ReportContent", "ReportError", "report_html"]
+
+_PIXELS = 480  # of each look at the probe
+
+
+@dataclass(frozen=True, eq=False)
+class ReportContent:
+    """
+    All that a report tells.
+
+    Attributes
+    ----------
+    verification : Verification
+    probe : ProbeFile
+        The probe, in S.
+    calibration : CalibrationRecord or None
+    created : datetime or None
+        When the report was made, with a time zone; the only time that is not in the inputs.
+    operator, session : str
+        Who, and of which session; empty: not said.
+    serials : mapping of str to str
+        Serial number by device: ``{"sensor M8128": "SN 7"}``.
+    files : mapping of str to str
+        SHA-256 by name, of further files.
+    """
+
+    verification: Verification
+    probe: ProbeFile
+    calibration: CalibrationRecord | None = None
+    created: datetime | None = None
+    operator: str = ""
+    session: str = ""
+    serials: Mapping[str, str] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
+
+
+def report_html(content: ReportContent) -> str:
+    """
+    Return the page.
+
+    Raises
+    ------
+    ReportError
+        The probe was not aligned with the sensor, or `created` has no time zone.
+    """
+    if content.created is not None and content.created.tzinfo is None:
+        raise ReportError("created: the time has no zone: use datetime.now(UTC).")
+    if content.probe.frame != "S" and content.probe.history:
+        raise ReportError(
+            f"{content.probe.probe.name}: the probe is not aligned with the sensor: run `contactbench probe align`."
+        )
+    page: str = _template().render(**_context(content), **_pictures(content))
+    return page
+
+
+def _context(content: ReportContent) -> dict[str, Any]:
+    verification, probe = content.verification, content.probe.probe
+    accepted = [touch for touch in verification.touches if touch.accepted]
+    when = content.created
+    return {
+        "probe": probe,
+        "mesh_sha256": mesh_hash(probe),
+        "v": verification,
+        "passed": verification.verdict.passed,
+        "reasons": [reason[:1].upper() + reason[1:] for reason in verification.verdict.reasons],
+        "tiles": tiles(verification),
+        "accepted": len(accepted),
+        "total": len(verification.touches),
+        "summaries": summaries(verification),
+        "bias": vector_words(verification),
+        "touches": touch_rows(verification),
+        "calibration": None if content.calibration is None else calibration_facts(content.calibration),
+        "settings": settings_rows(verification.settings),
+        "versions": versions(),
+        "steps": mesh_steps(content.probe),
+        "created": None if when is None else when.astimezone(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        "operator": content.operator,
+        "session": content.session,
+        "serials": dict(content.serials),
+        "files": {**{f"verified {role}": h for role, h in verification.sources.items()}, **content.files},
+        "tool": f"contactbench {__version__}",
+    }
+
+
+def _pictures(content: ReportContent) -> dict[str, Any]:
+    """Draw; what is drawn with takes a while to import."""
+    from pipeline.heatmap.picture import encode_png
+    from pipeline.report.figures import FEWEST_REPEATS, draw
+
+    verification, probe = content.verification, content.probe.probe
+    accepted = [touch for touch in verification.touches if touch.accepted]
+    views = marker_views(accepted, probe)
+    largest = {each.name: each.max_mm for each in verification.per_marker}
+    worst = {v.name for v in sorted(views, key=lambda v: -largest.get(v.name, 0.0))[:MOST_SHOWN]}
+    shown = [view for view in views if view.name in worst]
+    made = error_map(accepted, probe)
+    picture = (
+        "" if made is None else base64.b64encode(encode_png(made, pixels=_PIXELS, legend=False)).decode()
+    )
+    figures = draw(accepted, verification.per_marker, shown, verification.limits, verification.diagnosis)
+    hidden = len(views) - len(shown)
+    return {"figures": figures, "map": picture, "hidden": hidden, "fewest": FEWEST_REPEATS}
+
+
+def _template() -> Any:
+    from importlib.resources import files
+
+    from jinja2 import Environment, StrictUndefined
+
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, finalize=_printable
+    )
+    return environment.from_string(files(__package__).joinpath("page.html.jinja").read_text("utf-8"))
+
+
+def _printable(value: Any) -> Any:
+    """Replace what no page can hold; markup, a class of its own, stays as it is."""
+    return printable(value) if type(value) is str else value

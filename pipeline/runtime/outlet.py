@@ -1,0 +1,185 @@
+"""Contacts on their way out: each output has a thread of its own, so that none keeps the sensor or another waiting."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from contextlib import suppress
+from typing import TYPE_CHECKING, Protocol
+
+from pipeline.runtime.errors import OutputError, ReaderGoneError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pipeline.runtime.lines import Answer
+
+_MOST_WAITING = 10_000  # ten seconds at 1 kHz
+_AT_ONCE = 500
+_LOOK_S = 0.002
+_IDLE_S = 0.2
+
+
+class Target(Protocol):
+    """Where contacts go."""
+
+    name: str
+    pace: float
+    """How long contacts may be gathered before they are written, s: 0 where somebody waits for them."""
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        """
+        Publish contacts, oldest first; returns how many of them were.
+
+        Raises
+        ------
+        OutputError
+            It cannot any more.
+        """
+
+    def flush(self) -> None:
+        """Bring out what is held back; called when nothing comes, too. Raises as `write`."""
+
+    def close(self) -> None:
+        """End it. Raises as `write`."""
+
+
+class Outlet:
+    """
+    One target, served by a thread of its own.
+
+    `put` never waits for the target, unless the source can: when ten thousand contacts wait, new ones are dropped and
+    counted. What was computed is not affected.
+
+    Parameters
+    ----------
+    target : Target
+        Closed at the end.
+    patient : bool
+        The source can wait, as a recording can: nothing is dropped.
+    most_waiting : int
+
+    Attributes
+    ----------
+    name : str
+    published, dropped : int
+        Contacts so far.
+    failed : threading.Event
+        Set once the target takes nothing more.
+    error : OutputError or None
+        Why.
+    """
+
+    def __init__(self, target: Target, *, patient: bool = False, most_waiting: int = _MOST_WAITING) -> None:
+        self._target, self._patient, self._most_waiting = target, patient, most_waiting
+        self._queue: queue.SimpleQueue[Answer | None] = queue.SimpleQueue()
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"to {target.name}", daemon=True)
+        self.name = target.name
+        self._writing: list[Answer] = []
+        self.published = self.dropped = 0
+        self._unsent = 0  # counted in the other thread: one counter has one writer
+        self.failed = threading.Event()
+        self.error: OutputError | None = None
+
+    @property
+    def lost(self) -> int:
+        """Contacts that were not published: dropped, or not taken by the target."""
+        return self.dropped + self._unsent
+
+    @property
+    def gone(self) -> bool:
+        """Whether it failed only because whoever read has closed the pipe."""
+        return isinstance(self.error, ReaderGoneError)
+
+    def start(self) -> None:
+        """Begin to publish."""
+        self._thread.start()
+
+    def put(self, answer: Answer) -> None:
+        """Take a contact to publish."""
+        if self._queue.qsize() >= self._most_waiting and not self._has_room():
+            self.dropped += 1
+        else:
+            self._queue.put(answer)
+
+    def close(self, patience: float = 2.0) -> None:
+        """Publish what waits, but do not wait for it longer than `patience` s; a target that hangs is left behind."""
+        self._closing.set()
+        self._queue.put(None)
+        if self._thread.ident is None:
+            self._finish()
+            return
+        self._thread.join(patience)
+        if self._thread.is_alive():
+            self._leave(patience)
+
+    def _leave(self, patience: float) -> None:
+        """Give up a target that hangs; its thread ends with the program, and holds nothing of the kernel then."""
+        for answer in self._writing:
+            answer.let_go()
+        with suppress(queue.Empty):
+            while True:
+                waiting = self._queue.get_nowait()
+                self.dropped += waiting is not None
+        self._queue.put(None)  # should it wake up
+        if self.error is None:
+            self.error = OutputError(
+                f"{self.name}: nothing was taken for {patience:g} s, the rest is lost: read what is written there."
+            )
+        self.failed.set()
+
+    def _has_room(self) -> bool:
+        while self._patient and not self._closing.is_set() and not self.failed.is_set():
+            time.sleep(_LOOK_S)
+            if self._queue.qsize() < self._most_waiting:
+                return True
+        return False
+
+    def _run(self) -> None:
+        going = True
+        while going:
+            answers, going = self._next()
+            self._do(answers)
+        self._finish()
+
+    def _next(self) -> tuple[list[Answer], bool]:
+        answers: list[Answer] = []
+        try:
+            found = self._queue.get(timeout=_IDLE_S)
+            if self._target.pace and not self._patient:
+                self._closing.wait(self._target.pace)
+            while found is not None:
+                answers.append(found)
+                if len(answers) == _AT_ONCE:
+                    return answers, True
+                found = self._queue.get_nowait()
+        except queue.Empty:
+            return answers, True
+        return answers, False
+
+    def _do(self, answers: list[Answer]) -> None:
+        self._writing = answers
+        if self.error is None:
+            try:
+                taken = self._target.write(answers) if answers else 0
+                self.published += taken
+                self._unsent += len(answers) - taken
+                self._target.flush()
+            except OutputError as error:
+                self._fail(error, len(answers))
+        else:
+            self._unsent += len(answers)
+
+    def _finish(self) -> None:
+        try:
+            self._target.close()
+        except OutputError as error:
+            self._fail(error, 0)
+
+    def _fail(self, error: OutputError, missing: int) -> None:
+        self._unsent += missing
+        if self.error is None:
+            self.error = error
+        self.failed.set()

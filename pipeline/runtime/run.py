@@ -1,0 +1,193 @@
+"""A run: samples come in the threads of their streams, contacts go out in those of the outputs."""
+
+from __future__ import annotations
+
+import gc
+import math
+import sys
+from collections import Counter
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from pipeline.devices.url import Protocol
+from pipeline.runtime.engine import Engine
+from pipeline.runtime.errors import RunError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+    from types import TracebackType
+    from typing import Self
+
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.devices.sample import FlangeSample, WrenchSample
+    from pipeline.devices.url import DeviceAddress
+    from pipeline.runtime.lines import Answer
+    from pipeline.runtime.outlet import Outlet
+
+_SWITCH_S = 1e-4
+_RATE_OFF = 0.05
+
+
+class Run:
+    """
+    Locate every sample, at once and in the sensor's thread, and hand the contacts to the outputs.
+
+    Use it in a ``with`` statement, around the streams.
+
+    Parameters
+    ----------
+    config : RuntimeConfig
+    outlets : sequence of Outlet
+        Started and closed here.
+    hold : float, optional
+        As for `Engine`.
+    on_answer : callable, optional
+        Gets every contact in the sensor's thread, before the outputs; it must be quick and not raise.
+
+    Attributes
+    ----------
+    reasons : Counter
+        Samples so far by their reason.
+    """
+
+    def __init__(
+        self,
+        config: RuntimeConfig,
+        outlets: Sequence[Outlet] = (),
+        *,
+        hold: float | None = None,
+        on_answer: Callable[[WrenchSample, Answer], None] | None = None,
+    ) -> None:
+        self._engine = Engine(config, hold=hold)
+        self.outlets, self._on_answer = tuple(outlets), on_answer
+        self.reasons: Counter[str] = Counter()
+
+    def __enter__(self) -> Self:
+        for outlet in self.outlets:
+            outlet.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Publish what waits; the streams have ended."""
+        for outlet in self.outlets:
+            outlet.close()
+
+    def wrenches(self, samples: Sequence[WrenchSample]) -> None:
+        """Take wrenches, oldest first."""
+        for sample in samples:
+            answer = self._engine.locate(sample)
+            self.reasons[answer.reason] += 1
+            if self._on_answer is not None:
+                self._on_answer(sample, answer)
+            for outlet in self.outlets:
+                outlet.put(answer)
+
+    def poses(self, samples: Sequence[FlangeSample]) -> None:
+        """Take poses of the flange, oldest first."""
+        self._engine.poses(samples)
+
+
+def check_runnable(config: RuntimeConfig, *, unverified: bool = False) -> None:
+    """
+    Refuse a config that nobody has verified, unless told otherwise.
+
+    Raises
+    ------
+    RunError
+        It is not verified.
+    """
+    if config.model.verified or unverified:
+        return
+    stale = config.model.provenance.stale
+    why = f" ({'; '.join(stale)})" if stale else ""
+    raise RunError(
+        f"the bundle is not verified{why}: verify and export again; or add --unverified, for trials without a person."
+    )
+
+
+def hold_for(poses: DeviceAddress) -> float | None:
+    """Return how long a pose counts, s: for ever for one that was typed; None: as the config says."""
+    return math.inf if poses.protocol is Protocol.STILL else None
+
+
+def check_sensor(config: RuntimeConfig, serial: str, *, other: bool = False) -> None:
+    """
+    Refuse a sensor that says another serial number than the config's, unless told otherwise.
+
+    Parameters
+    ----------
+    config : RuntimeConfig
+    serial : str
+        What is known of the sensor; one that is empty or ``unknown`` is no mismatch.
+    other : bool
+
+    Raises
+    ------
+    RunError
+        It is another sensor.
+    """
+    wanted = config.model.sensor.serial
+    if other or not known(serial) or not known(wanted) or serial == wanted:
+        return
+    raise RunError(
+        f"the sensor's serial number is {serial!a:.100}, the bundle is for {wanted!a:.100}: connect that one, or"
+        " calibrate, verify and export with this one; or add --other-sensor if they are the same."
+    )
+
+
+def known(name: str | None) -> bool:
+    """Return whether a model or serial number says anything."""
+    return name is not None and name.strip().lower() not in ("", "unknown")
+
+
+def sensor_warnings(config: RuntimeConfig, model: str, serial: str) -> list[str]:
+    """
+    Say where a sensor is not the one that the config belongs to, in sentences.
+
+    Parameters
+    ----------
+    config : RuntimeConfig
+    model, serial : str
+        What is known of the sensor; empty where that is nothing.
+    """
+    wanted = config.model.sensor
+    said = []
+    for what, expected, given in (("model", wanted.model, model), ("serial number", wanted.serial, serial)):
+        if known(given) and known(expected) and given != expected:
+            said.append(
+                f"The sensor's {what} is {given}, the bundle is for {expected}: with another sensor its contacts are"
+                " wrong."
+            )
+    if not known(model) and not known(serial):
+        name = " ".join(filter(known, (wanted.model, wanted.serial))) or "an unnamed one"
+        said.append(
+            f"The sensor does not say which it is; the bundle is for {name}: make sure that it is this."
+        )
+    return said
+
+
+def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
+    """Say that a measured rate, Hz, is not the one that the config's filters are for; None: it is, or is unknown."""
+    wanted = config.model.sensor.rate_Hz
+    if rate is None or abs(rate / wanted - 1) <= _RATE_OFF:
+        return None
+    return (
+        f"The sensor gives {rate:.0f} samples a second, the bundle is for {wanted:.0f}: its filters act at another"
+        " frequency. Set the sensor's rate, or export for this one."
+    )
+
+
+@contextmanager
+def responsive() -> Iterator[None]:
+    """Let threads take turns sooner, and spare what is there now from garbage collection: both cost milliseconds."""
+    before = sys.getswitchinterval()
+    gc.collect()
+    gc.freeze()
+    sys.setswitchinterval(_SWITCH_S)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(before)
+        gc.unfreeze()

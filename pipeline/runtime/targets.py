@@ -1,0 +1,260 @@
+"""Where contacts can go: lines to a file or a pipe, datagrams, an MCAP file."""
+
+from __future__ import annotations
+
+import ipaddress
+import json
+import os
+import socket
+import time
+from typing import TYPE_CHECKING, Any
+
+from pipeline.recording import RecordingError
+from pipeline.recording.chunked import ChunkedFile
+from pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
+from pipeline.runtime.errors import OutputError, ReaderGoneError, RunError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from pipeline.recording import RecordingInfo
+    from pipeline.runtime.lines import Answer
+
+CONTACT_TOPIC, CONTACT_SCHEMA = "/contact", "contactbench.Contact"
+_CHUNK_BYTES = 2**20
+_CHUNK_S = 0.5
+_SYNC_S = 1.0
+_FILE_PACE_S = (
+    0.05  # nobody waits for a file; a thread woken for every sample would cost the sensor's its turn
+)
+
+
+class LineTarget:
+    """
+    Contacts as lines of JSON, into a file that is made for them or into what is open already.
+
+    Written without a buffer of its own: a pipe that nobody empties must not hang the end of the process.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    descriptor : int
+        To write to; closed at the end.
+    pace : float
+        As `Target`.
+    """
+
+    def __init__(self, name: str, descriptor: int, *, pace: float = 0.0) -> None:
+        self.name, self._file, self.pace = name, descriptor, pace
+
+    @classmethod
+    def new(cls, path: Path) -> LineTarget:
+        """
+        Make a file.
+
+        Raises
+        ------
+        OutputError
+            It is there already, or cannot be made.
+        """
+        try:
+            file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o644)
+        except FileExistsError as error:
+            raise OutputError(f"{path}: it is there already: choose another name, or delete it.") from error
+        except (OSError, ValueError) as error:  # ValueError: a path that no file system can hold
+            raise OutputError(
+                f"{path}: it cannot be written ({error}): choose a place that is writable."
+            ) from error
+        return cls(str(path), file, pace=_FILE_PACE_S)
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        """As `Target`."""
+        left = memoryview(b"".join([answer.line for answer in answers]))
+        try:
+            while left:
+                left = left[os.write(self._file, left) :]
+        except BrokenPipeError as error:
+            raise ReaderGoneError(f"{self.name}: nobody reads it any more.") from error
+        except OSError as error:
+            raise OutputError(
+                f"{self.name}: it cannot be written ({error}): make space, or choose another place."
+            ) from error
+        return len(answers)
+
+    def flush(self) -> None:
+        """As `Target`: nothing is held back."""
+
+    def close(self) -> None:
+        """As `Target`."""
+        try:
+            os.close(self._file)
+        except OSError as error:
+            raise OutputError(f"{self.name}: its end cannot be written ({error}): make space.") from error
+
+
+class UdpTarget:
+    """
+    One datagram of JSON for every contact; what the system does not take at once is not sent.
+
+    Parameters
+    ----------
+    address : str
+        HOST:PORT.
+    remote : bool
+        Whether it may be another machine: what is sent is neither encrypted nor signed.
+
+    Raises
+    ------
+    RunError
+        It is no address, or on another machine without leave.
+    """
+
+    pace = 0.0
+
+    def __init__(self, address: str, *, remote: bool = False) -> None:
+        self.name = f"udp {address}"
+        family, self._to = _resolve(address, remote=remote)
+        self._socket = socket.socket(family, socket.SOCK_DGRAM)
+        self._socket.setblocking(False)
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        """As `Target`."""
+        sent = 0
+        for answer in answers:
+            try:
+                self._socket.sendto(answer.line, self._to)
+            except OSError:  # nobody listens, no route, a full buffer: the next one may arrive
+                continue
+            sent += 1
+        return sent
+
+    def flush(self) -> None:
+        """As `Target`: nothing is held back."""
+
+    def close(self) -> None:
+        """As `Target`."""
+        self._socket.close()
+
+
+class McapTarget:
+    """
+    Contacts on ``/contact`` of a new MCAP file, as JSON; all but the last half second survives a crash.
+
+    Parameters
+    ----------
+    path : path
+        Must not exist.
+    about : RecordingInfo
+        Ties the samples' clock to the calendar.
+
+    Raises
+    ------
+    OutputError
+        It is there already, or cannot be made.
+    """
+
+    pace = _FILE_PACE_S
+
+    def __init__(self, path: Path, about: RecordingInfo) -> None:
+        self.name, self._about = str(path), about
+        try:
+            self._file = ChunkedFile(path, about.tool)
+            self._file.add_metadata(ABOUT_RECORD, about_record(about))
+            for device in about.devices:
+                self._file.add_metadata(DEVICE_RECORD, device_record(device))
+            schema = self._file.add_schema(CONTACT_SCHEMA, contact_schema())
+            self._channel = self._file.add_channel(CONTACT_TOPIC, schema)
+        except RecordingError as error:
+            raise OutputError(str(error)) from error
+        self._chunked = self._synced = time.monotonic()
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        """As `Target`; a sample whose time is no time is left out."""
+        written = 0
+        try:
+            for answer in answers:
+                try:
+                    stamp = self._about.log_time(answer.time)
+                except ValueError:
+                    continue
+                seconds, nanoseconds = divmod(stamp, 1_000_000_000)
+                head = f'{{"timestamp":{{"sec":{seconds},"nsec":{nanoseconds}}},"frame_id":"sensor",'
+                self._file.add_message(self._channel, stamp, head.encode("ascii") + answer.line[1:-1])
+                written += 1
+                if self._file.pending >= _CHUNK_BYTES:
+                    self._file.finish_chunk()
+        except RecordingError as error:
+            raise OutputError(str(error)) from error
+        return written
+
+    def flush(self) -> None:
+        """As `Target`: at most twice a second, for small chunks make a large file."""
+        now = time.monotonic()
+        try:
+            if now - self._chunked >= _CHUNK_S:
+                self._file.finish_chunk()
+                self._chunked = now
+            if now - self._synced >= _SYNC_S:
+                self._file.sync()
+                self._synced = now
+        except RecordingError as error:
+            raise OutputError(str(error)) from error
+
+    def close(self) -> None:
+        """As `Target`."""
+        try:
+            self._file.finish()
+        except RecordingError as error:
+            raise OutputError(str(error)) from error
+
+
+def contact_schema() -> bytes:
+    """Return the JSON schema of a contact in an MCAP file."""
+    whole, text = {"type": "integer"}, {"type": "string"}
+    fields = {
+        "timestamp": {"type": "object", "properties": {"sec": whole, "nsec": whole}},
+        "frame_id": text,
+        "time": _numbers("The samples' clock, s.", array=False),
+        "reason": {**text, "description": "Act only on ok and vertex."},
+        "point_S_m": _numbers("In the sensor's frame, m; null: none."),
+        "filtered_point_S_m": _numbers("Low-passed, m; held for a moment without contact."),
+        "normal_S": _numbers("Outward."),
+        "torque_Nm": _numbers("About the normal, N·m.", array=False),
+        "force_S_N": _numbers("Of the tissue on the probe, compensated and filtered, N."),
+        "torque_S_Nm": _numbers("The same, about the sensor's origin, N·m."),
+        "covariance_S_m2": _numbers("Of the point, row by row, m²."),
+        "face": {**whole, "description": "-1: none."},
+        "vertex": {**whole, "description": "-1: none."},
+        "region": {**whole, "description": "Rank; 0: none."},
+        "candidates": whole,
+        "runner_up_m": _numbers("To the likeliest other candidate, m.", array=False),
+    }
+    schema = {"title": CONTACT_SCHEMA, "type": "object", "properties": fields}
+    return json.dumps(schema, ensure_ascii=False).encode()
+
+
+def _numbers(description: str, *, array: bool = True) -> dict[str, Any]:
+    number = {"type": "number"}
+    kind: dict[str, Any] = {"type": "array", "items": number} if array else number
+    return {**kind, "description": description}
+
+
+def _resolve(address: str, *, remote: bool) -> tuple[socket.AddressFamily, Any]:
+    host, _, port = address.rpartition(":")
+    if not host or not port.isascii() or not port.isdigit() or not 0 < int(port) < 65_536:
+        raise RunError(f"--udp {address}: give a host and a port, such as 127.0.0.1:9000.")
+    try:
+        family, _, _, _, place = socket.getaddrinfo(host.strip("[]"), int(port), type=socket.SOCK_DGRAM)[0]
+        near = ipaddress.ip_address(str(place[0]).partition("%")[0]).is_loopback
+    except (OSError, UnicodeError, ValueError) as error:
+        raise RunError(
+            f"--udp {address}: there is no such host ({error}): write its IP address, such as 127.0.0.1."
+        ) from error
+    if not near and not remote:
+        raise RunError(
+            f"--udp {address}: it is another machine, and datagrams are neither encrypted nor signed: send to"
+            " 127.0.0.1, or add --allow-remote."
+        )
+    return family, place

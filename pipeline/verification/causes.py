@@ -1,0 +1,307 @@
+"""How much of the errors each cause explains: linear models of what it would do, compared by likelihood."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.calibration.contact_error import contact_sensitivity
+from pipeline.calibration.model import cross_matrix, prediction_jacobian
+from pipeline.verification.figures import Cause
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+# What each cause usually comes to, one standard deviation; the likelihood chooses the size in steps around it.
+_TURN, _SHIFT = np.radians(1.5), 0.0015  # rad and m of a probe on its sensor
+_WEIGHT, _FORCE_BIAS, _CENTRE, _TORQUE_BIAS = 0.2, 0.2, 0.003, 0.010  # N, N, m, N·m
+_HEIGHT = 0.0003  # m of the mesh at a marker, beyond what the marker itself says
+_SIZES = (0.1, 0.3, 1.0, 3.0)
+_SCALES = np.geomspace(0.3, 100.0, 50)  # of the noise
+_FLOOR = 5e-5  # m: nobody places a marker better
+_FEWEST_MARKERS = 5
+_PLACE = 0.001  # m of a marker along the surface
+_EVIDENCE = 4.0  # gain of log likelihood that is not chance
+CONFIRMED = 0.05  # share of a cause that is worth a word
+_ONE_ORIENTATION, _ONE_WAY = np.cos(np.radians([10.0, 45.0]))  # of the sensor, and of the forces
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """
+    Accepted touches, n of them.
+
+    Attributes
+    ----------
+    errors : (n, 3)
+        Located minus marker, S, m.
+    markers : (n,)
+        Which marker.
+    points, normals : (n, 3)
+        Of these markers, S.
+    heights : (n,)
+        Of these markers over the mesh, m.
+    wrenches : (n, 6)
+        Compensated means, S.
+    R_WS : (n, 3, 3)
+    torques : (n,)
+        Located local torques, N·m.
+    noise : (6, 6)
+        Covariance of such a mean by the sensor's noise alone.
+    theta : (12,)
+        Parameters of the calibration.
+    """
+
+    errors: Array
+    markers: NDArray[np.intp]
+    points: Array
+    normals: Array
+    heights: Array
+    wrenches: Array
+    R_WS: Array
+    torques: Array
+    noise: Array
+    theta: Array
+
+    def only(self, kept: NDArray[np.bool_]) -> Evidence:
+        """Return some of the touches."""
+        fields = ("errors", "markers", "points", "normals", "heights", "wrenches", "R_WS", "torques")
+        rows: dict[str, Any] = {name: getattr(self, name)[kept] for name in fields}
+        return replace(self, **rows)
+
+    @property
+    def sensitivities(self) -> Array:
+        """(n, 3, 6) how each contact moves with its wrench, m/N and m/(N·m)."""
+        return sensitivities(self.points, self.normals, self.wrenches[:, :3])
+
+
+@dataclass(frozen=True)
+class Explained:
+    """
+    What the errors bear the marks of.
+
+    Attributes
+    ----------
+    shares : dict of Cause to float
+        Of the squared error; 1 together.
+    gains : dict of Cause to float
+        Of log likelihood, by allowing for this cause alone.
+    scale : float
+        Of the noise.
+    rivals : tuple of Cause
+        What explains the errors about as well as the cause with the largest share.
+    moved : (n,)
+        How far the marker of each touch seems to be from its place, m; 0 unless the markers are a cause.
+    """
+
+    shares: dict[Cause, float]
+    gains: dict[Cause, float]
+    scale: float
+    rivals: tuple[Cause, ...]
+    moved: Array
+
+    @property
+    def first(self) -> Cause:
+        """The cause with the largest share."""
+        return max(self.shares, key=lambda cause: self.shares[cause])
+
+    @property
+    def aligned(self) -> bool:
+        """Whether correcting the alignment would not cure what another cause did."""
+        told = self.first is not Cause.ALIGNMENT or not self.rivals
+        return self.shares[Cause.ALIGNMENT] >= CONFIRMED and told and Cause.ALIGNMENT not in self.rivals
+
+
+def sensitivities(points: Array, normals: Array, forces: Array) -> Array:
+    """Return (n, 3, 6) how contacts at `points` move with their wrenches."""
+    rows = [contact_sensitivity(p, n, F[None])[0] for p, n, F in zip(points, normals, forces, strict=True)]
+    return np.array(rows).reshape(-1, 3, 6)
+
+
+def alignment_columns(J: Array, wrenches: Array) -> Array:
+    """
+    Return (n, 3, 6) how contacts move when the probe is turned by omega (rad) and shifted by t (m) under a wrench.
+
+    In the probe's frame the wrench becomes F - omega x F, M - omega x M - t x F.
+    """
+    A = np.zeros((len(wrenches), 6, 6))
+    A[:, :3, :3] = A[:, 3:, 3:] = cross_matrix(wrenches[:, :3])
+    A[:, 3:, :3] = cross_matrix(wrenches[:, 3:])
+    return J @ A
+
+
+def explain(evidence: Evidence) -> Explained:
+    """
+    Ask which causes the errors bear the marks of, and how much of their squares each explains.
+
+    The errors are taken as Gaussian: noise of the predicted shape and unknown size, and for each allowed cause its
+    columns with normally distributed sizes. Causes are allowed for one after the other, the one first that raises
+    the likelihood most, with all sizes integrated out, so that a cause with many unknowns has no advantage.
+    """
+    J = evidence.sensitivities
+    whiten = _whitening(J @ evidence.noise @ J.transpose(0, 2, 1))
+    columns = {cause: make(evidence, J) for cause, make in _COLUMNS.items()}
+    if _repeated(evidence.markers):
+        columns[Cause.MARKERS] = _places(evidence)
+    y = np.einsum("nij,nj->ni", whiten, evidence.errors).ravel()
+    Z = {cause: (whiten @ X).reshape(len(y), -1) for cause, X in columns.items()}
+    base, scale = _likelihood(y, np.zeros((len(y), 0)))
+    alone = {cause: max(_likelihood(y, size * Z[cause])[0] for size in _SIZES) - base for cause in Z}
+    chosen: dict[Cause, float] = {}
+    best = base
+    while len(chosen) < len(Z):
+        tries = [
+            (*_likelihood(y, _stack(Z, {**chosen, cause: size})), cause, size)
+            for cause in Z
+            if cause not in chosen
+            for size in _SIZES
+        ]
+        value, new_scale, cause, size = max(tries, key=lambda each: each[0])
+        if value - best < _EVIDENCE:
+            break
+        best, scale, chosen[cause] = value, new_scale, size
+    parts = _parts(y, Z, columns, chosen, scale)
+    shares = _shares(evidence.errors, parts)
+    gains = {**dict.fromkeys(Cause, 0.0), **{cause: max(float(gain), 0.0) for cause, gain in alone.items()}}
+    first = max(shares, key=lambda cause: shares[cause])
+    moved = np.zeros(len(J))
+    if Cause.MARKERS in parts:
+        moved = np.linalg.norm(parts[Cause.MARKERS], axis=1)
+    return Explained(shares, gains, scale, _rivals(first, gains, chosen, evidence), moved)
+
+
+def _rivals(
+    first: Cause, gains: dict[Cause, float], chosen: dict[Cause, float], evidence: Evidence
+) -> tuple[Cause, ...]:
+    """Return the causes that might as well be the first one; one that adds to it is none."""
+    if first is Cause.NOISE:
+        return ()
+    able = [cause for cause in gains if cause is not first and gains[cause] >= _EVIDENCE]
+    close = [c for c in able if c not in chosen and gains[c] > gains[first] - _EVIDENCE]
+    # Pressed one way in one orientation, a wrench that is turned and one that is shifted differ by next to nothing:
+    # what the likelihood makes of the little is not to be relied on.
+    pair = {Cause.ALIGNMENT, Cause.GRAVITY}
+    if first in pair and _one_way(evidence):
+        close += [cause for cause in able if cause in pair and cause not in close]
+    return tuple(close)
+
+
+def _one_way(evidence: Evidence) -> bool:
+    """Tell whether all touches were made in one orientation, and pressed one way."""
+    F = evidence.wrenches[:, :3] / np.linalg.norm(evidence.wrenches[:, :3], axis=1, keepdims=True)
+    cosines = 0.5 * (np.einsum("nij,ij->n", evidence.R_WS, evidence.R_WS[0]) - 1)
+    mean = F.mean(axis=0)
+    return bool(cosines.min() > _ONE_ORIENTATION and (F @ mean).min() > _ONE_WAY * np.linalg.norm(mean))
+
+
+def _repeated(markers: NDArray[np.intp]) -> bool:
+    """Tell whether enough markers were touched again to tell their places from noise."""
+    counts = np.unique(markers, return_counts=True)[1]
+    return bool(len(counts) >= _FEWEST_MARKERS and 2 * np.count_nonzero(counts > 1) >= len(counts))
+
+
+# ---- what each cause does ----------------------------------------------------------------------
+
+
+def _alignment(evidence: Evidence, J: Array) -> Array:
+    return np.asarray(alignment_columns(J, evidence.wrenches) * np.repeat([_TURN, _SHIFT], 3))
+
+
+def _gravity(evidence: Evidence, J: Array) -> Array:
+    sizes = np.repeat([_WEIGHT, _FORCE_BIAS, _CENTRE, _TORQUE_BIAS], 3)
+    return np.asarray(J @ prediction_jacobian(evidence.R_WS.transpose(0, 2, 1), evidence.theta) * sizes)
+
+
+def _mesh(evidence: Evidence, _J: Array) -> Array:
+    """Where the mesh lies lower than the probe, the force is followed further: along F, by the height over n.F."""
+    F = evidence.wrenches[:, :3]
+    along = F / np.einsum("nk,nk->n", F, evidence.normals)[:, None]
+    names, place = np.unique(evidence.markers, return_inverse=True)
+    columns = np.zeros((len(F), 3, 1 + len(names)))
+    columns[:, :, 0] = evidence.heights[:, None] * along
+    columns[np.arange(len(F)), :, 1 + place] = _HEIGHT * along
+    return columns
+
+
+def _torsion(evidence: Evidence, _J: Array) -> Array:
+    """Return what a torque that is not about the normal does: the point moves along F x n, by k over |F|²."""
+    F = evidence.wrenches[:, :3]
+    side = np.cross(F, evidence.normals) / (F**2).sum(axis=1)[:, None]
+    return np.asarray((evidence.torques[:, None] * side)[:, :, None])
+
+
+def _places(evidence: Evidence) -> Array:
+    """Where a marker is not where it is said to be, all its touches are off alike, along the surface."""
+    helper = np.eye(3)[np.abs(evidence.normals).argmin(axis=1)]
+    side = np.cross(helper, evidence.normals)
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    names, place = np.unique(evidence.markers, return_inverse=True)
+    columns = np.zeros((len(place), 3, 2 * len(names)))
+    columns[np.arange(len(place)), :, 2 * place] = _PLACE * side
+    columns[np.arange(len(place)), :, 2 * place + 1] = _PLACE * np.cross(evidence.normals, side)
+    return columns
+
+
+_COLUMNS = {
+    Cause.ALIGNMENT: _alignment,
+    Cause.GRAVITY: _gravity,
+    Cause.MESH: _mesh,
+    Cause.TORSION: _torsion,
+}
+
+
+# ---- likelihood --------------------------------------------------------------------------------
+
+
+def _whitening(covariances: Array) -> Array:
+    """Return (n, 3, 3) what turns noise of these covariances, and the floor, into unit noise."""
+    values, vectors = np.linalg.eigh(covariances + _FLOOR**2 * np.eye(3))
+    return np.asarray((vectors / np.sqrt(values)[:, None, :]).transpose(0, 2, 1))
+
+
+def _stack(Z: dict[Cause, Array], sizes: dict[Cause, float]) -> Array:
+    return np.concatenate([size * Z[cause] for cause, size in sizes.items()], axis=1)
+
+
+def _likelihood(y: Array, Z: Array) -> tuple[float, float]:
+    """Return the log likelihood of y ~ N(0, s² I + Z Z'), and the s that makes it largest."""
+    s2 = _SCALES**2
+    if Z.shape[1]:
+        values, vectors = np.linalg.eigh(Z.T @ Z)
+        kept = values > 1e-12 * max(values[-1], 1e-300)
+        values, u2 = values[kept], (vectors[:, kept].T @ (Z.T @ y)) ** 2 / values[kept]
+    else:
+        values, u2 = np.zeros(0), np.zeros(0)
+    both = s2[:, None] + values
+    free, rest = len(y) - len(values), max(float(y @ y - u2.sum()), 0.0)
+    log = -0.5 * ((np.log(both) + u2 / both).sum(axis=1) + free * np.log(s2) + rest / s2)
+    best = int(np.argmax(log))
+    return float(log[best]), float(_SCALES[best])
+
+
+def _parts(
+    y: Array, Z: dict[Cause, Array], columns: dict[Cause, Array], chosen: dict[Cause, float], scale: float
+) -> dict[Cause, Array]:
+    """Return (n, 3) what each chosen cause most likely did to the contacts, m."""
+    if not chosen:
+        return {}
+    whole = _stack(Z, chosen)
+    beta = np.linalg.solve(whole.T @ whole + scale**2 * np.eye(whole.shape[1]), whole.T @ y)
+    borders = np.cumsum([Z[cause].shape[1] for cause in chosen])[:-1]
+    sizes = zip(chosen.items(), np.split(beta, borders), strict=True)
+    return {cause: size * columns[cause] @ part for (cause, size), part in sizes}
+
+
+def _shares(errors: Array, parts: dict[Cause, Array]) -> dict[Cause, float]:
+    """Return the shares: the projection of the errors on what each cause most likely did."""
+    shares = dict.fromkeys(Cause, 0.0)
+    total = float((errors**2).sum())
+    if total > 0:
+        shares |= {cause: max(float((done * errors).sum()) / total, 0.0) for cause, done in parts.items()}
+    shares[Cause.NOISE] = max(1.0 - sum(shares.values()), 0.0)
+    whole = sum(shares.values())
+    return {cause: share / whole for cause, share in shares.items()}

@@ -1,0 +1,174 @@
+"""What to fix first, in a paragraph; and an alignment refined from the touches themselves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
+from pipeline.verification.figures import Cause, Diagnosis, Refined, Share
+from pipeline.verification.statistics import vector
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.contact import ContactSolver
+    from pipeline.verification.causes import Evidence, Explained
+    from pipeline.verification.markers import MarkerSet
+
+FEWEST_TOUCHES = 6
+_FEWEST_MARKERS = 6  # three on each side
+_TRUST = 0.0005  # m: what is left when the alignment is right
+_USUAL = np.repeat([np.radians(2.0), 0.003], 3)
+_ROUNDS = 6
+_BETTER = 0.9
+_MISPLACED = 3.0  # times the usual: such a marker stands out
+
+_REMEDIES = {
+    Cause.ALIGNMENT: "Align the probe again, with touches on all sides of it; where the refined alignment helps, that"
+    " will do.",
+    Cause.GRAVITY: "Calibrate bias and weight again, warm and with the cable as in use, with poses that tilt about two"
+    " axes.",
+    Cause.NOISE: "Take more samples or a stronger filter, press harder, and look for what shakes the sensor or for"
+    " markers that were not hit exactly.",
+    Cause.MESH: "Use a finer mesh, or scan the probe again where the markers are off it.",
+    Cause.TORSION: "Press with a tip that can turn freely and does not grip, or keep to smaller angles: the torque at"
+    " the contact is not about the surface's normal.",
+}
+
+
+def diagnose(evidence: Evidence, within: bool, names: Sequence[str] = ()) -> Diagnosis:
+    """
+    Rank the causes of the errors of accepted touches.
+
+    Parameters
+    ----------
+    evidence : Evidence
+    within : bool
+        Whether the errors keep the limits.
+    names : sequence of str
+        Of the markers; left out, they are counted from 1.
+    """
+    found = explain(evidence)
+    shares = tuple(
+        Share(cause, share, found.gains[cause])
+        for cause, share in sorted(found.shares.items(), key=lambda each: -each[1])
+    )
+    remedy = _undecided(found) or _REMEDIES.get(found.first) or _places(evidence, found, names)
+    return Diagnosis(found.first, f"{_paragraph(shares, found, within)} {remedy}", shares, found.scale)
+
+
+def _paragraph(shares: tuple[Share, ...], found: Explained, within: bool) -> str:
+    first = shares[0]
+    named = " or ".join((first.cause, *found.rivals))
+    part = "most" if first.share > 0.5 else "the largest part"
+    start = (
+        f"The errors keep the limits; {part} of what is left comes from {named}"
+        if within
+        else f"Fix first: {named}. It explains {part} of the squared error"
+    )
+    others = [f"{each.cause} {100 * each.share:.0f} %" for each in shares[1:] if each.share >= CONFIRMED]
+    also = f"; then {', '.join(others)}" if others else "" if found.rivals else "; nothing else shows"
+    left = f" What no cause explains scatters {found.scale:.1f} times as much as the sensor's noise predicts."
+    return f"{start} ({100 * first.share:.0f} %{also}).{left}"
+
+
+def _undecided(found: Explained) -> str:
+    """Return what would tell the first cause from those that might as well be it; empty: there are none."""
+    if not found.rivals:
+        return ""
+    if {found.first, *found.rivals} == {Cause.ALIGNMENT, Cause.GRAVITY}:
+        more = "touch in a second orientation, or on other sides."
+    else:
+        more = "touch more markers, from other angles and in other orientations."
+    return f"Which of them it is, these touches cannot tell; {more}"
+
+
+def _places(evidence: Evidence, found: Explained, names: Sequence[str]) -> str:
+    """Return which markers to look at: those that stand out, or all."""
+    markers, rows = np.unique(evidence.markers, return_index=True)
+    moved = found.moved[rows]
+    out = [int(each) for each in markers[moved > _MISPLACED * np.median(moved)]]
+    called = [names[each] if names else str(each + 1) for each in out]
+    which = f" {', '.join(called)}" if called else ""
+    return (
+        "The error is the same at each touch of a marker and differs between markers: check the places of"
+        f" {'the marker' if len(out) == 1 else 'the markers' if not out else 'markers'}{which}."
+    )
+
+
+def refine(evidence: Evidence, solver: ContactSolver, markers: MarkerSet) -> Refined | None:
+    """
+    Correct the alignment on every second marker, and judge it on the others; None: too few markers.
+
+    The wrenches are moved into the corrected probe's frame and located anew, until nothing changes (Gauss-Newton on
+    the six numbers of a rigid motion, with what is usual as a prior: a flat face does not show all six). It helps only
+    where the diagnosis says that it is the alignment: six numbers make up for much that another cause did, on these
+    touches and not on the next.
+    """
+    touched = np.unique(evidence.markers)
+    if len(touched) < _FEWEST_MARKERS:
+        return None
+    halves = touched[::2], touched[1::2]
+    fit, judge = (evidence.only(np.isin(evidence.markers, half)) for half in halves)
+    R, t = _fitted(fit, solver)
+    sizes = [
+        float(np.linalg.norm(each, axis=1).mean() * 1e3)
+        for each in (fit.errors, _errors(fit, solver, R, t), judge.errors, _errors(judge, solver, R, t))
+    ]
+    fitted, judged = (tuple(markers[int(place)].name for place in half) for half in halves)
+    turn = np.degrees(Rotation.from_matrix(R).as_rotvec())
+    return Refined(
+        fitted=fitted,
+        judged=judged,
+        turn_deg=vector(turn),
+        shift_mm=vector(1e3 * t),
+        fitted_before_mm=sizes[0],
+        fitted_after_mm=sizes[1],
+        judged_before_mm=sizes[2],
+        judged_after_mm=sizes[3],
+        helps=sizes[3] < _BETTER * sizes[2] and explain(evidence).aligned,
+    )
+
+
+def _fitted(fit: Evidence, solver: ContactSolver) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return R and t of p_new = R p + t."""
+    x, prior = np.zeros(6), np.diag((_TRUST / _USUAL) ** 2)
+    for _ in range(_ROUNDS):
+        R, t = Rotation.from_rotvec(x[:3]).as_matrix(), x[3:]
+        wrenches = _moved(fit.wrenches, R, t)
+        errors = _located(wrenches, solver, fit.points) - fit.points
+        known = np.isfinite(errors).all(axis=1)
+        J = sensitivities(fit.points[known], fit.normals[known], wrenches[known, :3])
+        A = alignment_columns(J, wrenches[known]).reshape(-1, 6)
+        step = np.linalg.solve(A.T @ A + prior, -A.T @ errors[known].ravel() - prior @ x)
+        x = x + step
+        if np.abs(step / _USUAL).max() < 1e-4:
+            break
+    return Rotation.from_rotvec(x[:3]).as_matrix(), x[3:]
+
+
+def _errors(
+    evidence: Evidence, solver: ContactSolver, R: NDArray[np.float64], t: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the errors (n, 3) with a corrected alignment; where nothing is located any more, the old ones."""
+    found = _located(_moved(evidence.wrenches, R, t), solver, evidence.points) - evidence.points
+    return np.where(np.isfinite(found), found, evidence.errors)
+
+
+def _moved(
+    wrenches: NDArray[np.float64], R: NDArray[np.float64], t: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return wrenches in the frame of a probe that lies at R, t."""
+    F, M = wrenches[:, :3], wrenches[:, 3:]
+    return np.concatenate([F @ R, (M - np.cross(t, F)) @ R], axis=1)
+
+
+def _located(
+    wrenches: NDArray[np.float64], solver: ContactSolver, near: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    return np.array(solver.locate_batch_after(np.ascontiguousarray(wrenches), near).points)

@@ -1,0 +1,231 @@
+"""Where a touch is, how sure that is, and which marker it belongs to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.contact_error import contact_sensitivity
+from pipeline.contact import ContactSolver, Reason, WrenchNoise
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import GravityModel
+    from pipeline.mesh import Probe
+    from pipeline.verification.markers import MarkerSet
+
+_ALLOWED = 0.002  # m: what alignment and mesh may be off without another marker being nearer
+_RIVAL = 1.0  # standard deviations by which a second marker must be further away
+_FAR = 6.0  # standard deviations from the nearest marker
+_SHORTEST, _MOST_LAGS = 24, 200  # samples of a run that tells anything about correlation
+_CHANCE = 0.1  # autocorrelation that means nothing
+_ACCEPTED = (Reason.OK, Reason.VERTEX)
+
+
+@dataclass(frozen=True, eq=False)
+class Located:
+    """
+    The contact of a touch.
+
+    Attributes
+    ----------
+    point : (3,)
+        Of the mean wrench, S, m.
+    covariance : (3, 3)
+        Of that point: sensor noise over the samples, and the calibration; m².
+    wrench : (6,)
+        Mean over the samples, S, N and N·m.
+    R_WS : (3, 3)
+    torque : float
+        Local torque k, N·m.
+    normal : (3,)
+        Of the facet that was touched.
+    count : int
+        Samples.
+    drift, drift_sigma : float
+        How far the point moved between the halves of the samples, and the 1 sigma of that by noise alone, m.
+    ambiguous : bool
+    """
+
+    point: NDArray[np.float64]
+    covariance: NDArray[np.float64]
+    wrench: NDArray[np.float64]
+    R_WS: NDArray[np.float64]
+    torque: float
+    normal: NDArray[np.float64]
+    count: int
+    drift: float
+    drift_sigma: float
+    ambiguous: bool
+
+
+@dataclass(frozen=True)
+class Placed:
+    """
+    The marker that a contact belongs to.
+
+    Attributes
+    ----------
+    marker : int
+        Its place in the set.
+    sigmas : float
+        Mahalanobis distance; covariance of the contact, and what alignment may be off.
+    rival : bool
+        A second marker is about as near.
+    far : bool
+        It is none of the markers.
+    """
+
+    marker: int
+    sigmas: float
+    rival: bool
+    far: bool
+
+
+class Placing:
+    """
+    Locate touches on a probe, and find their markers.
+
+    Parameters
+    ----------
+    probe : Probe
+    markers : MarkerSet
+    model : GravityModel
+        Its covariance is part of that of a contact; the wrenches are compensated already.
+    noise : WrenchNoise
+        Of one sample, such that the mean of n has 1/n of its variance.
+    samples : int
+        That a touch is the mean of: what is ambiguous follows from the noise of the mean.
+    correlation : float
+        By what that variance is larger than half the mean square between neighbouring samples.
+    """
+
+    def __init__(
+        self,
+        probe: Probe,
+        markers: MarkerSet,
+        model: GravityModel,
+        noise: WrenchNoise,
+        samples: int = 50,
+        correlation: float = 1.0,
+    ) -> None:
+        self.probe, self.markers, self.noise = probe, markers, noise
+        self._model, self._correlation = model, correlation
+        root = np.sqrt(samples)
+        self.solver = ContactSolver(
+            probe, WrenchNoise(np.asarray(noise.force) / root, np.asarray(noise.torque) / root)
+        )
+
+    def locate(self, wrenches: NDArray[np.float64], R_WS: NDArray[np.float64]) -> Located | Reason:
+        """Return where samples (n, 6) taken at orientations (n, 3, 3) have touched, or why that is nowhere."""
+        count, mean = len(wrenches), wrenches.mean(axis=0)
+        whole = self.solver.locate(mean)
+        if whole.point is None or whole.normal is None or whole.reason not in (*_ACCEPTED, Reason.AMBIGUOUS):
+            return whole.reason
+        per_wrench = self._sensitivity(whole.point, whole.normal, mean[:3])
+        total = self.noise.covariance / count + self._model.wrench_covariance(R_WS[count // 2])
+        halves = np.array([each.mean(axis=0) for each in np.array_split(wrenches, 2)])
+        # Linear, because a far rival may win one half by chance; steps of wrench, so what turns is not a slip.
+        moved = np.linalg.norm(per_wrench @ (halves[1] - halves[0] * _norm_ratio(halves)))
+        seen = _high_pass(wrenches) * self._correlation
+        left = per_wrench @ (seen * 4 / count) @ per_wrench.T
+        return Located(
+            point=np.array(whole.point),
+            covariance=per_wrench @ total @ per_wrench.T,
+            wrench=mean,
+            R_WS=np.array(R_WS[count // 2]),
+            torque=float(whole.torque),
+            normal=np.array(whole.normal),
+            count=count,
+            drift=float(moved),
+            drift_sigma=float(np.sqrt(np.linalg.eigvalsh(left)[-1].clip(0))),
+            ambiguous=whole.reason is Reason.AMBIGUOUS,
+        )
+
+    def moved(self, located: Located, wrenches: NDArray[np.float64]) -> float:
+        """Return how far, m, from a contact later samples (n, 6) have touched; along the surface, to first order."""
+        mean = wrenches.mean(axis=0)
+        per_wrench = self._sensitivity(located.point, located.normal, mean[:3])
+        at_point = np.concatenate([mean[:3], np.cross(located.point, mean[:3]) + _along(located, mean[:3])])
+        return float(np.linalg.norm(per_wrench @ (mean - at_point)))
+
+    def place(self, located: Located, expected: int | None = None) -> Placed:
+        """Return the nearest marker by the contact's own covariance, or what the expected one is to it."""
+        C = located.covariance + _ALLOWED**2 * np.eye(3)
+        away = self.markers.points - located.point
+        sigmas = np.sqrt(np.einsum("nk,nk->n", away, np.linalg.solve(C, away.T).T))
+        if expected is not None:
+            near = float(sigmas[expected])
+            return Placed(expected, near, False, near > _FAR)
+        order = np.argsort(sigmas, kind="stable")
+        rival = len(order) > 1 and sigmas[order[1]] - sigmas[order[0]] < _RIVAL
+        near = float(sigmas[order[0]])
+        return Placed(int(order[0]), near, bool(rival and near <= _FAR), near > _FAR)
+
+    @staticmethod
+    def _sensitivity(
+        point: NDArray[np.float64], normal: NDArray[np.float64], force: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        return np.asarray(contact_sensitivity(point, normal, force[None])[0])
+
+
+def _norm_ratio(halves: NDArray[np.float64]) -> float:
+    """Return by what the first half must be scaled to the force of the second: more force is no slip."""
+    return float(np.linalg.norm(halves[1, :3]) / np.linalg.norm(halves[0, :3]))
+
+
+def _along(located: Located, force: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the local torque that goes along with a force, N·m: it moves no contact."""
+    return np.asarray(located.torque * force / np.linalg.norm(force))
+
+
+def _high_pass(wrenches: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the covariance (6, 6) of a sample, from differences: what drifts is not noise."""
+    steps = np.diff(wrenches, axis=0)
+    return np.asarray(steps.T @ steps / (2 * len(steps)))
+
+
+def sample_noise(touches: list[NDArray[np.float64]]) -> WrenchNoise:
+    """Return the noise of one sample, measured between neighbours within touches (n, 6) each."""
+    # The median touch: one that slips says nothing about the sensor.
+    usual = np.median([np.diag(_high_pass(each)) for each in touches], axis=0)
+    sigma = np.sqrt(np.maximum(usual, 1e-18))
+    return WrenchNoise(sigma[:3], sigma[3:])
+
+
+def memory(runs: list[NDArray[np.float64]]) -> tuple[float, float] | None:
+    """
+    Tell how alike the samples of runs (n, 6) each are to their neighbours: a filter makes them so.
+
+    Returns
+    -------
+    float
+        tau = 1 + 2 sum of the autocorrelations: a mean of n has tau / n times the variance of a sample; 1: white.
+    float
+        The autocorrelation of neighbours; 0: white. None instead of both: no run is long enough.
+    """
+    usable = [run for run in runs if len(run) >= _SHORTEST]
+    if not usable:
+        return None
+    lags = min(_MOST_LAGS, min(map(len, usable)) // 3)
+    total = np.zeros(lags + 1)
+    for run in usable:
+        total += _autocorrelation(run, lags)
+    rho = total / len(usable)
+    small = np.flatnonzero(rho < _CHANCE)
+    last = int(small[0]) if len(small) else lags + 1
+    return float(1 + 2 * rho[1:last].sum()), float(rho[1]) if last > 1 else 0.0
+
+
+def _autocorrelation(run: NDArray[np.float64], lags: int) -> NDArray[np.float64]:
+    """Return that of a run at lags 0 to `lags`, all channels together; what drifts evenly or bends is taken out."""
+    n = len(run)
+    powers = np.polynomial.polynomial.polyvander(np.linspace(-1, 1, n), 2)
+    left = run - powers @ np.linalg.lstsq(powers, run, rcond=None)[0]
+    left /= np.sqrt(np.maximum((left**2).mean(axis=0), 1e-30))
+    return np.array(
+        [float((left[lag:] * left[: n - lag]).sum(axis=0).mean()) / (n - lag) for lag in range(lags + 1)]
+    )

@@ -1,0 +1,221 @@
+"""A verification from files: what the command and a session share, so that both write the same bytes."""
+
+from __future__ import annotations
+
+import hashlib
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from pipeline.errors import InputError
+from pipeline.verification.figures import Limits, Times
+from pipeline.verification.markers import load_markers
+from pipeline.verification.protocol import ProtocolSettings
+from pipeline.verification.source import read_reference, read_touch_recording
+from pipeline.verification.verify import VerifySettings, verify
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pipeline.calibration.orientation import Convention
+    from pipeline.mesh import Probe
+    from pipeline.verification.figures import Verification
+
+ROLES = ("probe", "calibration", "markers", "recording")
+REFERENCE = "reference"
+_BLOCK = 1 << 20
+_TOUCH_N, _RELEASE_N = 2.0, 1.0
+
+_Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
+_Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
+_Three = tuple[_Number, _Number, _Number]
+
+
+class VerificationParameters(BaseModel):
+    """
+    As the options of ``contactbench verify``; lengths in mm, angles in degrees, times in s.
+
+    ``times`` are figures of solves measured before: (count, median, p99). They are given, not measured here, because
+    the same parameters must give the same bytes. Forces at which a touch begins and ends: 2 and 1 N if left out, less
+    for windows below.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    windows: Annotated[tuple[tuple[_Positive, _Positive], ...], Field(max_length=100)] = ((8.0, 10.0),)
+    samples: int = 50
+    repeats: int = 1
+    order: Annotated[tuple[str, ...], Field(max_length=10_000)] = ()
+    mean_limit_mm: _Positive = 1.0
+    max_limit_mm: _Positive = 2.0
+    p99_limit_s: _Positive = 0.001
+    noise_force: _Positive | None = None
+    noise_torque: _Positive | None = None
+    touch_force: _Positive | None = None
+    release_force: _Positive | None = None
+    euler: str | None = None
+    rotation_vector: bool = False
+    radians: bool = False
+    inverse: bool = False
+    mount: _Three | None = None
+    resamples: int = 2000
+    seed: int = 0
+    times: tuple[int, _Positive, _Positive] | None = None
+
+    @classmethod
+    def checked(cls, values: Mapping[str, Any]) -> VerificationParameters:
+        """Return parameters; InputError, with the first that is wrong."""
+        try:
+            return cls.model_validate(dict(values))
+        except ValidationError as error:
+            first = error.errors(include_url=False)[0]
+            where = ".".join(map(str, first["loc"]))
+            raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
+
+    def settings(self) -> VerifySettings:
+        """Return them as the settings of a verification; InputError if one is out of its range."""
+        # A window below the usual 2 N is for a light hand: its touches then begin and end below it.
+        lowest = min((low for low, _ in self.windows), default=_TOUCH_N)
+        touch = self.touch_force or (_TOUCH_N if lowest > _TOUCH_N else 0.8 * lowest)
+        release = self.release_force or min(_RELEASE_N, 0.5 * touch)
+        protocol = ProtocolSettings(
+            self.windows, self.samples, self.repeats, touch, release, order=self.order
+        )
+        limits = Limits(self.mean_limit_mm / 1e3, self.max_limit_mm / 1e3, self.p99_limit_s)
+        return VerifySettings(
+            protocol, limits, self.noise_force, self.noise_torque, self.resamples, self.seed, self.mount
+        )
+
+    def convention(self) -> Convention | None:
+        """Return how orientations in a CSV file are written; None: as its columns say."""
+        from pipeline.calibration.orientation import Convention, Kind
+
+        if self.euler and self.rotation_vector:
+            raise InputError("euler and rotation_vector contradict each other: give one.")
+        degrees = not self.radians
+        if self.euler:
+            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
+        if self.rotation_vector:
+            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
+        return Convention(inverse=True) if self.inverse else None
+
+
+def verification(
+    inputs: Mapping[str, Path], parameters: Mapping[str, Any], _created: str | None
+) -> dict[str, bytes]:
+    """
+    Verify ``recording`` with ``probe``, ``calibration`` and ``markers``; ``reference`` may be left out.
+
+    Returns
+    -------
+    dict of str to bytes
+        The file ``name``; the same for the same inputs and parameters.
+
+    Raises
+    ------
+    InputError
+        An input or a parameter cannot be used.
+    """
+    given = VerificationParameters.checked(parameters)
+    if Path(given.name).name != given.name or not given.name.endswith(".json"):
+        raise InputError(f"{given.name}: a verification is a file whose name ends in .json.")
+    return {given.name: verify_files(inputs, given).to_bytes()}
+
+
+def verify_files(
+    inputs: Mapping[str, Path], given: VerificationParameters, *, timed: bool = False
+) -> Verification:
+    """
+    Read the inputs and verify.
+
+    Parameters
+    ----------
+    inputs : mapping of role to path
+    given : VerificationParameters
+    timed : bool
+        Measure the times of solves here.
+
+    Raises
+    ------
+    InputError
+        An input is missing or cannot be used.
+    """
+    from pipeline.calibration import Level
+    from pipeline.calibration.files.calibration_file import load_calibration
+
+    missing = [role for role in ROLES if role not in inputs]
+    strangers = sorted(set(inputs) - {*ROLES, REFERENCE})
+    if missing or strangers:
+        raise InputError(
+            f"inputs: {', '.join(ROLES)} are needed, and perhaps {REFERENCE}; missing: {', '.join(missing) or 'none'},"
+            f" unknown: {', '.join(strangers) or 'none'}."
+        )
+    settings, R_ES = given.settings(), _mount(given.mount)
+    markers = load_markers(inputs["markers"])
+    calibration = load_calibration(inputs["calibration"])
+    probe, said, aligned = _load_probe(inputs["probe"])
+    faults = (
+        [] if aligned else ["the probe was never aligned with the sensor: run `contactbench probe align`"]
+    )
+    if calibration.verdict.level is Level.REFUSE:
+        faults.append("the calibration was refused: calibrate again")
+    recording = read_touch_recording(inputs["recording"], given.convention(), R_ES)
+    return verify(
+        probe,
+        calibration.model,
+        markers,
+        replace(recording, warnings=(*said, *recording.warnings)),
+        settings,
+        reference=read_reference(inputs[REFERENCE]) if REFERENCE in inputs else None,
+        times=None if given.times is None else Times(*given.times),
+        timed=timed,
+        sources={role: _sha256(path) for role, path in inputs.items()},
+        faults=tuple(faults),
+    )
+
+
+def load_surface(file: Path) -> Probe:
+    """
+    Load a probe, in metres if this program wrote it, else in millimetres.
+
+    Raises
+    ------
+    MeshError
+        It cannot be used.
+    """
+    return _load_probe(file)[0]
+
+
+def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
+    from pipeline.mesh import MeshWarning, load_probe
+    from pipeline.mesh.ply import written_by_contactbench
+    from pipeline.mesh.sidecar import load_probe_file
+
+    ours, aligned = written_by_contactbench(file), True
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)  # said below, in the same words
+        probe = load_probe(file, "m" if ours else "mm")
+    said = list(probe.health.sentences)
+    if ours:
+        known = load_probe_file(file)
+        said += known.notes
+        aligned = not known.history or known.frame == "S"
+    return probe, said, aligned
+
+
+def _mount(degrees: _Three | None) -> Any:
+    from scipy.spatial.transform import Rotation
+
+    return None if degrees is None else Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
+
+
+def _sha256(file: Path) -> str:
+    digest = hashlib.sha256()
+    with file.open("rb") as stream:
+        while block := stream.read(_BLOCK):
+            digest.update(block)
+    return digest.hexdigest()

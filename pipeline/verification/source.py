@@ -1,0 +1,192 @@
+"""Recordings of touches as arrays: compensated wrenches, and the orientation at each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
+from pipeline.calibration.orientation import Convention, RowError
+from pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
+from pipeline.devices.bursts import spread_bursts
+from pipeline.errors import InputError
+from pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.calibration import GravityModel
+
+_OVERRANGE = 1  # the flag of the samples' status
+_GAP_S, _MOST_BACK = 0.5, 0.05
+_REFERENCE = Wording(header="t,force", rows="forces", meaning="time in s, force of the reference in N")
+
+
+@dataclass(frozen=True, eq=False)
+class TouchRecording:
+    """
+    What a recording holds; n samples.
+
+    Attributes
+    ----------
+    times : (n,)
+        s.
+    wrenches : (n, 6)
+        S, N and N·m; as read, or compensated.
+    R_WS : (n, 3, 3)
+    saturated : (n,) bool
+    warnings : tuple of str
+    """
+
+    times: NDArray[np.float64]
+    wrenches: NDArray[np.float64]
+    R_WS: NDArray[np.float64]
+    saturated: NDArray[np.bool_]
+    warnings: tuple[str, ...] = ()
+
+    def compensated(self, model: GravityModel) -> TouchRecording:
+        """Return it without bias and weight."""
+        return replace(self, wrenches=model.compensate(self.R_WS, self.wrenches))
+
+
+def read_touch_recording(
+    file: Path, convention: Convention | None = None, R_ES: ArrayLike | None = None
+) -> TouchRecording:
+    """
+    Read a recording: MCAP, or CSV with t,fx,fy,fz,mx,my,mz (raw) and orientations.
+
+    Parameters
+    ----------
+    file : path
+    convention : Convention, optional
+        How orientations in a CSV file are written; quaternions if left out.
+    R_ES : (3, 3), optional
+        Sensor in flange, where the orientations are those of the flange.
+
+    Raises
+    ------
+    InputError
+        The file cannot be used; the message says where and why.
+    """
+    if file.suffix.lower() == ".mcap":
+        return _from_mcap(file, R_ES)
+    return _from_csv(file, convention, R_ES)
+
+
+def clock_sentences(times: NDArray[np.float64], name: str) -> tuple[str, ...]:
+    """
+    Return sentences about a clock, s, that goes back or leaves gaps.
+
+    Raises
+    ------
+    InputError
+        So many samples are out of order that this is no recording.
+    """
+    latest = np.maximum.accumulate(times) if len(times) else times
+    back = int(np.count_nonzero(times[1:] <= latest[:-1]))
+    if back > _MOST_BACK * len(times):
+        raise InputError(
+            f"{name}: {back:,} of {len(times):,} samples are not later than one before: sort them by time, or record"
+            " again; t must be seconds of one clock."
+        )
+    steps = np.diff(latest)
+    gaps = steps[steps > _GAP_S]
+    said = []
+    if back:
+        said.append(f"The clock goes back: {back:,} samples that are not later than one before are left out.")
+    if len(gaps):
+        said.append(
+            f"The recording has {len(gaps):,} gaps, the longest of {gaps.max():.1f} s: a touch ends where one begins."
+        )
+    return tuple(said)
+
+
+def read_reference(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """
+    Read times, s, and forces, N, of a reference sensor: CSV with t,force.
+
+    Raises
+    ------
+    InputError
+        The file cannot be used.
+    """
+
+    def select(reader: TableReader) -> None:
+        reader.select(("t", "force"))
+
+    rows = read_table(file, select, _REFERENCE, row_limit=10_000_000)
+    order = np.argsort(rows.numbers[:, 0], kind="stable")
+    return rows.numbers[order, 0], np.abs(rows.numbers[order, 1])
+
+
+def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
+    from pipeline.recording import read_recording
+    from pipeline.recording.convert import poses_at
+
+    recording = read_recording(file)
+    if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
+        raise InputError(
+            f"{file}: {len(recording.wrenches)} sensors and {len(recording.flanges)} flanges: a verification needs one"
+            " of each; convert the ones that are meant to CSV."
+        )
+    track, flange = next(iter(recording.wrenches.values())), next(iter(recording.flanges.values()))
+    times = spread_bursts(track.times)
+    poses, there = poses_at(flange, times)
+    clipped = (track.status & _OVERRANGE) != 0
+    kept = there & (track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1)))
+    if not kept.any():
+        raise InputError(f"{file}: no reading has a pose beside it: record the robot along with the sensor.")
+    lost = int(np.count_nonzero(~kept))
+    said = (
+        [f"{lost:,} readings are left out: without a pose, or the device says they are no good."]
+        if lost
+        else []
+    )
+    R_WS = sensor_orientations(poses[kept, :4], Convention(), R_ES)
+    return TouchRecording(
+        times[kept],
+        track.wrenches[kept],
+        R_WS,
+        clipped[kept],
+        (*recording.warnings, *said, *clock_sentences(times[kept], str(file))),
+    )
+
+
+def _from_csv(file: Path, convention: Convention | None, R_ES: ArrayLike | None) -> TouchRecording:
+    wording = Wording(
+        header=",".join(("t", *CHANNELS, *(convention or Convention()).columns)),
+        rows="readings",
+        meaning="raw forces in N, torques in N·m, in the sensor frame S, and its orientation",
+        not_finite="remove the row.",
+        error=WrenchFileError,
+    )
+    parts: list[TouchRecording] = []
+    with open_table(file, WrenchFileError) as (stream, name, _):
+        reader = TableReader(stream, name, wording)
+        how = find_convention(reader, convention)
+        reader.select(("t", *CHANNELS, *how.columns), optional=("status",))
+        parts.extend(_block(rows, how, R_ES, reader) for rows in reader)
+    times = np.concatenate([part.times for part in parts])
+    return TouchRecording(
+        times,
+        np.concatenate([part.wrenches for part in parts]),
+        np.concatenate([part.R_WS for part in parts]),
+        np.concatenate([part.saturated for part in parts]),
+        clock_sentences(times, str(file)),
+    )
+
+
+def _block(rows: TableRows, how: Convention, R_ES: ArrayLike | None, reader: TableReader) -> TouchRecording:
+    numbers, width = rows.numbers, 7 + len(how.columns)
+    try:
+        R_WS = sensor_orientations(numbers[:, 7:width], how, R_ES)
+    except RowError as error:
+        raise reader.error(error.what, int(rows.lines[error.row])) from None
+    clipped = np.zeros(len(numbers), dtype=bool)
+    if "status" in rows.columns:
+        clipped = (rows.column("status").astype(np.int64) & _OVERRANGE) != 0
+    return TouchRecording(numbers[:, 0].copy(), numbers[:, 1:7].copy(), R_WS, clipped)

@@ -1,0 +1,164 @@
+"""What speaks against a verification, in sentences."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.verification.figures import Unresolved, Verdict
+from pipeline.verification.press import UNRESOLVED, Why
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pipeline.verification.figures import Interval, Limits, Summary, Times, TouchFigure
+    from pipeline.verification.markers import MarkerSet
+
+MOST_UNRESOLVED = 0.05
+FEWEST_MARKERS = 6
+_ROOM = 0.002  # m between what two neighbours may both be off
+_LISTED = 10
+
+
+@dataclass(frozen=True)
+class Case:
+    """
+    What a verdict is about.
+
+    Attributes
+    ----------
+    overall : Summary or None
+    unresolved : Unresolved or None
+    missing : tuple of str
+    markers : int
+        With an accepted touch.
+    limits : Limits
+    faults : tuple of str
+        What is wrong with the inputs, in sentences.
+    rejected : dict of str to int
+    """
+
+    overall: Summary | None
+    unresolved: Unresolved | None
+    missing: tuple[str, ...]
+    markers: int
+    limits: Limits
+    faults: tuple[str, ...]
+    rejected: dict[str, int]
+
+    def judged(self, times: Times | None) -> Verdict:
+        """Return the verdict; times that were not measured are a note."""
+        reasons = [*self._errors(), *self._unclear(), *_times(times, self.limits)]
+        if self.missing:
+            more = f" and {len(self.missing) - _LISTED} more" if len(self.missing) > _LISTED else ""
+            reasons.append(f"too few accepted touches of {', '.join(self.missing[:_LISTED])}{more}")
+        reasons += self.faults
+        notes = [] if times is not None else ["time: not measured"]
+        if self.markers < FEWEST_MARKERS:
+            many = "1 marker was" if self.markers == 1 else f"{self.markers} markers were"
+            notes.append(
+                f"too few to tell of the whole probe: {many} touched, {FEWEST_MARKERS} are the fewest"
+            )
+        return Verdict(not reasons, tuple(reasons), tuple(notes))
+
+    def _errors(self) -> list[str]:
+        if self.overall is None:
+            return ["no touch was accepted"]
+        sizes = (
+            ("mean", self.overall.mean_mm, self.limits.mean_m),
+            ("largest", self.overall.max_mm, self.limits.max_m),
+        )
+        return [
+            f"the {name} error is {size:.2f} mm, over {1e3 * limit:g} mm"
+            for name, size, limit in sizes
+            if size > 1e3 * limit
+        ]
+
+    def _unclear(self) -> list[str]:
+        found = self.unresolved
+        if found is None or found.share <= MOST_UNRESOLVED:
+            return []
+        kinds = ", ".join(f"{self.rejected[why]} {why}" for why in UNRESOLVED if self.rejected.get(why))
+        return [
+            f"{found.touches} of {found.settled} settled touches have no marker ({kinds}): their points may be wrong"
+        ]
+
+
+def unresolved(figures: Sequence[TouchFigure], limits: Limits) -> Unresolved | None:
+    """
+    Count settled touches that no marker could be given to; None: nothing settled.
+
+    One that was called ambiguous while its first answer keeps the limit at a marker is none of them: the program
+    warned, and the answer was right.
+    """
+    count = sum(
+        figure.reason in UNRESOLVED
+        and not (
+            figure.reason == Why.AMBIGUOUS
+            and figure.distance_mm is not None
+            and figure.distance_mm <= 1e3 * limits.max_m
+        )
+        for figure in figures
+    )
+    settled = count + sum(figure.accepted for figure in figures)
+    return Unresolved(count, settled, count / settled) if settled else None
+
+
+def missing(
+    figures: Sequence[TouchFigure], names: Sequence[str], windows: Sequence[Interval], wanted: int
+) -> tuple[str, ...]:
+    """Return markers with fewer accepted touches than wanted in each window."""
+    counts = Counter((figure.marker, figure.window_N) for figure in figures if figure.accepted)
+    short = [(name, window) for name in names for window in windows if counts[name, window] < wanted]
+    several = len(windows) > 1
+    return tuple(f"{name} ({low:g} to {high:g} N)" if several else name for name, (low, high) in short)
+
+
+def crowded(markers: MarkerSet, limits: Limits) -> tuple[str | None, bool]:
+    """
+    Tell whether markers are so close that a wrong contact may be taken for the neighbour's.
+
+    Returns
+    -------
+    str or None
+        The sentence; None: they are far enough apart.
+    bool
+        It cannot be told at all: two contacts within the limits may swap.
+    """
+    if len(markers) < 2:
+        return None, False
+    from scipy.spatial import cKDTree
+
+    found = cKDTree(markers.points).query(markers.points, k=2)
+    away, other = np.asarray(found[0]), np.asarray(found[1])
+    closest = int(np.argmin(away[:, 1]))
+    pitch, needed = float(away[closest, 1]), 2 * limits.max_m + _ROOM
+    if pitch >= needed:
+        return None, False
+    a, b = markers[closest].name, markers[int(other[closest, 1])].name
+    said = (
+        f"markers {a} and {b} are {1e3 * pitch:.1f} mm apart, {1e3 * needed:g} mm are needed to tell a wrong contact"
+        " from a touch of the neighbour: give the order of the touches, or leave markers out"
+    )
+    return said, pitch < 2 * limits.max_m
+
+
+def misses(figures: Sequence[TouchFigure]) -> str | None:
+    """Return what to check if most settled touches miss the probe."""
+    count = sum(figure.reason == Why.MISSED for figure in figures)
+    settled = sum(figure.accepted or figure.reason in UNRESOLVED for figure in figures)
+    if not settled or 2 * count <= settled:
+        return None
+    return (
+        f"{count} of {settled} settled touches miss the probe: check the units (N, N·m, mm), the mount of the"
+        " sensor on the flange, and the alignment of the probe."
+    )
+
+
+def _times(times: Times | None, limits: Limits) -> list[str]:
+    if times is None or times.p99_s <= limits.p99_s:
+        return []
+    return [f"99 % of solves take up to {1e3 * times.p99_s:.3g} ms, over {1e3 * limits.p99_s:g} ms"]

@@ -1,0 +1,370 @@
+"""From a recording of touches on markers to a verification."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import asdict, dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.contact import WrenchNoise
+from pipeline.errors import InputError
+from pipeline.verification.causes import Evidence
+from pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
+from pipeline.verification.figures import Limits, Times, TouchFigure, Verification
+from pipeline.verification.locating import Placing
+from pipeline.verification.markers import with_normals
+from pipeline.verification.noise import measured_noise, rate_of, resting
+from pipeline.verification.protocol import ProtocolSettings, TouchProtocol
+from pipeline.verification.reference import force_accuracy
+from pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
+from pipeline.verification.verdict import Case, crowded, misses, missing, unresolved
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import GravityModel
+    from pipeline.mesh import Probe
+    from pipeline.verification.figures import ForceAccuracy, Summary
+    from pipeline.verification.markers import MarkerSet
+    from pipeline.verification.protocol import Touch
+    from pipeline.verification.source import TouchRecording
+
+_ANGLES = (7.5, 22.5, 37.5, 52.5)  # degrees: borders of the ranges that are told apart
+_SOLVES = 20_000
+
+
+@dataclass(frozen=True)
+class VerifySettings:
+    """
+    How to verify.
+
+    Attributes
+    ----------
+    protocol : ProtocolSettings
+    limits : Limits
+    noise_force, noise_torque : float or None
+        Standard deviation of a sample, N and N·m; None: measured within the touches.
+    resamples, seed : int
+        Of the bootstrap.
+    mount : (3,), optional
+        Angles that the orientations of a flange were turned by, degrees about fixed x, y, z: only kept with the result.
+    """
+
+    protocol: ProtocolSettings = field(default_factory=ProtocolSettings)
+    limits: Limits = field(default_factory=Limits)
+    noise_force: float | None = None
+    noise_torque: float | None = None
+    resamples: int = 2000
+    seed: int = 0
+    mount: tuple[float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        if (self.noise_force is None) != (self.noise_torque is None):
+            raise InputError("noise of force and torque: give both or none.")
+        limits = (self.limits.mean_m, self.limits.max_m, self.limits.p99_s)
+        if not all(0 < limit < 1e3 for limit in limits):
+            raise InputError(f"limits {limits}: give positive numbers.")
+        if not 100 <= self.resamples <= 1_000_000 or self.seed < 0:
+            raise InputError("bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.")
+
+
+def find_touches(
+    recording: TouchRecording, placing: Placing, settings: ProtocolSettings | None = None
+) -> list[Touch]:
+    """Return every touch of a compensated recording, accepted or rejected."""
+    protocol = TouchProtocol(placing, settings)
+    events = protocol.feed(recording.times, recording.wrenches, recording.R_WS, recording.saturated)
+    # The last word on a press counts: one that was accepted may be withdrawn before it is released.
+    last = {
+        event.touch.start: event.touch for event in (*events, *protocol.finish()) if event.touch is not None
+    }
+    return list(last.values())
+
+
+def verify(
+    probe: Probe,
+    model: GravityModel,
+    markers: MarkerSet,
+    recording: TouchRecording,
+    settings: VerifySettings | None = None,
+    *,
+    reference: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
+    times: Times | None = None,
+    timed: bool = False,
+    sources: dict[str, str] | None = None,
+    faults: tuple[str, ...] = (),
+) -> Verification:
+    """
+    Find the touches of a recording, and judge the contact points.
+
+    Parameters
+    ----------
+    probe : Probe
+        S.
+    model : GravityModel
+    markers : MarkerSet
+        On the probe; where exactly they are is what the contacts are compared with.
+    recording : TouchRecording
+        Raw.
+    settings : VerifySettings, optional
+    reference : (times, forces), optional
+        Of a reference sensor, s and N, on the recording's clock.
+    times : Times, optional
+        Of solves, measured before.
+    timed : bool
+        Measure them now; only then two runs differ.
+    sources : dict, optional
+        SHA-256 of the inputs, by role: kept with the result.
+    faults : tuple of str
+        Why nothing verified with these inputs may pass, in sentences.
+
+    Raises
+    ------
+    MarkerError
+        A marker is off the probe.
+    InputError
+        Nothing touched the probe.
+    """
+    settings = settings or VerifySettings()
+    placed, heights = with_normals(markers, probe)
+    compensated = recording.compensated(model)
+    stated = (
+        None
+        if settings.noise_force is None or settings.noise_torque is None
+        else (settings.noise_force, settings.noise_torque)
+    )
+    noise, correlation, said = measured_noise(compensated, settings.protocol, stated)
+    placing = Placing(probe, placed, model, noise, settings.protocol.samples, correlation)
+    touches = find_touches(compensated, placing, settings.protocol)
+    if not touches:
+        raise InputError(
+            f"nothing in the recording touches the probe: |F| never reaches {settings.protocol.touch_N:g} N. Check that"
+            " it is the right recording, and that the calibration belongs to it."
+        )
+    evidence = _evidence(touches, placed, heights, noise, model, settings.protocol.samples)
+    if timed and len(evidence.errors):
+        times = time_solves(placing, evidence.wrenches)
+    figures, rate = _figures(touches, placed), rate_of(recording.times)
+    force = None
+    if reference is not None:
+        force, doubts = force_accuracy(touches, *reference)
+        said += doubts
+    said += _sentences(figures, compensated, settings.protocol, rate)
+    return judge(
+        figures,
+        evidence,
+        placing,
+        settings,
+        times=times,
+        force=force,
+        sources=sources or {},
+        warnings=(*recording.warnings, *said),
+        faults=faults,
+        rate=rate,
+    )
+
+
+def judge(
+    figures: tuple[TouchFigure, ...],
+    evidence: Evidence,
+    placing: Placing,
+    settings: VerifySettings,
+    *,
+    times: Times | None = None,
+    force: ForceAccuracy | None = None,
+    sources: dict[str, str] | None = None,
+    warnings: tuple[str, ...] = (),
+    faults: tuple[str, ...] = (),
+    rate: float | None = None,
+) -> Verification:
+    """Return the verification of touches; `evidence` has a row for each accepted one of `figures`; `rate` is in Hz."""
+    accepted = [figure for figure in figures if figure.accepted]
+    errors, enough = evidence.errors, len(accepted) >= FEWEST
+    overall = summarise("all", errors) if accepted else None
+    protocol, rejected = (
+        settings.protocol,
+        Counter(figure.reason for figure in figures if not figure.accepted),
+    )
+    said, hopeless = (None, False) if protocol.order else crowded(placing.markers, settings.limits)
+    case = Case(
+        overall,
+        unresolved(figures, settings.limits),
+        missing(figures, placing.markers.names, protocol.windows, protocol.repeats),
+        len({figure.marker for figure in accepted}),
+        settings.limits,
+        (*faults, said) if said and hopeless else faults,
+        dict(sorted(rejected.items())),
+    )
+    windows = [_span(window) for window in settings.protocol.windows]
+    repeats = sorted({figure.repeat or 0 for figure in accepted})
+    return Verification(
+        touches=figures,
+        rejected=case.rejected,
+        per_marker=summarise_by([f.marker for f in accepted], placing.markers.names, errors),
+        per_repeat=summarise_by([f.repeat for f in accepted], [str(each) for each in repeats], errors),
+        per_force=summarise_by([_span(f.window_N or (0.0, 0.0)) for f in accepted], windows, errors),
+        per_angle=summarise_by([_angle_range(f.angle_deg or 0.0) for f in accepted], _ANGLE_NAMES, errors),
+        overall=overall,
+        ci=intervals(errors, groups=evidence.markers, resamples=settings.resamples, seed=settings.seed)
+        if enough
+        else None,
+        ratio=_ratio(accepted),
+        times=times,
+        force=force,
+        verdict=case.judged(times),
+        diagnosis=diagnose(evidence, _within(overall, settings.limits), placing.markers.names)
+        if len(accepted) >= FEWEST_TOUCHES
+        else None,
+        alignment_refined=refine(evidence, placing.solver, placing.markers),
+        missing=case.missing,
+        limits=settings.limits,
+        settings=_plain(settings, placing, rate),
+        sources=dict(sorted((sources or {}).items())),
+        warnings=(*warnings, f"{said[0].upper()}{said[1:]}.") if said else warnings,
+        unresolved=case.unresolved,
+    )
+
+
+def time_solves(placing: Placing, wrenches: NDArray[np.float64]) -> Times:
+    """Time single solves of wrenches (n, 6), over and over, as a controller would call them."""
+    many = np.ascontiguousarray(np.resize(wrenches, (_SOLVES, 6)))
+    seconds = 1e-9 * np.asarray(placing.solver.time_each(many))
+    return Times(len(seconds), float(np.median(seconds)), float(np.percentile(seconds, 99)))
+
+
+def without_times(found: Verification) -> Verification:
+    """Return a verification without what differs from run to run: what is compared to tell whether two are the same."""
+    return replace(found, times=None, verdict=replace(found.verdict, reasons=(), notes=()))
+
+
+def _sentences(
+    figures: tuple[TouchFigure, ...],
+    recording: TouchRecording,
+    protocol: ProtocolSettings,
+    rate: float | None,
+) -> list[str]:
+    found = (misses(figures), None if rate is None else resting(recording, protocol, rate))
+    return [sentence for sentence in found if sentence is not None]
+
+
+# ---- from touches to figures -------------------------------------------------------------------
+
+
+def _evidence(
+    touches: list[Touch],
+    markers: MarkerSet,
+    heights: NDArray[np.float64],
+    noise: WrenchNoise,
+    model: GravityModel,
+    samples: int,
+) -> Evidence:
+    pairs = [(t.located, t.placed.marker) for t in touches if t.why is None and t.located and t.placed]
+    places = np.array([marker for _, marker in pairs], dtype=np.intp)
+    points = np.array([each.point for each, _ in pairs]).reshape(-1, 3)
+    return Evidence(
+        errors=points - markers.points[places],
+        markers=places,
+        points=markers.points[places],
+        normals=markers.normals[places],
+        heights=heights[places],
+        wrenches=np.array([each.wrench for each, _ in pairs]).reshape(-1, 6),
+        R_WS=np.array([each.R_WS for each, _ in pairs]).reshape(-1, 3, 3),
+        torques=np.array([each.torque for each, _ in pairs]),
+        noise=noise.covariance / samples,
+        theta=model.vector,
+    )
+
+
+def _figures(touches: list[Touch], markers: MarkerSet) -> tuple[TouchFigure, ...]:
+    counts: Counter[str] = Counter()
+    figures = []
+    for number, touch in enumerate(touches, 1):
+        known = (
+            None
+            if touch.placed is None or (touch.placed.far and touch.why is not None)
+            else markers[touch.placed.marker]
+        )
+        repeat = None
+        if touch.why is None and known is not None:
+            counts[known.name] += 1
+            repeat = counts[known.name]
+        figures.append(
+            TouchFigure(
+                number=number,
+                start_s=touch.start,
+                time_s=touch.time,
+                accepted=touch.why is None,
+                reason=str(touch.why or ""),
+                marker=None if known is None else known.name,
+                repeat=repeat,
+                force_N=touch.force,
+                window_N=touch.window,
+                **({} if known is None else _where(touch, known.point_S, known.normal_S)),
+            )
+        )
+    return tuple(figures)
+
+
+def _where(touch: Touch, point: NDArray[np.float64], normal: NDArray[np.float64]) -> dict[str, Any]:
+    located = touch.located
+    if located is None:
+        return {}
+    F = located.wrench[:3]
+    size = float(np.linalg.norm(F))
+    error = 1e3 * (located.point - point)
+    return {
+        "angle_deg": float(np.degrees(np.arccos(np.clip(-F @ normal / size, -1.0, 1.0)))),
+        "point_mm": vector(1e3 * located.point),
+        "error_mm": vector(error),
+        "distance_mm": float(np.linalg.norm(error)),
+        "predicted_mm": float(1e3 * np.sqrt(np.trace(located.covariance))),
+        "torque_arm_mm": 1e3 * located.torque / size,
+    }
+
+
+def _ratio(accepted: list[TouchFigure]) -> float | None:
+    """Return the rms error over the rms of what was predicted."""
+    predicted = sum((figure.predicted_mm or 0.0) ** 2 for figure in accepted)
+    found = sum((figure.distance_mm or 0.0) ** 2 for figure in accepted)
+    return float(np.sqrt(found / predicted)) if predicted > 0 else None
+
+
+def _within(overall: Summary | None, limits: Limits) -> bool:
+    """Tell whether the errors keep their limits, whatever else the verdict is about."""
+    return (
+        overall is not None
+        and overall.mean_mm <= 1e3 * limits.mean_m
+        and overall.max_mm <= 1e3 * limits.max_m
+    )
+
+
+_ANGLE_NAMES = tuple(
+    f"{low:g} to {high:g}°" for low, high in zip((0.0, *_ANGLES), (*_ANGLES, 90.0), strict=True)
+)
+
+
+def _angle_range(angle: float) -> str:
+    return _ANGLE_NAMES[int(np.searchsorted(_ANGLES, angle))]
+
+
+def _span(window: tuple[float, float]) -> str:
+    return f"{window[0]:g} to {window[1]:g} N"
+
+
+def _plain(settings: VerifySettings, placing: Placing, rate: float | None) -> dict[str, Any]:
+    """Return the settings without the limits, which stand beside them, and with what was found or is fixed."""
+    plain = asdict(settings)
+    del plain["limits"]
+    noise = np.sqrt(np.diag(placing.noise.covariance)).tolist()
+    gates = {name: _finite(value) for name, value in asdict(placing.solver.gates).items()}
+    return {**plain, "noise": noise, "rate_Hz": rate, "filters": [], "gates": gates}
+
+
+def _finite(value: Any) -> Any:
+    """Return numbers for JSON, which knows no infinity: None is a limit that there is not."""
+    numbers = np.asarray(value, dtype=object)
+    if numbers.ndim:
+        return [_finite(each) for each in numbers.tolist()]
+    return value if value is None or isinstance(value, bool | str) or np.isfinite(value) else None

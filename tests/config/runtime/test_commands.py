@@ -1,0 +1,385 @@
+"""``contactbench config``: export from files and from a session, check, diff, schema; exit codes."""
+
+import hashlib
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+from config.runtime.bundles import example, example_bundle
+from scipy.spatial.transform import Rotation
+from typer.testing import CliRunner
+from weighing_files import weighed
+
+import assets
+from pipeline import cli
+from pipeline.calibration import calibrate
+from pipeline.calibration.files.calibration_file import Mount, save_calibration
+from pipeline.config.runtime import ConfigError, RuntimeConfig
+from pipeline.config.runtime.canonical import json_schema
+from pipeline.config.runtime.verified import read_verification
+from pipeline.mesh import Probe
+from pipeline.mesh.regions import RegionSet
+from pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from pipeline.session import Session
+
+RATE = ("--rate", 1000)
+
+
+def invoke(*arguments):
+    return CliRunner().invoke(cli.app, ["config", *map(str, arguments)])
+
+
+def sha256(file):
+    return hashlib.sha256(file.read_bytes()).hexdigest()
+
+
+def verification(folder, *, passed=True, mean=0.4, **settings):
+    file = folder / "verification.json"
+    content = {
+        "schema": "contactbench.verification",
+        "version": 1,
+        "overall": {"touches": 40, "mean_mm": mean, "sd_mm": 0.2, "p95_mm": 0.8, "max_mm": 1.2},
+        "per_marker": [{}] * 10,
+        "ratio": 1.1,
+        "times": {"count": 40, "median_s": 1e-6, "p99_s": 2e-6},
+        "verdict": {"passed": passed, "reasons": [] if passed else ["The mean error is too large."]},
+        "diagnosis": {"text": "Noise explains most of the error."},
+        "limits": {"mean_m": 0.001, "max_m": 0.002, "p99_s": 0.001},
+        "settings": settings,
+        "sources": {
+            role: sha256(folder / name)
+            for role, name in (("calibration", "calibration.json"), ("probe", "probe.ply"))
+        },
+    }
+    file.write_text(json.dumps(content))
+    return file
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Make a folder with a calibration, a probe and a verification, once."""
+    folder = tmp_path_factory.mktemp("made")
+    save_calibration(calibrate(weighed().poses), folder / "calibration.json")
+    vertices, faces = assets.make("convex", 300)
+    region = assets.contact_region("convex", vertices, faces)
+    probe = Probe.from_arrays(vertices, faces, region, name="convex")
+    save_probe_file(ProbeFile(probe, RegionSet.from_labels(probe.region), "S"), folder / "probe.ply")
+    verification(folder)
+    return folder
+
+
+@pytest.fixture
+def bench(made, tmp_path, monkeypatch):
+    """Give a copy of that folder."""
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
+    return shutil.copytree(made, tmp_path / "bench")
+
+
+def files_of(bench):
+    return (
+        "--calibration", bench / "calibration.json", "--probe", bench / "probe.ply",
+        "--verification", bench / "verification.json", *RATE,
+    )  # fmt: skip
+
+
+def test_export_check_and_the_same_bytes_again(bench):
+    options = ("--sensor", "M8128", "--serial", "42", "--rate", 500, "--cutoff", 20, "--operator", "Ada",
+               "--saturation", "400,400,400,20,20,20", "--region-only")  # fmt: skip
+    made = invoke("export", *files_of(bench), *options, "--out", bench / "b.zip", "--json")
+    assert made.exit_code == 0, made.stderr
+    facts = json.loads(made.stdout)
+    assert facts["verified"]
+    config = RuntimeConfig.load(bench / "b.zip")
+    assert config.model.sensor.model_dump() == {"model": "M8128", "serial": "42", "rate_Hz": 500.0}
+    assert config.model.gates.region_only
+    assert config.model.gates.saturation == [400.0, 400.0, 400.0, 20.0, 20.0, 20.0]
+    assert config.model.provenance.operator == "Ada"
+    assert config.model.provenance.created == "2023-11-14T22:13:20Z"
+    assert {each.role: each.sha256 for each in config.model.provenance.sources} == {
+        "calibration": sha256(bench / "calibration.json"),
+        "probe": sha256(bench / "probe.ply"),
+        "verification": sha256(bench / "verification.json"),
+    }
+    assert config.model.verification.max_error_m == pytest.approx(0.0012)
+    before = (bench / "b.zip").read_bytes()
+    assert invoke("export", *files_of(bench), *options, "--out", bench / "b.zip").exit_code == 0
+    assert (bench / "b.zip").read_bytes() == before
+    checked = invoke("check", bench / "b.zip", "--json")
+    assert checked.exit_code == 0
+    assert json.loads(checked.stdout)["probe"]["facets"] == len(config.probe.faces)
+    assert "verified on 10 markers: 0.40 mm mean" in checked.stderr
+
+
+def test_what_is_not_verified_is_refused_or_marked(bench):
+    out = bench / "bundle"
+    some = (*files_of(bench)[:4], *RATE)
+    refused = invoke("export", *some, "--out", out, "--json")
+    assert refused.exit_code == 1
+    assert "Nobody has verified" in json.loads(refused.stdout)["reasons"][0]
+    assert not out.exists()
+    assert invoke("export", *some, "--out", out, "--unverified").exit_code == 0
+    assert invoke("check", out).exit_code == 1
+    verification(bench, passed=False)
+    assert "mean error is too large" in invoke("export", *files_of(bench), "--out", out).stderr
+    verification(bench)
+    save_calibration(calibrate(weighed(seed=5).poses), bench / "calibration.json")
+    other = invoke("export", *files_of(bench), "--out", out)
+    assert other.exit_code == 1
+    assert "another calibration" in other.stderr
+    assert invoke("check", out).exit_code == 1  # the one before is still there
+
+
+def test_a_probe_that_was_never_aligned_is_refused(bench):
+    sidecar = bench / "probe.json"
+    sidecar.write_text(sidecar.read_text().replace('"S"', '"P"'))
+    result = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert result.exit_code == 1
+    assert "frame is P" in result.stderr
+
+
+def test_wrong_input_ends_with_2(bench, tmp_path):
+    assert invoke("check", tmp_path / "none").exit_code == 2
+    assert invoke("check", bench / "probe.ply").exit_code == 2
+    assert invoke("export", "--out", bench / "b").exit_code == 2
+    assert invoke("export", bench, *files_of(bench), "--out", bench / "b").exit_code == 2
+    assert invoke("export", *files_of(bench), "--noise-force", 0.1, "--out", bench / "b").exit_code == 2
+    assert invoke("export", *files_of(bench), "--max-force", 0, "--out", bench / "b").exit_code == 2
+    assert invoke("export", *files_of(bench), "--out", bench).exit_code == 2  # a folder with other files
+    assert (bench / "probe.ply").exists()
+    example_bundle(bench / "b")
+    (bench / "b" / "planes.csv").write_text("x")
+    damaged = invoke("check", bench / "b", "--json")
+    assert damaged.exit_code == 2
+    assert "planes.csv does not have the hash" in json.loads(damaged.stdout)["error"]
+
+
+def test_diff_names_fields_and_surfaces(tmp_path):
+    example_bundle(tmp_path / "a")
+    example(2_000).write(tmp_path / "b.zip")
+    same = invoke("diff", tmp_path / "a", tmp_path / "a", "--json")
+    assert json.loads(same.stdout) == {"same": True, "fields": [], "files": [], "mesh": None}
+    found = invoke("diff", tmp_path / "a", tmp_path / "b.zip", "--json")
+    assert found.exit_code == 0
+    assert "probe.facets" in found.stderr
+    assert "mm apart" in found.stderr
+    assert {each["field"] for each in json.loads(found.stdout)["fields"]} >= {"probe.facets", "planes.count"}
+
+
+def test_the_schema_is_printed():
+    assert invoke("schema").stdout.encode() == json_schema()
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [(b"x", "not JSON"), (b"{}", "is no contactbench.verification"),
+     (b'{"schema":"contactbench.verification","version":1}', "no touch was accepted"),
+     (b'{"schema":"contactbench.verification","version":1,"overall":{}}', "lacks a figure")],
+)  # fmt: skip
+def test_what_is_no_verification_is_refused(data, words):
+    with pytest.raises(ConfigError, match=words):
+        read_verification(data, "v.json")
+
+
+# ---- what was verified -------------------------------------------------------------------------
+
+
+def mounted(bench, degrees):
+    """Calibrate as ``--mount`` does."""
+    R_ES = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
+    save_calibration(calibrate(weighed().poses), bench / "calibration.json", mount=Mount.of(R_ES.T))
+
+
+def test_the_mount_of_a_calibration_is_exported(bench):
+    mounted(bench, (0, 0, 90))
+    verification(bench)
+    made = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert made.exit_code == 0, made.stderr
+    half = 0.5**0.5
+    assert RuntimeConfig.load(bench / "b").model.frames.quaternion_ES == pytest.approx([half, 0, 0, half])
+
+
+def test_another_mount_than_the_calibrations_is_a_reason_against(bench):
+    mounted(bench, (0, 0, 90))
+    for verified, options, words in (
+        ((0, 0, 80), (), "verification was made with the mounting"),
+        (None, (), "verification was made with the mounting"),  # orientations taken for the sensor's own
+        ((0, 0, 90), ("--mount", "0,0,80"), "calibration was made with the mounting"),
+    ):
+        verification(bench, mount=verified)
+        made = invoke("export", *files_of(bench), *options, "--out", bench / "b")
+        assert made.exit_code == 1
+        assert words in " ".join(made.stderr.split())
+    verification(bench, mount=(0, 0, 90))
+    assert invoke("export", *files_of(bench), "--mount", "0,0,90", "--out", bench / "b").exit_code == 0
+
+
+def test_the_rate_is_the_verified_one_or_given(bench):
+    without = files_of(bench)[:-2]
+    unknown = invoke("export", *without, "--out", bench / "b")
+    assert unknown.exit_code == 2
+    assert "--rate" in unknown.stderr
+    verification(bench, rate_Hz=500.0)
+    assert invoke("export", *without, "--out", bench / "b").exit_code == 0
+    model = RuntimeConfig.load(bench / "b").model
+    assert (model.sensor.rate_Hz, model.filters.wrench.rate_Hz) == (500.0, 500.0)
+    assert invoke("export", *without, "--rate", 510, "--out", bench / "b").exit_code == 0
+    other = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert other.exit_code == 1
+    assert "verified at 500 readings" in " ".join(other.stderr.split())
+
+
+def test_a_verification_without_sources_counts_for_nothing(bench):
+    file = bench / "verification.json"
+    content = json.loads(file.read_text())
+    del content["sources"]
+    file.write_text(json.dumps(content))
+    made = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert made.exit_code == 1
+    assert "does not say with which calibration" in " ".join(made.stderr.split())
+
+
+def test_what_nobody_said_is_said(bench):
+    made = invoke("export", *files_of(bench), "--out", bench / "b")
+    for said in (made.stderr, invoke("check", bench / "b").stderr):
+        assert "NO SATURATION LIMITS" in said
+        assert "does not say its rate, mounting" in " ".join(said.split())
+    made = invoke("export", *files_of(bench), "--saturation", "9,9,9,1,1,1", "--out", bench / "b")
+    assert "SATURATION" not in made.stderr
+
+
+def test_settings_from_a_file_reach_everything(bench):
+    whole = example().model.to_json()
+    given = {name: whole[name] for name in ("controller", "limits", "gates", "filters")}
+    del given["filters"]["location"]["sections"]
+    (bench / "settings.json").write_text(json.dumps(given))
+    made = invoke("export", *files_of(bench), "--settings", bench / "settings.json", "--out", bench / "b")
+    assert made.exit_code == 0, made.stderr
+    found = RuntimeConfig.load(bench / "b").model.to_json()
+    assert found["gates"].pop("friction_angle_rad") == pytest.approx(whole["gates"].pop("friction_angle_rad"))
+    del found["filters"]["location"]["sections"]
+    for name in given:
+        assert found[name] == whole[name]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [("x", "not JSON"), ('{"gain":1}', "gain"), ('{"gates":{"torque_ratio":0.5}}', "torque_ratio"),
+     ('{"limits":{}}', "limits.max_force_N"), ('{"gates":{"no":1}}', "no")],
+)  # fmt: skip
+def test_wrong_settings_are_refused(bench, text, words):
+    (bench / "settings.json").write_text(text)
+    made = invoke("export", *files_of(bench), "--settings", bench / "settings.json", "--out", bench / "b")
+    assert made.exit_code == 2
+    assert words in made.stderr
+
+
+# ---- sessions ----------------------------------------------------------------------------------
+
+
+def fill(session, bench, poses_name="poses.csv"):
+    """Add poses, a calibration of them, a probe, and a verification of both."""
+    poses = bench / poses_name
+    poses.write_text("poses\n")
+    session.add_input(poses, "poses", sensor="S-77")
+    (raw,) = (each for each in session.state.current_inputs.values() if each.kind == "poses")
+    read = {
+        name: (bench / name).read_bytes()
+        for name in ("calibration.json", "probe.ply", "probe.json", "verification.json")
+    }
+    session.add_result(
+        "calibration", "c.json", {"c.json": read["calibration.json"]}, {"poses": raw.content}, {}
+    )
+    session.add_result("probe", "p.ply", {"p.ply": read["probe.ply"], "p.json": read["probe.json"]}, {}, {})
+    known = {kind: each.content for (kind, _), each in session.state.current_results.items()}
+    session.add_result("verification", "v.json", {"v.json": read["verification.json"]}, known, {})
+
+
+def test_export_from_a_session(bench):
+    with Session.create(bench / "s", by="ada") as session:
+        fill(session, bench)
+        identity = session.state.id
+    made = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert made.exit_code == 0, made.stderr
+    model = RuntimeConfig.load(bench / "b").model
+    assert (model.sensor.serial, model.provenance.session, model.provenance.operator) == (
+        "S-77",
+        identity,
+        "ada",
+    )
+    assert {each.role for each in model.provenance.sources} == {"calibration", "probe", "verification"}
+
+    with Session.open(bench / "s", by="ada") as session:
+        session.rezeroed("S-77")
+    stale = invoke("export", bench / "s", *RATE, "--out", bench / "b", "--json")
+    assert stale.exit_code == 1
+    assert any("calibration c.json" in reason for reason in json.loads(stale.stdout)["reasons"])
+    assert RuntimeConfig.load(bench / "b").model.verified  # what was there is there
+
+
+def test_a_verification_of_another_calibration_does_not_count(bench):
+    with Session.create(bench / "s", by="ada") as session:
+        fill(session, bench)
+        save_calibration(calibrate(weighed(seed=6).poses), bench / "calibration.json")
+        data = (bench / "calibration.json").read_bytes()
+        session.add_result("calibration", "d.json", {"d.json": data}, {}, {})
+    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert refused.exit_code == 1
+    assert "another calibration than d.json" in refused.stderr
+
+
+def test_a_report_of_another_verification_is_not_carried(bench):
+    with Session.create(bench / "s", by="ada") as session:
+        fill(session, bench)
+        known = {kind: each.content for (kind, _), each in session.state.current_results.items()}
+        about = {"verification": known["verification"]}
+        session.add_result("report", "r.html", {"r.html": b"<p>first</p>"}, about, {})
+    assert invoke("export", bench / "s", *RATE, "--out", bench / "b").exit_code == 0
+    with Session.open(bench / "s", by="ada") as session:
+        known.pop("verification")
+        files = {"w.json": (bench / "verification.json").read_bytes()}
+        session.add_result("verification", "w.json", files, known, {"seed": 1})
+        session.add_result("verification", "x.json", {"x.json": files["w.json"] + b" "}, known, {})
+    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert refused.exit_code == 1
+    assert "report r.html is about another verification" in " ".join(refused.stderr.split())
+
+
+def test_a_session_knows_with_which_mount_it_verified(bench):
+    mounted(bench, (0, 0, 90))
+    verification(bench)
+    with Session.create(bench / "s", by="ada") as session:
+        fill(session, bench)
+        known = {kind: each.content for (kind, _), each in session.state.current_results.items()}
+        known.pop("verification")
+        files = {"w.json": (bench / "verification.json").read_bytes()}
+        session.add_result("verification", "w.json", files, known, {"mount": [0, 0, 80]})
+    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert refused.exit_code == 1
+    assert "mounting" in refused.stderr
+
+
+def test_a_session_without_a_probe_is_wrong_input(bench):
+    Session.create(bench / "s").close()
+    result = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert result.exit_code == 2
+    assert "there is no calibration" in result.stderr
+    assert not Path(bench / "b").exists()
+
+
+def test_a_probe_and_a_calibration_that_were_brought_in_serve_as_those_made_there(bench):
+    with Session.create(bench / "s", by="ada") as session:
+        session.add_input(bench / "calibration.json", "calibration", sensor="S-77")
+        session.add_input(bench / "probe.ply", "probe", companions={"probe.json": bench / "probe.json"})
+        known = {each.kind: each.content for each in session.state.current_inputs.values()}
+        files = {"v.json": (bench / "verification.json").read_bytes()}
+        session.add_result("verification", "v.json", files, known, {})
+    made = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert made.exit_code == 0, made.stderr
+    assert RuntimeConfig.load(bench / "b").model.verified
+    with Session.open(bench / "s", by="ada") as session:
+        save_calibration(calibrate(weighed(seed=6).poses), bench / "calibration.json")
+        session.add_input(bench / "calibration.json", "calibration", sensor="S-77")
+    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert refused.exit_code == 1
+    assert "calibration" in refused.stderr

@@ -1,0 +1,404 @@
+"""A bundle loads as what was written, has one spelling, and is refused when anything about it is not true."""
+
+import dataclasses
+import hashlib
+import io
+import itertools
+import json
+import threading
+import zipfile
+from datetime import UTC, datetime
+from pathlib import Path
+
+import numpy as np
+import pytest
+from config.runtime.bundles import example, example_bundle
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import Level, Verdict
+from pipeline.config.runtime import ConfigError, Filters, RuntimeConfig, UnverifiedError, build_config
+from pipeline.config.runtime import migrate as migrations
+from pipeline.config.runtime.canonical import decode_json, encode_json, json_schema
+from pipeline.config.runtime.config import checksum
+from pipeline.config.runtime.differ import differences
+from pipeline.config.runtime.pack import KNOWN, read_bundle
+from pipeline.config.runtime.swap import write_folder
+from pipeline.contact import Gates, WrenchNoise
+from pipeline.filtering import LowPass
+from pipeline.mesh import Probe
+from pipeline.mesh.regions import RegionSet
+from pipeline.mesh.sidecar import ProbeFile
+from pipeline.study import bundle_example
+from pipeline.study.bundle_mutations import seal
+
+HERE = Path(__file__).parents[3]
+
+
+def edited(**changes):
+    """Return the example's files with parts of the JSON replaced, sealed again: path with __ -> value."""
+    files = example().encoded()
+    content = json.loads(files["contactbench.json"])
+    for path, value in changes.items():
+        *above, last = path.split("__")
+        part = content
+        for name in above:
+            part = part[int(name)] if isinstance(part, list) else part[name]
+        part[int(last) if isinstance(part, list) else last] = value
+    return seal({**files, "contactbench.json": json.dumps(content).encode()})
+
+
+@pytest.mark.parametrize("name", ["bundle", "bundle.zip"])
+def test_what_is_loaded_is_what_was_written(tmp_path, name):
+    config = example_bundle(tmp_path / "made" / name)
+    loaded = RuntimeConfig.load(tmp_path / "made" / name)
+    assert loaded.model == config.model
+    assert loaded.files == config.files
+    assert (loaded.probe.vertices == config.probe.vertices).all()
+    assert (loaded.probe.region == config.probe.region).all()
+    assert (loaded.gravity.vector == config.gravity.vector).all()
+    loaded.write(tmp_path / "again" / name)
+    for file in ("bundle/planes.csv", "bundle/contactbench.json") if name == "bundle" else ("bundle.zip",):
+        assert (tmp_path / "again" / file).read_bytes() == (tmp_path / "made" / file).read_bytes()
+    assert [file.name for file in (tmp_path / "made").iterdir()] == [name]
+
+
+def test_the_hash_file_is_what_sha256sum_takes():
+    files = example().encoded()
+    digest, name = files["contactbench.sha256"].decode().split()
+    assert digest == hashlib.sha256(files[name]).hexdigest()
+    assert json.loads(files[name])["provenance"]["files"].keys() == files.keys() - {
+        name,
+        "contactbench.sha256",
+    }
+
+
+def test_json_has_one_spelling():
+    data = example().encoded()["contactbench.json"]
+    content = json.loads(data)
+    assert data == encode_json(dict(reversed(content.items())))
+    assert data.endswith(b"}\n")
+    assert encode_json({"b": 0.1 + 0.2, "a": "ä"}) == '{"a":"ä","b":0.30000000000000004}\n'.encode()
+    with pytest.raises(ConfigError):
+        encode_json({"a": float("nan")})
+
+
+def test_noise_of_a_wrench_is_what_the_filter_leaves_and_the_calibration_adds():
+    config = example()
+    covariance = np.array(config.model.noise.wrench_covariance)
+    g, C = config.gravity, config.gravity.covariance
+    share = g.wrench_covariance(Rotation.random(4_000, np.random.default_rng(0)).as_matrix()).mean(axis=0)
+    part = config.model.filters.wrench
+    q, r = part.q * part.tuned_rate_Hz / part.rate_Hz, part.r * part.rate_Hz / part.tuned_rate_Hz
+    predicted = q / 2 + np.sqrt(q * q / 4 + q * r)
+    gain = predicted / (predicted + r)
+    left = np.array([0.05] * 3 + [0.002] * 3) ** 2 * gain / (2 - gain)
+    deviations = np.sqrt(np.diag(covariance))
+    assert (np.abs(covariance - np.diag(left) - share) < 0.05 * np.outer(deviations, deviations)).all()
+    # Of the force: turned evenly over all axes, gravity's covariance with the bias is gone.
+    assert np.trace(covariance[:3, :3]) == pytest.approx(
+        3 * left[0] + np.trace(C[:3, :3]) + np.trace(C[3:6, 3:6]), rel=1e-9
+    )
+
+
+def test_planes_come_in_the_order_of_priority():
+    config = example()
+    rows = config.files["planes.csv"].decode().split()[1:]
+    table = np.array([[float(cell) for cell in row.split(",")] for row in rows])
+    index, region = table[:, 0].astype(int), table[:, 5]
+    assert sorted(index) == list(range(len(config.probe.faces)))
+    first = int((config.probe.region == 1).sum())
+    assert (region[:first] == 1).all()
+    assert (region[first:] == 0).all()
+    corners = table[:, 6:].reshape(-1, 3, 3)
+    assert (corners == config.probe.vertices[config.probe.faces[index]]).all()
+    heights = np.einsum("ij,ikj->ik", table[:, 1:4], corners)
+    assert np.abs(heights + table[:, 4:5]).max() < 1e-15 * 10
+
+
+# ---- refused -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"version": 2}, "version is 2"),
+        ({"version": 0}, "no version 0"),
+        ({"schema": "x"}, "schema is 'x'"),
+        ({"frames__quaternion_ES": [1.0, 1.0, 0.0, 0.0]}, "frames.quaternion_ES has the length"),
+        ({"gravity__gravity_W_N": [0.0, 0.0, -6200.0]}, "were they grams"),
+        ({"gravity__gravity_W_N": [0.0, 0.0, -0.062]}, "were they kN"),
+        ({"gravity__gravity_W_N": [0.0, 0.0, 6.2]}, "points up"),
+        ({"gravity__centre_of_mass_S_m": [0.0, 0.0, 90.0]}, "were they mm"),
+        ({"gravity__force_bias_N": [1.0, 2.0, 3.0]}, "ros2.yaml: offset"),
+        ({"gravity__torque_bias_Nm": [0.0, 250.0, 0.0]}, "N\\*mm"),
+        ({"gravity__covariance__0__11": 1.0}, "gravity.covariance is not symmetric"),
+        ({"gravity__covariance__0__0": 1e-320}, "gravity.covariance has a correlation beyond 1"),
+        ({"gravity__gravity_W_N": [0.0, 0.0, -6.0]}, "ros2.yaml: CoG.force|wrench_covariance"),
+        ({"filters__wrench__tuned_rate_Hz": 1e-300, "filters__wrench__q": 1e-300}, "noise.wrench_covariance"),
+        ({"filters__location__cutoff_Hz": 1e-300}, "too slow"),
+        ({"noise__force_N": [0.0, 1.0, 1.0]}, "noise.force_N"),
+        ({"noise__torque_Nm": [2.0, 2.0, 2.0]}, "noise.wrench_covariance"),
+        ({"filters__location__cutoff_Hz": 600.0}, "below half of 1000 Hz"),
+        ({"filters__location__cutoff_Hz": 21.0}, "filters.location.sections"),
+        ({"filters__wrench__q": 0.0}, "filters.wrench.q is 0.0"),
+        ({"gates__friction_angle_rad": 75.0}, "gates.friction_angle_rad is 75.0"),
+        ({"gates__saturation": [1.0] * 5}, "gates.saturation"),
+        ({"probe__facets": 1000}, "probe.facets is 1000, but the mesh has 1002"),
+        ({"probe__bounds_S_m__0": [-40.0, -25.0, 0.0]}, "probe.bounds_S_m"),
+        ({"probe__file": "../probe.ply"}, "probe.file is '../probe.ply'"),
+        ({"regions": []}, "a facet has the region 1"),
+        ({"regions__0__facets": 3}, "regions.0.facets is 3"),
+        ({"planes__count": 5}, "planes.count"),
+        ({"verification__passed": False}, "verified is true"),
+        ({"verification__max_error_m": 0.0021}, "exceeds its limit"),
+        ({"provenance__stale": ["zeroed"]}, "provenance.stale says: zeroed"),
+        ({"units__force": "kN"}, "units.force is 'kN'"),
+        ({"limits__max_force_N": 10**400}, "limits.max_force_N"),
+        ({"sensor__extra": 1}, "sensor.extra"),
+    ],
+)
+def test_what_cannot_be_true_is_refused_and_named(changes, words):
+    with pytest.raises(ConfigError, match=words):
+        RuntimeConfig.from_files(edited(**changes))
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b'{"schema":"contactbench.runtime","schema":"contactbench.runtime"}', "there twice"),
+        (b'{"a":NaN}', "not sound JSON"),
+        (b"[" * 100_000, "not sound JSON"),
+        (b"[1]", "no JSON object"),
+        (b"\xff", "not sound JSON"),
+        (b'{"a":' + b"9" * 10_000 + b"}", "JSON"),
+    ],
+)
+def test_text_that_is_no_json_object_is_refused(data, words):
+    with pytest.raises(ConfigError, match=words):
+        decode_json(data, "contactbench.json")
+
+
+@pytest.mark.parametrize("name", sorted(example().encoded()))
+def test_a_changed_file_is_refused_by_its_hash(name):
+    files = example().encoded()
+    with pytest.raises(ConfigError, match=f"{name}.*(hash|changed)|contactbench.json does not have"):
+        RuntimeConfig.from_files({**files, name: files[name][:-1] + b" "})
+
+
+def test_a_sealed_change_of_the_mesh_is_seen_in_the_planes():
+    files = example().encoded()
+    other = bytearray(files["probe.ply"])
+    at = other.index(b"end_header\n") + 11 + 24 * 200
+    moved = np.frombuffer(other, "<f8", 3, at) * (1 + 1e-12)
+    other[at : at + 24] = moved.tobytes()
+    with pytest.raises(ConfigError, match=r"planes.csv: row \d+ is not the plane of facet"):
+        RuntimeConfig.from_files(seal({**files, "probe.ply": bytes(other)}))
+
+
+def test_strangers_links_and_missing_files_in_a_folder(tmp_path):
+    folder = tmp_path / "b"
+    example_bundle(folder)
+    (folder / "notes.txt").write_text("x")
+    with pytest.raises(ConfigError, match=r"notes.txt"):
+        RuntimeConfig.load(folder)
+    with pytest.raises(ConfigError, match=r"notes.txt"):
+        example_bundle(folder)  # it would be lost
+    (folder / "notes.txt").unlink()
+    (folder / "ros2.yaml").unlink()
+    with pytest.raises(ConfigError, match=r"ros2\.yaml is missing"):
+        RuntimeConfig.load(folder)
+    (folder / "ros2.yaml").symlink_to(folder / "planes.csv")
+    with pytest.raises(ConfigError, match=r"ros2\.yaml is a link"):
+        RuntimeConfig.load(folder)
+    with pytest.raises(ConfigError, match="no such folder or zip file"):
+        RuntimeConfig.load(tmp_path / "none")
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(ConfigError, match="choose another folder"):
+        example_bundle(tmp_path / "file")
+
+
+def test_a_zip_of_another_program_is_taken_and_a_hostile_one_is_not(tmp_path):
+    files = example().encoded()
+
+    def packed(change):
+        with zipfile.ZipFile(tmp_path / "b.zip", "w", zipfile.ZIP_DEFLATED) as out:
+            for name, data in files.items():
+                change(out, name, data)
+        return tmp_path / "b.zip"
+
+    assert RuntimeConfig.load(packed(lambda out, *each: out.writestr(*each))).model == example().model
+    with pytest.raises(ConfigError, match="does not belong"):
+        RuntimeConfig.load(packed(lambda out, name, data: out.writestr("../" + name, data)))
+    with pytest.raises(ConfigError, match="grows more than 200 times"):
+        RuntimeConfig.load(packed(lambda out, name, _: out.writestr(name, bytes(10**6))))
+    with pytest.warns(UserWarning, match="Duplicate"), pytest.raises(ConfigError, match="there twice"):
+        RuntimeConfig.load(packed(lambda out, *each: (out.writestr(*each), out.writestr(*each))))
+
+
+# ---- made --------------------------------------------------------------------------------------
+
+
+def test_an_unverified_config_is_marked_and_says_why(tmp_path):
+    config = example_bundle(tmp_path / "b", verified=False)
+    assert not config.model.verified
+    assert RuntimeConfig.load(tmp_path / "b").model.provenance.stale == config.model.provenance.stale != []
+
+
+@pytest.fixture
+def rebuild(monkeypatch):
+    """Build the example with other arguments: a function of (calibration, probe file, named) that changes them."""
+
+    def run(change):
+        def build(calibration, probe_file, **named):
+            arguments = change(calibration, probe_file, named)
+            return build_config(*arguments, **{**named, "unverified": False})
+
+        monkeypatch.setattr(bundle_example, "build_config", build)
+        return bundle_example.example_config(300)
+
+    return run
+
+
+def test_reasons_refuse_an_export(rebuild):
+    def change(calibration, probe_file, named):
+        named["stale"] = ["The sensor was zeroed."]
+        named["verification"] = named["verification"].model_copy(update={"passed": False})
+        refused = Verdict(Level.REFUSE, ("Too few poses.",))
+        opened = Probe.from_arrays(
+            probe_file.probe.vertices, probe_file.probe.faces[1:], probe_file.probe.region[1:]
+        )
+        regions = RegionSet.from_labels(opened.region, probe_file.regions.regions)
+        return dataclasses.replace(calibration, verdict=refused), ProbeFile(opened, regions, "P")
+
+    with pytest.raises(UnverifiedError) as caught:
+        rebuild(change)
+    whole = " ".join(caught.value.reasons)
+    assert len(caught.value.reasons) == 5
+    for words in (
+        "was zeroed",
+        "is refused: Too few",
+        "frame is P",
+        "open or inside out",
+        "verification failed",
+    ):
+        assert words in whole
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "words"),
+    [
+        ("created", datetime(2026, 1, 1, tzinfo=UTC).replace(tzinfo=None), "no zone"),
+        ("noise", WrenchNoise(0.05, 0.002, np.eye(6)), "noise.extra"),
+        ("filters", Filters(None, LowPass(20.0, 1000.0, 9)), "order is 9"),
+        ("mount", (1.0, 1.0, 0.0, 0.0), "quaternion_ES has the length"),
+        ("gates", Gates(max_age=float("inf")), "gates.max_age_s is inf"),
+        ("operator", "\ud800", "provenance.operator"),
+    ],
+)
+def test_nonsense_is_not_built(rebuild, name, value, words):
+    def change(calibration, probe_file, named):
+        named[name] = value
+        return calibration, probe_file
+
+    with pytest.raises(ConfigError, match=words):
+        rebuild(change)
+
+
+def test_without_filters_the_noise_is_that_of_a_reading(rebuild):
+    def change(calibration, probe_file, named):
+        named["filters"] = Filters(None)
+        return calibration, probe_file
+
+    part = rebuild(change).model.noise
+    assert np.diag(part.wrench_covariance)[0] > 0.05**2
+
+
+def test_an_older_version_is_carried_over(monkeypatch):
+    """Worked example: version 0 had gravity's weight in kg, and no gate for regions."""
+
+    def from_0(content):
+        gravity = dict(content["gravity"])
+        gravity["gravity_W_N"] = [9.80665 * each for each in gravity.pop("mass_W_kg")]
+        return {**content, "gravity": gravity, "gates": {**content["gates"], "region_only": False}}
+
+    monkeypatch.setitem(migrations.STEPS, 0, from_0)
+    content = example().model.to_json()
+    weight = content["gravity"].pop("gravity_W_N")
+    content["gravity"]["mass_W_kg"] = [each / 9.80665 for each in weight]
+    del content["gates"]["region_only"]
+    old = encode_json({**content, "version": 0})
+    model = decode_json(old, "old")
+    assert model.version == 1
+    assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
+    del content["gravity"]["mass_W_kg"]
+    with pytest.raises(ConfigError, match="version 0 cannot be carried over"):
+        decode_json(encode_json({**content, "version": 0}), "old")
+
+
+def test_the_schema_that_is_checked_in_is_that_of_the_model():
+    assert (HERE / "assets" / "runtime-config.schema.json").read_bytes() == json_schema()
+
+
+def test_differences_are_named_with_what_they_mean():
+    one, other = example(), example(2_000, verified=False)
+    assert differences(one, one).same
+    found = differences(one, other)
+    assert found.mesh is not None
+    assert found.mesh["facets"] == [1002, 2002]
+    assert 0.1 < found.mesh["hausdorff_mm"] < 3
+    fields = {each.field: each for each in found.fields}
+    assert (fields["verified"].one, fields["verified"].other) == (True, False)
+    assert fields["probe.facets"].meaning == "another surface"
+    assert found.files == ("planes.csv", "probe.ply")
+    assert io.StringIO(json.dumps(found.to_json())).read()
+
+
+def test_the_checksum_names_the_file():
+    assert checksum(b"") == hashlib.sha256(b"").hexdigest().encode() + b"  contactbench.json\n"
+
+
+# ---- what a loader asks for --------------------------------------------------------------------
+
+
+def test_every_unit_frame_and_kind_is_needed():
+    whole = example().model.to_json()
+    for part, name in (
+        (whole["units"], "force"),
+        (whole["frames"], "world"),
+        (whole["filters"]["wrench"], "kind"),
+        (whole, "version"),
+    ):
+        value = part.pop(name)
+        with pytest.raises(ConfigError, match=name):
+            decode_json(encode_json(whole), "c")
+        part[name] = value
+    assert decode_json(encode_json(whole), "c") == example().model
+
+
+def test_a_config_larger_than_a_mebibyte_is_refused():
+    files = dict(example().encoded())
+    files["contactbench.json"] += b" " * 2**20
+    with pytest.raises(ConfigError, match="more than 1 MiB"):
+        RuntimeConfig.from_files(files)
+
+
+def test_a_bundle_that_is_replaced_while_it_is_read_is_one_of_the_two(tmp_path):
+    one, other = example().encoded(), example(2_000).encoded()
+    place = tmp_path / "b"
+    write_folder(place, one, KNOWN)
+    stop = threading.Event()
+
+    def write():
+        for turn in itertools.cycle((other, one)):
+            if stop.is_set():
+                return
+            write_folder(place, turn, KNOWN)
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    try:
+        for _ in range(150):
+            assert read_bundle(place) in (one, other)
+    finally:
+        stop.set()
+        writer.join()

@@ -1,0 +1,93 @@
+"""Streams for the runtime's tests: a probe that slides, lifts and turns, with gravity and noise."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+
+from pipeline import kernel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.config.runtime import RuntimeConfig
+
+
+def arguments(config: RuntimeConfig) -> dict[str, Any]:
+    """Return what `pipeline.kernel.Runtime` needs for a config."""
+    from pipeline.config.runtime.values import gates_of
+
+    model, probe = config.model, config.probe
+    wrench, location = model.filters.wrench, model.filters.location
+    kalman = None
+    if wrench is not None:
+        kalman = np.array(
+            [wrench.rate_Hz, wrench.q, wrench.r, wrench.tuned_rate_Hz, wrench.per_sample], float
+        )
+    return {
+        "vertices": probe.vertices,
+        "faces": probe.faces,
+        "region": probe.region,
+        "noise": np.array(model.noise.wrench_covariance),
+        "gravity": config.gravity.vector,
+        "kalman": kalman,
+        "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
+        **gates_of(model.gates).kernel_arguments(),
+    }
+
+
+def stream(
+    config: RuntimeConfig, count: int, *, rate: float = 1_000.0, seed: int = 3
+) -> tuple[NDArray[Any], ...]:
+    """Return raw readings (n, 6), R_WS (n, 3, 3) and times (n,): touches of a second or so, with lifts between."""
+    rng = np.random.default_rng(seed)
+    times = np.cumsum(rng.uniform(0.9, 1.1, count)) / rate
+    turns = 0.3 * np.column_stack([np.sin(0.7 * times), np.cos(0.5 * times), np.sin(0.3 * times)])
+    R = Rotation.from_rotvec(turns).as_matrix()
+    probe = config.probe
+    corners = probe.vertices[probe.faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    low, high = probe.bounds
+    phase = np.column_stack([np.sin(1.1 * times), np.sin(0.8 * times), np.ones(count)])
+    wanted = 0.5 * (low + high) + 0.5 * (high - low) * phase
+    facet = cKDTree(corners.mean(axis=1)).query(wanted)[1]
+    force = -np.maximum(8.0 * np.sin(3.0 * times), 0.0)[:, None] * normals[facet]
+    torque = np.cross(corners[facet].mean(axis=1), force)
+    readings = np.concatenate([force, torque], axis=1) + config.gravity.predict(R)
+    return readings + rng.normal(0, [0.05] * 3 + [0.002] * 3, (count, 6)), R, times
+
+
+def with_faults(readings: NDArray[Any], R: NDArray[Any], times: NDArray[Any]) -> None:
+    """Put in, in place, what a stream should not hold: NaN, repeated times, mirrors, saturation, gaps."""
+    readings[11::97, 2] = np.nan
+    times[13::101] = times[12::101][: len(times[13::101])]
+    R[17::103] = np.diag([1.0, 1.0, -1.0])
+    R[19::107, 0, 0] = np.inf
+    readings[23::109, 1] = 500.0
+    times[len(times) // 2 :] += 1.0
+
+
+COLUMNS = (
+    "reasons",
+    "faces",
+    "vertices",
+    "regions",
+    "candidates",
+    "times",
+    "points",
+    "normals",
+    "torques",
+    "wrenches",
+    "covariances",
+    "filtered_points",
+    "runner_up_distances",
+)
+
+
+def columns(batch: kernel.RuntimeBatch) -> dict[str, NDArray[Any]]:
+    """Return every column of a batch."""
+    return {name: getattr(batch, name) for name in COLUMNS}

@@ -1,0 +1,212 @@
+"""The runtime, against the project's own filters and solver run one after the other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from config.runtime.bundles import example
+from kernel.runtime_cases import arguments, columns, stream, with_faults
+
+from pipeline import kernel
+from pipeline.filtering import KalmanFilter, LowPass
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+CONFIG = example()
+STALE, NOT_FINITE, SATURATED, NOT_A_ROTATION = 8, 9, 7, 10
+
+
+def runtime(**changes: Any) -> kernel.Runtime:
+    return kernel.Runtime(**{**arguments(CONFIG), **changes})
+
+
+class Reference:
+    """What the runtime does, said with the project's other parts."""
+
+    def __init__(self) -> None:
+        a = arguments(CONFIG)
+        rate, q, r, tuned, per_sample = a["kalman"].tolist()
+        self.kalman = KalmanFilter(rate, q=q, r=r, tuned_rate=tuned, per_sample=bool(per_sample))
+        location = CONFIG.model.filters.location
+        assert location is not None
+        self.low_pass = LowPass(location.cutoff_Hz, location.rate_Hz, location.order)
+        self.limits, self.max_age = a["saturation"], a["max_age"]
+        gates = {k: v for k, v in a.items() if k not in {"gravity", "kalman", "sections"}}
+        self.solver = kernel.Solver(**{**gates, "saturation": np.full(6, np.inf)})
+        self.last: float | None = None
+        self.stale: list[float] = []
+
+    def compensated(self, wrench: NDArray[Any], R: NDArray[Any]) -> NDArray[Any]:
+        g = CONFIG.gravity
+        weight = g.gravity_W[0] * R[0] + g.gravity_W[1] * R[1] + g.gravity_W[2] * R[2]
+        L = g.centre_of_mass_S
+        torque = np.array([L[i - 2] * weight[i - 1] - L[i - 1] * weight[i - 2] for i in range(3)])
+        return wrench - np.concatenate([weight + g.force_bias, torque + g.torque_bias])
+
+    def update(self, wrench: NDArray[Any], R: NDArray[Any], time: float) -> tuple[int, Any, Any, Any]:
+        if not (np.isfinite(wrench).all() and np.isfinite(R).all()):
+            return NOT_FINITE, None, None, None
+        if self.last is not None and time <= self.last:
+            self.stale = [*self.stale, time] if self.stale and time > self.stale[-1] else [time]
+            if len(self.stale) <= 50 and time - self.stale[0] <= self.max_age:
+                return STALE, None, None, None
+            self.reset()
+        if abs(R @ R.T - np.eye(3)).max() > 1e-3 or np.linalg.det(R) < 0:
+            return NOT_A_ROTATION, None, None, None
+        if self.last is not None and time - self.last > self.max_age:
+            self.reset()
+        dt = None if self.last is None else time - self.last
+        self.last, self.stale = time, []
+        if (abs(wrench) >= self.limits).any():
+            filtered = self.kalman.update(np.full(6, np.nan), dt)
+            self.solver.track(np.zeros(6), np.nan)
+            return SATURATED, filtered, None, self.held()
+        filtered = self.kalman.update(self.compensated(wrench, R), dt)
+        contact = self.solver.track(filtered)
+        point = contact.point
+        held = self.low_pass.update(point) if contact.accepted and point is not None else self.held()
+        return int(contact.reason), filtered, contact, held
+
+    def reset(self) -> None:
+        self.kalman.reset(), self.low_pass.reset(), self.solver.reset()
+        self.last, self.stale = None, []
+
+    def held(self) -> NDArray[Any]:
+        if self.solver.previous is None:
+            self.low_pass.reset()
+        return self.low_pass.update(np.full(3, np.nan))
+
+
+def test_agrees_with_filters_and_solver_one_after_the_other() -> None:
+    readings, R, times = stream(CONFIG, 6_000)
+    with_faults(readings, R, times)
+    live, reference = runtime(), Reference()
+    reasons = set()
+    for i in range(len(times)):
+        told = live.update(readings[i], R[i], times[i])
+        reason, filtered, contact, held = reference.update(readings[i], R[i], times[i])
+        reasons.add(reason)
+        assert told.reason == reason, i
+        if filtered is None:
+            assert told.wrench is None
+            assert told.point is None
+            continue
+        assert told.wrench is not None
+        assert told.wrench.tobytes() == filtered.tobytes(), i
+        if contact is not None and contact.point is not None:
+            assert told.point is not None
+            assert told.covariance is not None
+            assert told.point.tobytes() == contact.point.tobytes()
+            assert told.covariance.tobytes() == contact.covariance.tobytes()
+            assert (told.face, told.vertex, told.torque) == (contact.face, contact.vertex, contact.torque)
+            others = contact.candidates
+            assert told.runner_up_distance == (
+                others[0].distance if others else pytest.approx(np.nan, nan_ok=True)
+            )
+        else:
+            assert told.point is None
+        # SciPy solves for the filter's first state by LU, the kernel in closed form: they differ by rounding.
+        shown = np.full(3, np.nan) if told.filtered_point is None else told.filtered_point
+        np.testing.assert_allclose(shown, held, rtol=0, atol=1e-12)
+    assert {0, 3, SATURATED, STALE, NOT_FINITE, NOT_A_ROTATION} <= reasons
+
+
+def test_compensation_is_that_of_the_gravity_model() -> None:
+    readings, R, times = stream(CONFIG, 200)
+    told = runtime(kalman=None).update_batch(readings, R, times).wrenches
+    np.testing.assert_allclose(told, CONFIG.gravity.compensate(R, readings), rtol=0, atol=1e-12)
+
+
+def test_a_batch_is_its_samples_one_by_one() -> None:
+    readings, R, times = stream(CONFIG, 1_500)
+    batch, single = runtime().update_batch(readings, R, times), runtime()
+    for i, point in enumerate(batch.points):
+        told = single.update(readings[i], R[i], times[i]).point
+        assert np.array_equal(point, np.full(3, np.nan) if told is None else told, equal_nan=True)
+    assert batch[-1].time == times[-1]
+    assert len(batch) == len(times)
+
+
+def test_samples_that_are_refused_leave_no_trace() -> None:
+    readings, R, times = stream(CONFIG, 1_000)
+    plain = runtime().update_batch(readings, R, times)
+    disturbed = runtime()
+    for i in range(len(times)):
+        for bad in (
+            (readings[i] * np.nan, R[i], times[i]),
+            (readings[i], R[i], np.nan),
+            (readings[i], R[i], np.inf),
+            (readings[i], 1.001 * R[i], times[i]),
+            (readings[i], -R[i], times[i]),
+        ):
+            assert disturbed.update(*bad).reason in {NOT_FINITE, NOT_A_ROTATION}
+        told = disturbed.update(readings[i], R[i], times[i])
+        assert told.reason == plain.reasons[i]
+        assert told.wrench is not None
+        assert told.wrench.tobytes() == plain.wrenches[i].tobytes()
+        assert disturbed.update(readings[i], R[i], times[i]).reason == STALE
+
+
+@pytest.mark.parametrize("how", ["gap", "reset"])
+def test_after_a_gap_or_reset_the_next_sample_is_the_first(how: str) -> None:
+    readings, R, times = stream(CONFIG, 1_200)
+    live = runtime()
+    live.update_batch(readings[:600], R[:600], times[:600])
+    late = times[600:] + (1.0 if how == "gap" else -times[600])
+    if how == "reset":
+        live.reset()
+    after = columns(live.update_batch(readings[600:], R[600:], late))
+    fresh = columns(runtime().update_batch(readings[600:], R[600:], late))
+    for name, values in fresh.items():
+        assert values.tobytes() == after[name].tobytes(), name
+
+
+@pytest.mark.parametrize("max_age", [0.02, 1e6])
+def test_one_time_far_ahead_does_not_block_for_ever(max_age: float) -> None:
+    readings, R, times = stream(CONFIG, 400)
+    live = runtime(max_age=max_age)
+    live.update_batch(readings[:200], R[:200], times[:200])
+    live.update(readings[199], R[199], 1e5)
+    after = live.update_batch(readings[200:], R[200:], times[200:])
+    new = int(np.argmax(after.reasons != STALE))
+    assert (after.reasons[:new] == STALE).all()
+    assert STALE not in after.reasons[new:]
+    assert new == (50 if max_age > 1 else int(np.argmax(times[200:] - times[200] > max_age)))
+    fresh = runtime(max_age=max_age).update_batch(readings[200 + new :], R[200 + new :], times[200 + new :])
+    assert fresh.wrenches.tobytes() == after.wrenches[new:].tobytes()
+
+
+def test_times_that_only_jump_back_stay_stale() -> None:
+    readings, R, times = stream(CONFIG, 200)
+    live = runtime()
+    live.update_batch(readings, R, times)
+    for i in range(1, 150):
+        assert live.update(readings[-i], R[-i], times[-i]).reason == STALE
+    for _ in range(5):  # late ones, each followed by one in time
+        assert live.update(readings[9], R[9], times[9]).reason == STALE
+
+
+def test_the_location_is_held_for_a_moment_and_then_forgotten() -> None:
+    readings, R, times = stream(CONFIG, 3_000)
+    reasons = (batch := runtime().update_batch(readings, R, times)).reasons
+    shown = ~np.isnan(batch.filtered_points[:, 0])
+    recent = CONFIG.model.gates.recent_samples
+    misses = recent + 1
+    for i, reason in enumerate(reasons):
+        misses = 0 if reason <= 1 else misses + 1
+        assert shown[i] == (misses <= recent), i
+    assert not shown.all()
+
+
+def test_arguments_without_sense_are_refused() -> None:
+    with pytest.raises(ValueError, match="gravity model is not finite"):
+        runtime(gravity=np.full(12, np.nan))
+    with pytest.raises(ValueError, match="must be positive"):
+        runtime(kalman=np.zeros(5))
+    with pytest.raises(ValueError, match="a0 other than 1"):
+        runtime(sections=np.zeros((1, 6)))
+    with pytest.raises(ValueError, match="one row per sample"):
+        runtime().update_batch(np.zeros((2, 6)), np.zeros((1, 3, 3)), np.zeros(2))

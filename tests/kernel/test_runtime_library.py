@@ -1,0 +1,354 @@
+"""The C library: built, installed, found by another project, and the same bits as the Python runtime."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+import json
+import shutil
+import struct
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from config.runtime.bundles import example_bundle
+from kernel.runtime_cases import arguments, columns, stream, with_faults
+
+from pipeline import kernel
+from pipeline.config.runtime import RuntimeConfig
+
+ROOT = Path(__file__).parents[2]
+SOURCE, BUILD = ROOT / "pipeline/kernel/runtime", ROOT / "build/runtime"
+
+
+def tool(name: str) -> str | None:
+    """Find a program, also one that came with a wheel."""
+    beside = Path(sys.executable).parent / name
+    return str(beside) if beside.exists() else shutil.which(name)
+
+
+CMAKE = tool("cmake")
+pytestmark = pytest.mark.skipif(CMAKE is None, reason="no cmake")
+
+
+def run(*command: object, given: str = "") -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [str(part) for part in command], input=given, capture_output=True, text=True, check=False, timeout=300
+    )
+
+
+def cmake(*arguments: object) -> None:
+    done = run(CMAKE, *arguments)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Build (again only what changed) and install."""
+    folder = tmp_path_factory.mktemp("installed")
+    cmake("-S", SOURCE, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
+    cmake("--build", BUILD)
+    cmake("--install", BUILD, "--prefix", folder)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def bundle(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, RuntimeConfig]:
+    folder = tmp_path_factory.mktemp("bundles") / "bundle"
+    return folder, example_bundle(folder)
+
+
+class Error(ctypes.Structure):
+    _fields_ = [("size", ctypes.c_uint32), ("code", ctypes.c_int32), ("message", ctypes.c_char * 512)]
+
+
+CONTACT = np.dtype(
+    [(name, "<i4") for name in ("size", "reasons", "faces", "vertices", "regions", "candidates")]
+    + [
+        ("times", "<f8"),
+        ("points", "<f8", 3),
+        ("normals", "<f8", 3),
+        ("torques", "<f8"),
+        ("wrenches", "<f8", 6),
+    ]
+    + [("covariances", "<f8", (3, 3)), ("filtered_points", "<f8", 3), ("runner_up_distances", "<f8")]
+)
+
+
+class Library:
+    def __init__(self, prefix: Path) -> None:
+        self.c = ctypes.CDLL(str(next(prefix.glob("lib*/libcontactbench_runtime.so"))))
+        self.c.cb_open.restype = ctypes.c_void_p
+        self.c.cb_reason_name.restype = ctypes.c_char_p
+        self.c.cb_version.restype = ctypes.c_char_p
+        pointer = ctypes.c_void_p
+        self.c.cb_update.argtypes = [pointer, pointer, pointer, ctypes.c_double, pointer]
+        for name in ("cb_reset", "cb_close"):
+            getattr(self.c, name).argtypes = [pointer]
+
+    def open(self, folder: Path) -> tuple[int | None, Error]:
+        error = Error(size=ctypes.sizeof(Error))
+        return self.c.cb_open(str(folder).encode(), ctypes.byref(error)), error
+
+
+@pytest.fixture(scope="module")
+def library(prefix: Path) -> Library:
+    return Library(prefix)
+
+
+def test_same_bits_as_the_python_runtime(library: Library, bundle: tuple[Path, RuntimeConfig]) -> None:
+    folder, config = bundle
+    readings, R, times = stream(config, 100_000)
+    with_faults(readings, R, times)
+    loaded = kernel.Runtime(**arguments(RuntimeConfig.load(folder)))
+    expected = columns(loaded.update_batch(readings, R, times))
+    handle, error = library.open(folder)
+    assert handle, error.message
+    rows = np.zeros(len(times), CONTACT)
+    rows["size"] = CONTACT.itemsize
+    w, r, out = readings.ctypes.data, R.ctypes.data, rows.ctypes.data
+    codes = {
+        library.c.cb_update(handle, w + 48 * i, r + 72 * i, float(times[i]), out + CONTACT.itemsize * i)
+        for i in range(len(times))
+    }
+    library.c.cb_close(handle)
+    assert codes == {0}
+    for name, values in expected.items():
+        assert rows[name].tobytes() == values.tobytes(), name
+    assert {0, 3, 7, 8, 9, 10} <= set(rows["reasons"].tolist())
+
+
+def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, RuntimeConfig]) -> None:
+    handle, _ = library.open(bundle[0])
+    numbers, contact = np.zeros(9), np.zeros(1, CONTACT)
+    w, out = numbers.ctypes.data, contact.ctypes.data
+    assert library.c.cb_update(handle, w, w, 0.0, out) == 1  # its size is 0
+    contact["size"] = CONTACT.itemsize
+    assert library.c.cb_update(None, w, w, 0.0, out) == 1
+    assert library.c.cb_update(handle, None, w, 0.0, out) == 1
+    assert library.c.cb_update(handle, w, None, 0.0, out) == 1
+    assert library.c.cb_update(handle, w, w, 0.0, None) == 1
+    assert library.c.cb_update(handle, w, w, 0.0, out) == 0
+    assert library.c.cb_reason_name(int(contact["reasons"][0])) == b"not_a_rotation"
+    assert library.c.cb_reset(handle) == 0
+    assert library.c.cb_reset(None) == 1
+    assert library.c.cb_sensor_rotation(None, None, None) == 1
+    assert library.c.cb_describe(None, None) == 1
+    assert not library.c.cb_open(None, None)
+    library.c.cb_close(handle)
+    library.c.cb_close(None)
+    assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(11) == b"unknown"
+    assert library.c.cb_reason_name(-1) == b"no_answer"
+    assert library.c.cb_version() == b"1.0.0"
+
+
+def test_a_contact_that_was_not_answered_is_no_contact(
+    library: Library, bundle: tuple[Path, RuntimeConfig]
+) -> None:
+    handle, _ = library.open(bundle[0])
+    numbers, contact = np.zeros(9), np.zeros(1, CONTACT)
+    w, out = numbers.ctypes.data, contact.ctypes.data
+    for size, arguments_ in (
+        (0, (handle, w, w, 0.0, out)),
+        (CONTACT.itemsize, (None, w, w, 0.0, out)),
+        (CONTACT.itemsize, (handle, None, w, 0.0, out)),
+        (CONTACT.itemsize, (handle, w, None, 0.0, out)),
+    ):
+        contact["size"], contact["reasons"] = size, 0
+        assert library.c.cb_update(*arguments_) == 1
+        assert contact["reasons"][0] == -1
+    library.c.cb_close(handle)
+
+
+def put(folder: Path, name: str, data: bytes, *, reseal: bool = True) -> None:
+    """Write a file, and unless told otherwise make every hash fit again: only what it says is wrong then."""
+    (folder / name).write_bytes(data)
+    if not reseal:
+        return
+    config = folder / "contactbench.json"
+    if name != config.name:
+        content = json.loads(config.read_text(encoding="utf-8"))
+        content["provenance"]["files"][name] = hashlib.sha256(data).hexdigest()
+        config.write_text(json.dumps(content), encoding="utf-8")
+    digest = hashlib.sha256(config.read_bytes()).hexdigest()
+    (folder / "contactbench.sha256").write_text(f"{digest}  contactbench.json\n", encoding="ascii")
+
+
+def edited(folder: Path, path: str, value: Any) -> None:
+    config = folder / "contactbench.json"
+    content = json.loads(config.read_text(encoding="utf-8"))
+    *way, last = path.split(".")
+    part = content
+    for name in way:
+        part = part[name]
+    part[last] = value
+    put(folder, config.name, json.dumps(content).encode())
+
+
+EDITS = [
+    ("version", 2, 5, "version"),
+    ("schema", "other", 4, "schema"),
+    ("units.force", "kN", 4, "units.force"),
+    ("gravity.gravity_W_N", [0, 0, 9.0], 6, "points up"),
+    ("gravity.gravity_W_N", [0, 0], 4, "gravity.gravity_W_N"),
+    ("gravity.centre_of_mass_S_m", [4, -2, 90.0], 6, "centre_of_mass"),
+    ("gravity.extra", 1, 4, "gravity.extra"),
+    ("gates.recent_samples", 2.0, 4, "gates.recent_samples"),
+    ("gates.friction_angle_rad", 75.0, 6, "friction_angle"),
+    ("gates.region_only", 0, 4, "region_only"),
+    ("noise.force_N", [0.1, 0.1, 0.1], 6, "noise.wrench_covariance"),
+    ("filters.location.cutoff_Hz", 30.0, 6, "filters.location.sections"),
+    ("filters.wrench.q", 0, 6, "filters.wrench.q"),
+    ("frames.quaternion_ES", [1.0, 0.1, 0, 0], 6, "quaternion"),
+    ("probe.file", "../probe.ply", 6, "probe.file"),
+    ("probe.facets", 2_000_000, 8, "facets"),
+    ("verification", None, 6, "verified"),
+    ("provenance.files", {"probe.ply": "0" * 64}, 7, "probe.ply"),
+]
+
+
+@pytest.mark.parametrize(("path", "value", "code", "says"), EDITS)
+def test_a_config_that_cannot_be_true_is_refused(
+    library: Library,
+    bundle: tuple[Path, RuntimeConfig],
+    tmp_path: Path,
+    path: str,
+    value: Any,
+    code: int,
+    says: str,
+) -> None:
+    folder = Path(shutil.copytree(bundle[0], tmp_path / "b"))
+    edited(folder, path, value)
+    handle, error = library.open(folder)
+    assert not handle
+    assert error.code == code, error.message
+    assert says in error.message.decode()
+
+
+BYTES = [
+    ("contactbench.json", lambda d: d[:-10], True, 3),
+    (
+        "contactbench.json",
+        lambda d: d.replace(b'"verified":true', b'"verified":true,"verified":true'),
+        True,
+        3,
+    ),
+    ("contactbench.json", lambda d: d.replace(b"t-shape", b"t-sh\xff"), True, 3),
+    ("contactbench.json", lambda _: b"[" * 100_000, True, 3),
+    ("contactbench.json", lambda d: d.replace(b"0.1", b"NaN", 1), True, 3),
+    ("contactbench.json", lambda d: d.replace(b"0.1", b"1e999", 1), True, 3),
+    ("contactbench.json", lambda d: d + b" ", False, 7),
+    ("probe.ply", lambda d: d[:-1], True, 8),
+    ("probe.ply", lambda d: d[:-1] + b"\xff", False, 7),
+    ("probe.ply", lambda d: d.replace(b"element vertex ", b"element vertex 9999999", 1), True, 8),
+    (
+        "probe.ply",
+        lambda d: d[: -24 * 5] + b"\x03" + struct.pack("<3i", 0, 1, 2**30) + d[-24 * 5 + 13 :],
+        True,
+        8,
+    ),
+    ("probe.ply", lambda d: d[:20], True, 8),
+    ("stranger.txt", lambda _: b"", False, 2),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "reseal", "code"), BYTES)
+def test_damaged_files_are_refused(
+    library: Library,
+    bundle: tuple[Path, RuntimeConfig],
+    tmp_path: Path,
+    name: str,
+    change: Any,
+    reseal: bool,
+    code: int,
+) -> None:
+    folder = Path(shutil.copytree(bundle[0], tmp_path / "b"))
+    file = folder / name
+    put(folder, name, change(file.read_bytes() if file.exists() else b""), reseal=reseal)
+    handle, error = library.open(folder)
+    assert not handle
+    assert error.code == code, error.message
+    assert error.message.decode().strip()
+
+
+def test_missing_files_and_links_are_refused(
+    library: Library, bundle: tuple[Path, RuntimeConfig], tmp_path: Path
+) -> None:
+    assert library.open(tmp_path / "nowhere")[1].code == 2
+    folder = Path(shutil.copytree(bundle[0], tmp_path / "b"))
+    (folder / "probe.ply").unlink()
+    assert b"probe.ply: missing" in library.open(folder)[1].message
+    (folder / "probe.ply").symlink_to(bundle[0] / "probe.ply")
+    assert b"no plain file" in library.open(folder)[1].message
+
+
+def samples_file(config: RuntimeConfig, path: Path, count: int) -> None:
+    readings, R, times = stream(config, count)
+    with_faults(readings, R, times)
+    path.write_bytes(np.column_stack([times, readings, R.reshape(-1, 9)]).tobytes())
+
+
+def test_updates_allocate_nothing(prefix: Path, bundle: tuple[Path, RuntimeConfig], tmp_path: Path) -> None:
+    assert prefix.exists()
+    samples_file(bundle[1], tmp_path / "samples", 20_000)
+    done = run(BUILD / "contactbench-no_allocation", bundle[0], tmp_path / "samples")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert ", 0 in 20000 updates" in done.stdout
+
+
+def test_the_example_prints_what_the_runtime_says(prefix: Path, bundle: tuple[Path, RuntimeConfig]) -> None:
+    readings, R, times = stream(bundle[1], 1_000)
+    lines = [
+        " ".join(map(repr, [t, *w, *r.ravel().tolist()]))
+        for t, w, r in zip(times.tolist(), readings.tolist(), R, strict=True)
+    ]
+    done = run(prefix / "bin/contactbench-locate", bundle[0], given="\n".join(lines))
+    assert done.returncode == 0, done.stderr
+    told = [json.loads(line) for line in done.stdout.splitlines()]
+    batch = kernel.Runtime(**arguments(bundle[1])).update_batch(readings, R, times)
+    assert len(told) == len(batch)
+    for i, row in enumerate(told):
+        assert row["time"] == times[i]
+        assert row["force_S_N"] + row["torque_S_Nm"] == batch.wrenches[i].tolist()
+        assert row["point_S_m"] == (None if np.isnan(batch.points[i, 0]) else batch.points[i].tolist())
+    as_json = json.dumps([*map(float, lines[0].split())])
+    again = run(prefix / "bin/contactbench-locate", bundle[0], given=as_json)
+    assert json.loads(again.stdout) == told[0]
+    wrong = run(prefix / "bin/contactbench-locate", bundle[0], given=lines[0] + "\n1 2 3\n")
+    assert wrong.returncode == 1
+    assert "line 2" in wrong.stderr
+
+
+def test_another_project_finds_it(prefix: Path, bundle: tuple[Path, RuntimeConfig], tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.22)\nproject(consumer LANGUAGES C CXX)\n"
+        "find_package(contactbench_runtime 1 REQUIRED)\nadd_executable(consumer main.c)\n"
+        "target_link_libraries(consumer PRIVATE contactbench::contactbench_runtime)\n",
+        encoding="ascii",
+    )
+    (tmp_path / "main.c").write_text(
+        "#include <contactbench_runtime.h>\n#include <stdio.h>\n"
+        "int main(int n, char** v) { cb_error e = CB_ERROR_INIT; cb_info i = {sizeof i};\n"
+        "  cb_contact c = CB_CONTACT_INIT; cb_runtime* r = cb_open(v[n - 1], &e);\n"
+        "  if (!r || c.size != sizeof c || c.reason != CB_NO_ANSWER) return 1;\n"
+        '  cb_describe(r, &i); printf("%d %s\\n", i.facets, i.probe); cb_close(r); return 0; }\n',
+        encoding="ascii",
+    )
+    cmake("-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+    cmake("--build", tmp_path / "build")
+    done = run(tmp_path / "build/consumer", bundle[0])
+    assert done.stdout.split() == [str(bundle[1].model.probe.facets), bundle[1].model.probe.name]
+
+
+def test_every_folder_of_a_folder_is_tried(
+    prefix: Path, bundle: tuple[Path, RuntimeConfig], tmp_path: Path
+) -> None:
+    assert prefix.exists()
+    shutil.copytree(bundle[0], tmp_path / "good")
+    (tmp_path / "bad").mkdir()
+    lines = run(BUILD / "contactbench-load_all", tmp_path).stdout.splitlines()
+    assert lines[0].startswith("bad refused 2 contactbench.json: missing")
+    assert lines[1] == "good loaded"

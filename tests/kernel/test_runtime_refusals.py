@@ -1,0 +1,212 @@
+"""What the C library refuses although every hash fits: files and figures that contradict each other."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from config.runtime.bundles import example, example_bundle
+from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake, edited, put, run
+
+from pipeline.config.runtime.pack import KNOWN
+from pipeline.config.runtime.swap import put_aside, write_folder
+from pipeline.config.runtime.values import low_pass_sections
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+pytestmark = pytest.mark.skipif(CMAKE is None, reason="no cmake")
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
+    prefix = tmp_path_factory.mktemp("installed")
+    cmake("-S", SOURCE, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
+    cmake("--build", BUILD)
+    cmake("--install", BUILD, "--prefix", prefix)
+    return Library(prefix)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    example_bundle(tmp_path / "bundle", 300)
+    return tmp_path / "bundle"
+
+
+def refusal(library: Library, folder: Path) -> tuple[int, str]:
+    handle, error = library.open(folder)
+    if handle:
+        library.c.cb_close(handle)
+    return error.code, error.message.decode()
+
+
+def later(text: bytes, pattern: bytes, change: Callable[[float], float]) -> bytes:
+    return re.sub(pattern, lambda m: m[1] + repr(change(float(m[2]))).encode(), text, count=1)
+
+
+def rows_of(table: bytes) -> list[bytes]:
+    return table.splitlines(keepends=True)
+
+
+def flipped(table: bytes) -> bytes:
+    """Negate every d."""
+    return re.sub(
+        rb"(?m)^((?:[^,\n]+,){4})(-?)([0-9])", lambda m: m[1] + (b"" if m[2] else b"-") + m[3], table
+    )
+
+
+AXIS = rb"( {8}[xyz]: )(\S+)"
+FILES: list[tuple[str, Callable[[bytes], bytes], str]] = [
+    ("ros2.yaml", lambda d: later(d, AXIS, lambda x: -x), "ros2.yaml: offset"),
+    ("ros2.yaml", lambda d: d.replace(b" 1.0\n", b" 2.0\n", 1), "ros2.yaml: offset"),
+    ("ros2.yaml", lambda d: later(d, rb"(pos: \[)([^,]+)", lambda x: x + 0.01), "ros2.yaml: CoG.pos"),
+    ("ros2.yaml", lambda d: later(d, rb"( {8}force: )(\S+)", lambda x: 2 * x), "ros2.yaml: CoG.force"),
+    ("ft_calib.yaml", lambda d: b"# \xec\n" + d, "ft_calib.yaml: not ASCII"),
+    ("ros2.yaml", lambda _: b"", "ros2.yaml: offset"),
+    ("ft_calib.yaml", lambda d: later(d, rb"(bias: \[)([^,]+)", lambda x: -x), "ft_calib.yaml: bias"),
+    ("planes.csv", flipped, "planes.csv: line 2"),
+    ("planes.csv", lambda d: b"".join([*(r := rows_of(d))[:2], r[3], r[2], *r[4:]]), "planes.csv: line 3"),
+    ("planes.csv", lambda d: b"".join(rows_of(d)[:-1]), "planes.csv: line"),
+    ("planes.csv", lambda d: d + rows_of(d)[-1], "planes.csv: it is cut short, or something follows"),
+    ("planes.csv", lambda d: d[:-1], "planes.csv: it is cut short"),
+    ("planes.csv", lambda d: d[1:], "planes.csv: the header"),
+    ("planes.csv", lambda d: d.replace(b"nx", b"ny", 1), "planes.csv: the header"),
+]
+
+
+@pytest.mark.parametrize(("name", "change", "says"), FILES)
+def test_files_that_contradict_the_config_are_refused(
+    library: Library, folder: Path, name: str, change: Callable[[bytes], bytes], says: str
+) -> None:
+    before = (folder / name).read_bytes()
+    after = change(before)
+    assert after != before
+    put(folder, name, after)
+    code, message = refusal(library, folder)
+    assert code in {6, 8}
+    assert message.startswith(says), message
+
+
+def content(folder: Path) -> Any:
+    return json.loads((folder / "contactbench.json").read_text(encoding="utf-8"))
+
+
+def test_an_exported_bundle_is_taken(library: Library, folder: Path) -> None:
+    assert refusal(library, folder) == (0, "")
+
+
+def test_sections_that_turn_the_point_over_are_refused(library: Library, folder: Path) -> None:
+    sections = np.array(content(folder)["filters"]["location"]["sections"])
+    sections[0, :3] *= -1
+    edited(folder, "filters.location.sections", sections.tolist())
+    assert "filters.location.sections" in refusal(library, folder)[1]
+
+
+@pytest.mark.parametrize("order", range(1, 9))
+def test_every_butterworth_filter_is_known(library: Library, folder: Path, order: int) -> None:
+    for cutoff, rate in ((2e-6, 1.0), (0.5, 1e3), (20.0, 1e3), (240.0, 1e3), (260.0, 1e3), (499.0, 1e3)):
+        sections = low_pass_sections(cutoff, rate, order)
+        part = {"kind": "lowpass", "rate_Hz": rate, "cutoff_Hz": cutoff, "order": order}
+        edited(folder, "filters.location", {**part, "sections": sections.tolist()})
+        assert refusal(library, folder) == (0, ""), (cutoff, order)
+        sections[-1, 4] += 1e-9
+        edited(folder, "filters.location", {**part, "sections": sections.tolist()})
+        assert refusal(library, folder)[0] == 6, (cutoff, order)
+
+
+def test_gravity_that_points_up_by_more_than_two_sigma_is_refused(library: Library, folder: Path) -> None:
+    sigma = content(folder)["gravity"]["covariance"][2][2] ** 0.5
+    edited(folder, "gravity.gravity_W_N", [0.0, 0.0, 1.9 * sigma])
+    assert "points up" not in refusal(library, folder)[1]
+    edited(folder, "gravity.gravity_W_N", [0.0, 0.0, 2.1 * sigma])
+    assert "points up" in refusal(library, folder)[1]
+
+
+def test_a_correlation_just_beyond_one_is_refused(library: Library, folder: Path) -> None:
+    C = np.array(content(folder)["gravity"]["covariance"])
+    C[0, 1] = C[1, 0] = (1 + 5e-9) * np.sqrt(C[0, 0] * C[1, 1])
+    edited(folder, "gravity.covariance", C.tolist())
+    assert "correlation" in refusal(library, folder)[1]
+
+
+def test_planes_are_counted(library: Library, folder: Path) -> None:
+    edited(folder, "planes.count", 299)
+    assert "planes.count" in refusal(library, folder)[1]
+
+
+def test_a_config_of_more_than_a_mebibyte_is_refused(library: Library, folder: Path) -> None:
+    text = (folder / "contactbench.json").read_bytes()
+    put(folder, "contactbench.json", text + b" " * (2**20 - len(text)))
+    assert refusal(library, folder)[0] == 0
+    put(folder, "contactbench.json", text + b" " * (2**20 - len(text) + 1))
+    assert "too large" in refusal(library, folder)[1]
+
+
+def test_a_surface_inside_out_was_never_verified(library: Library, folder: Path) -> None:
+    mesh = bytearray((folder / "probe.ply").read_bytes())
+    facets = content(folder)["probe"]["facets"]
+    for at in range(len(mesh) - 21 * facets, len(mesh), 21):
+        mesh[at + 5 : at + 13] = mesh[at + 9 : at + 13] + mesh[at + 5 : at + 9]
+    header, *rows = (folder / "planes.csv").read_text(encoding="ascii").splitlines()
+    lines = [header]
+    for row in rows:
+        v = row.split(",")
+        plane = [repr(-float(x)) for x in v[1:5]]
+        lines.append(",".join([v[0], *plane, *v[5:9], *v[12:15], *v[9:12]]))
+    put(folder, "probe.ply", bytes(mesh))
+    put(folder, "planes.csv", ("\n".join(lines) + "\n").encode("ascii"))
+    assert "inside out" in refusal(library, folder)[1]
+    edited(folder, "verified", False)
+    assert refusal(library, folder)[0] == 0
+
+
+def test_a_folder_that_is_replaced_is_read_all_old_or_all_new(library: Library, tmp_path: Path) -> None:
+    folder, stop = tmp_path / "bundle", threading.Event()
+    both = [example(300).encoded(), example(400).encoded()]
+    write_folder(folder, both[0], KNOWN)
+
+    def export() -> None:
+        for i in range(40):
+            write_folder(folder, both[1 - i % 2], KNOWN)
+        stop.set()
+
+    writer = threading.Thread(target=export)
+    writer.start()
+    answers = set()
+    while not stop.is_set():
+        answers.add(refusal(library, folder))
+    writer.join()
+    assert answers == {(0, "")}
+
+
+def test_a_folder_put_aside_is_found(library: Library, folder: Path) -> None:
+    folder.rename(put_aside(folder))
+    assert refusal(library, folder) == (0, "")
+    assert refusal(library, Path(f"{folder}/")) == (0, "")
+
+
+def test_a_folder_copied_alone_says_what_is_missing(tmp_path: Path) -> None:
+    alone = shutil.copytree(SOURCE, tmp_path / "runtime")
+    done = run(CMAKE, "-S", alone, "-B", tmp_path / "build")
+    assert done.returncode != 0
+    assert "does not build alone" in done.stderr
+
+
+def test_a_project_of_c_alone_hears_that_a_static_library_needs_more(tmp_path: Path) -> None:
+    static, user = tmp_path / "static", tmp_path / "user"
+    cmake("-S", SOURCE, "-B", static, "-DBUILD_SHARED_LIBS=OFF")
+    user.mkdir()
+    (user / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.22)\nproject(consumer LANGUAGES C)\n"
+        "find_package(contactbench_runtime 1 REQUIRED)\n",
+        encoding="ascii",
+    )
+    done = run(CMAKE, "-S", user, "-B", user / "build", f"-Dcontactbench_runtime_DIR={static}")
+    assert done.returncode != 0
+    assert "LANGUAGES C CXX" in " ".join(done.stderr.split())

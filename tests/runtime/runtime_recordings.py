@@ -1,0 +1,76 @@
+"""Recordings for the runtime's tests: a probe that slides and lifts, and the robot that turns it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from kernel.runtime_cases import stream
+
+from pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from pipeline.config.runtime import RuntimeConfig
+
+BEGIN = 1_000.0
+ABOUT = RecordingInfo(
+    1_700_000_000_000_000_000,
+    BEGIN,
+    (
+        DeviceInfo("wrench", "/wrench", "sri+tcp://10.0.0.1", "virtual", "V-0001", 1000.0),
+        DeviceInfo("flange", "/flange", "elfin+tcp://10.0.0.2", rate=100.0),
+    ),
+)
+
+
+def wrench(time: float, reading: Any, status: Status = Status.OK) -> WrenchSample:
+    fx, fy, fz, mx, my, mz = (float(x) for x in reading)
+    return WrenchSample(time, (fx, fy, fz), (mx, my, mz), status=status)
+
+
+def flange(time: float, R: NDArray[Any]) -> FlangeSample:
+    return FlangeSample(time, R, np.full(3, np.nan))
+
+
+def samples(
+    config: RuntimeConfig, count: int, *, every: int = 10, gap: slice = slice(0)
+) -> list[WrenchSample | FlangeSample]:
+    """Return wrenches at 1 kHz and a pose for every tenth, but for those in a gap; with NaN and saturation."""
+    readings, R, times = stream(config, count)
+    readings[11::97, 2] = np.nan
+    readings[23::109, 1] = 500.0
+    quiet = set(range(count)[gap])
+    mixed: list[WrenchSample | FlangeSample] = []
+    for i, t in enumerate((BEGIN + times).tolist()):
+        mixed.append(wrench(t, readings[i]))
+        if i % every == every - 1 and i not in quiet:
+            mixed.append(flange(t, R[i]))
+    return mixed
+
+
+def record(path: Path, mixed: list[WrenchSample | FlangeSample], about: RecordingInfo = ABOUT) -> Path:
+    with RecordingWriter(path, about) as writer:
+        for sample in mixed:
+            if isinstance(sample, WrenchSample):
+                writer.wrench(sample)
+            else:
+                writer.flange(sample)
+    return path
+
+
+def input_lines(mixed: list[WrenchSample | FlangeSample]) -> list[str]:
+    """Return what the C++ example is given: each wrench that follows a pose, with the newest one."""
+    lines: list[str] = []
+    R: NDArray[Any] | None = None
+    for sample in mixed:
+        if isinstance(sample, FlangeSample):
+            R = sample.R_BE
+        elif R is not None:
+            numbers = [sample.time, *sample.force, *sample.torque, *R.ravel().tolist()]
+            lines.append(" ".join(map(repr, numbers)))
+    return lines

@@ -1,0 +1,182 @@
+from __future__ import annotations
+
+import json
+import os
+import socket
+import threading
+from typing import TYPE_CHECKING
+
+import pytest
+from mcap.reader import make_reader
+from runtime.runtime_recordings import ABOUT, BEGIN
+
+from pipeline.runtime import Answer, Outlet, OutputError, RunError
+from pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+
+class Slow:
+    """A target that takes nothing until it is let."""
+
+    name, pace = "slow", 0.0
+
+    def __init__(self) -> None:
+        self.open = threading.Event()
+        self.got: list[float] = []
+        self.closed = False
+
+    def write(self, answers: Sequence[Answer]) -> int:
+        assert self.open.wait(10)
+        self.got += [answer.time for answer in answers]
+        return len(answers)
+
+    def flush(self) -> None: ...
+
+    def close(self) -> None:
+        self.closed = True
+
+
+def answers(count: int, begin: float = BEGIN) -> list[Answer]:
+    return [Answer(begin + 0.001 * i, None) for i in range(count)]
+
+
+class TestOutlet:
+    def test_order_and_count(self) -> None:
+        target = Slow()
+        target.open.set()
+        outlet = Outlet(target)
+        outlet.start()
+        given = answers(2_000)
+        for answer in given:
+            outlet.put(answer)
+        outlet.close()
+        assert target.got == [answer.time for answer in given]
+        assert (outlet.published, outlet.lost, outlet.error, target.closed) == (2_000, 0, None, True)
+
+    def test_a_slow_target_drops_and_counts_and_keeps_nobody_waiting(self) -> None:
+        target = Slow()
+        outlet = Outlet(target, most_waiting=100)
+        outlet.start()
+        for answer in answers(1_000):
+            outlet.put(answer)  # would hang here if it waited
+        target.open.set()
+        outlet.close()
+        assert outlet.published == len(target.got)
+        assert outlet.published + outlet.lost == 1_000
+        assert outlet.lost > 300
+        assert target.got == sorted(target.got)
+
+    def test_a_patient_source_waits_and_loses_nothing(self) -> None:
+        target = Slow()
+        outlet = Outlet(target, patient=True, most_waiting=10)
+        outlet.start()
+        threading.Timer(0.05, target.open.set).start()
+        for answer in answers(500):
+            outlet.put(answer)
+        outlet.close()
+        assert (outlet.published, outlet.lost) == (500, 0)
+
+    def test_a_target_that_hangs_is_left_behind(self) -> None:
+        target = Slow()
+        outlet = Outlet(target)
+        outlet.start()
+        for answer in answers(600):
+            outlet.put(answer)
+        outlet.close(patience=0.05)
+        assert outlet.published == 0
+        assert outlet.lost > 0
+        target.open.set()
+
+    def test_a_patient_source_does_not_wait_for_what_has_failed(self, tmp_path: Path) -> None:
+        target = LineTarget("gone", os.open(tmp_path / "f", os.O_RDONLY | os.O_CREAT))
+        outlet = Outlet(target, patient=True, most_waiting=5)
+        outlet.start()
+        for answer in answers(100):
+            outlet.put(answer)
+        outlet.close()
+        assert outlet.failed.is_set()
+        assert isinstance(outlet.error, OutputError)
+        assert "gone: it cannot be written" in str(outlet.error)
+        assert not outlet.gone
+        assert outlet.lost == 100
+
+    def test_never_started(self) -> None:
+        target = Slow()
+        Outlet(target).close()
+        assert target.closed
+
+
+class TestLines:
+    def test_a_closed_pipe_is_told_apart(self) -> None:
+        reading, writing = os.pipe()
+        os.close(reading)
+        outlet = Outlet(LineTarget("pipe", writing))
+        outlet.start()
+        outlet.put(Answer(1.0, None))
+        outlet.close()
+        assert outlet.gone
+
+    def test_a_file_that_is_there_is_not_touched(self, tmp_path: Path) -> None:
+        (tmp_path / "a").write_text("old")
+        with pytest.raises(OutputError, match="a: it is there already"):
+            LineTarget.new(tmp_path / "a")
+        with pytest.raises(OutputError, match="cannot be written"):
+            LineTarget.new(tmp_path / "no" / "a")
+        assert (tmp_path / "a").read_text() == "old"
+
+
+class TestUdp:
+    def test_one_datagram_a_contact(self) -> None:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener:
+            listener.bind(("127.0.0.1", 0))
+            listener.settimeout(5)
+            target = UdpTarget(f"127.0.0.1:{listener.getsockname()[1]}")
+            assert target.write(answers(3)) == 3
+            target.close()
+            got = [json.loads(listener.recv(4096))["time"] for _ in range(3)]
+        assert got == [answer.time for answer in answers(3)]
+
+    def test_nobody_listens(self) -> None:
+        target = UdpTarget("127.0.0.1:9")
+        assert target.write(answers(5)) <= 5
+        target.close()
+
+    @pytest.mark.parametrize("address", ["127.0.0.1", "127.0.0.1:0", "127.0.0.1:70000", ":9000", "a b:9000"])
+    def test_no_address(self, address: str) -> None:
+        with pytest.raises(RunError, match="--udp"):
+            UdpTarget(address)
+
+    @pytest.mark.parametrize("address", ["192.0.2.1:9000", "0.0.0.0:9000"])
+    def test_another_machine_only_with_leave(self, address: str) -> None:
+        with pytest.raises(RunError, match="--allow-remote"):
+            UdpTarget(address)
+        UdpTarget(address, remote=True).close()
+
+
+class TestMcap:
+    def test_others_can_read_it(self, tmp_path: Path) -> None:
+        outlet = Outlet(McapTarget(tmp_path / "c.mcap", ABOUT))
+        outlet.start()
+        given = [*answers(1_200), Answer(1e300, None)]
+        for answer in given:
+            outlet.put(answer)
+        outlet.close()
+        assert (outlet.published, outlet.lost, outlet.error) == (1_200, 1, None)
+        with (tmp_path / "c.mcap").open("rb") as file:
+            found = list(make_reader(file, validate_crcs=True).iter_messages())
+        assert len(found) == 1_200
+        schema, channel, message = found[7]
+        assert schema is not None
+        assert (schema.name, channel.topic) == ("contactbench.Contact", "/contact")
+        told = json.loads(message.data)
+        assert {**json.loads(given[7].line), "timestamp": told["timestamp"], "frame_id": "sensor"} == told
+        assert set(told) == set(json.loads(schema.data)["properties"])
+        assert message.log_time == ABOUT.log_time(given[7].time)
+
+    def test_a_file_that_is_there(self, tmp_path: Path) -> None:
+        (tmp_path / "c.mcap").touch()
+        with pytest.raises(OutputError, match=r"c\.mcap"):
+            McapTarget(tmp_path / "c.mcap", ABOUT)

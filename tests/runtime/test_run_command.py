@@ -1,0 +1,196 @@
+"""The command, and as a program with real pipes and signals."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from typing import TYPE_CHECKING
+
+import pytest
+from config.runtime.bundles import example, example_bundle
+from mcap.reader import make_reader
+from runtime.runtime_recordings import BEGIN, record, samples
+from typer.testing import CliRunner
+
+from pipeline.cli import app
+from pipeline.recording import DeviceInfo, RecordingInfo
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from click.testing import Result
+
+COUNT = 1_500
+BENCH = ("--sensor", "virtual://bench", "--pose", "virtual://bench")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Return a folder with bundles and a recording in which poses are missing for 0.3 s."""
+    folder = tmp_path_factory.mktemp("run")
+    example_bundle(folder / "bundle")
+    example_bundle(folder / "unverified.zip", verified=False)
+    record(folder / "r.mcap", samples(example(), COUNT, gap=slice(600, 900)))
+    return folder
+
+
+def command(*arguments: object) -> list[str]:
+    return [sys.executable, "-m", "pipeline.cli", "run", *map(str, arguments)]
+
+
+def run(*arguments: object) -> Result:
+    """Run it in this process, which has imported everything: only --out, --mcap and --udp can be looked at."""
+    return CliRunner().invoke(app, ["run", *map(str, arguments)])
+
+
+def replay(folder: Path, speed: str = "step") -> tuple[str, ...]:
+    address = f"replay://{folder / 'r.mcap'}?speed={speed}"
+    return ("--sensor", address, "--pose", address)
+
+
+def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
+    out, mcap = tmp_path / "c.jsonl", tmp_path / "c.mcap"
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 8_000_000)
+        listener.bind(("127.0.0.1", 0))
+        listener.settimeout(0.2)
+        place = f"127.0.0.1:{listener.getsockname()[1]}"
+        done = run(folder / "bundle", *replay(folder, "4"), "--out", out, "--mcap", mcap, "--udp", place)
+        first = json.loads(listener.recv(4096))
+    assert done.exit_code == 0, done.stderr
+    assert done.stdout == ""
+    rows = [json.loads(line) for line in out.read_text().splitlines()]
+    assert len(rows) == COUNT
+    assert first == rows[0]
+    with mcap.open("rb") as file:
+        kept = [json.loads(message.data) for _, _, message in make_reader(file).iter_messages()]
+    assert [{k: v for k, v in row.items() if k not in ("timestamp", "frame_id")} for row in kept] == rows
+    # Poses come every 10 ms and count for 100: of 300 ms without, 200 are stale.
+    stale = [i for i, row in enumerate(rows) if row["reason"] == "stale"]
+    assert stale[:9] == list(range(9))
+    assert 190 <= len(stale) - 9 <= 215
+    assert f"located: {COUNT:,} samples" in done.stderr
+    assert f"{out}: {COUNT:,} contacts published, 0 not." in done.stderr.replace("\n", "")
+    assert "sensor: streaming" in done.stderr
+    assert "robot: closed" in done.stderr
+
+
+def test_the_pace_of_a_replay_changes_nothing(folder: Path, tmp_path: Path) -> None:
+    for speed in ("50", "step"):
+        assert run(folder / "bundle", *replay(folder, speed), "--out", tmp_path / speed).exit_code == 0
+    stepped = (tmp_path / "step").read_bytes()
+    assert len(stepped.splitlines()) == COUNT
+    assert (tmp_path / "50").read_bytes() == stepped
+
+
+def test_an_unverified_bundle_is_refused_unless_asked_for(folder: Path, tmp_path: Path) -> None:
+    out = tmp_path / "c.jsonl"
+    refused = run(folder / "unverified.zip", *BENCH, "--seconds", "0.2", "--out", out)
+    assert refused.exit_code == 2
+    assert "--unverified" in refused.stderr
+    assert not out.exists()
+    done = run(folder / "unverified.zip", *BENCH, "--seconds", "0.3", "--unverified", "--out", out)
+    assert done.exit_code == 0, done.stderr
+    assert "NOT VERIFIED" in done.stderr
+    assert len(out.read_text().splitlines()) > 10
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (("--udp", "192.0.2.1:9000"), "--allow-remote"),
+        (("--out", "/nowhere/at/all"), "/nowhere/at/all"),
+        (("--seconds", "-1"), "--seconds"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_it_begins(
+    folder: Path, arguments: tuple[str, ...], says: str
+) -> None:
+    done = run(folder / "bundle", *BENCH, *arguments)
+    assert done.exit_code == 2
+    assert says in done.stderr
+    assert done.stdout == ""
+
+
+def test_no_bundle(tmp_path: Path) -> None:
+    done = run(tmp_path / "none", *BENCH)
+    assert done.exit_code == 2
+    assert "none" in done.stderr
+
+
+def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) -> None:
+    about = RecordingInfo(
+        1_700_000_000_000_000_000, BEGIN, (DeviceInfo("wrench", "/wrench", "sri+tcp://h", "M9", "S2"),)
+    )
+    every_other = samples(example(), 600)[::2]
+    file = record(tmp_path / "o.mcap", every_other, about)
+    address = f"replay://{file}?speed=step"
+    out = tmp_path / "c.jsonl"
+    streams = ("--sensor", address, "--pose", "still://?rpy=0,0,0")
+    refused = run(folder / "bundle", *streams, "--out", out)
+    assert refused.exit_code == 2
+    assert "--other-sensor" in refused.stderr
+    assert not out.exists()
+    done = run(folder / "bundle", *streams, "--out", out, "--other-sensor")
+    assert done.exit_code == 0, done.stderr
+    assert "serial number is S2, the bundle is for V-0001" in done.stderr
+    assert "model is M9, the bundle is for virtual" in done.stderr
+    assert "the bundle is for 1000" in done.stderr
+    reasons = {json.loads(line)["reason"] for line in out.read_text().splitlines()}
+    assert "stale" not in reasons  # a pose that was typed never gets old
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals")
+@pytest.mark.parametrize("kind", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_well(folder: Path, tmp_path: Path, kind: signal.Signals) -> None:
+    with subprocess.Popen(
+        command(folder / "bundle", *BENCH, "--out", "-", "--mcap", tmp_path / "c.mcap"),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as process:
+        assert process.stdout is not None
+        lines = [process.stdout.readline() for _ in range(50)]
+        process.send_signal(kind)
+        rest, said = process.communicate(timeout=20)
+    assert process.returncode == 0, said
+    count = len(lines) + len(rest.splitlines())
+    assert all(json.loads(line) for line in (*lines, *rest.splitlines()))
+    with (tmp_path / "c.mcap").open("rb") as file:
+        assert len(list(make_reader(file).iter_messages())) == count
+    assert f"located: {count:,} samples" in said
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes")
+def test_a_reader_that_goes_away_ends_it_quietly(folder: Path) -> None:
+    with subprocess.Popen(
+        command(folder / "bundle", *BENCH), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.readline()
+        process.stdout.close()
+        said = process.stderr.read()
+        assert process.wait(20) == 0, said
+    assert "Traceback" not in said
+    assert "standard output" in said
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pipes")
+def test_a_reader_that_stops_reading_delays_no_sample(folder: Path) -> None:
+    # A pipe holds 64 KiB, some eighty contacts: a run that waited for it would locate no more than those.
+    with subprocess.Popen(
+        command(folder / "bundle", *BENCH, "--seconds", "1.5"), stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stderr is not None
+        said = process.stderr.read().decode()
+        assert process.wait(20) == 2, said
+    assert "nanobind" not in said
+    assert "nothing was taken" in said
+    located = int(said.split("located: ")[1].split()[0].replace(",", ""))
+    assert located >= 250
+    assert "standard output" in said

@@ -1,0 +1,90 @@
+"""``contactbench run`` and the C++ example: the same lines, byte for byte."""
+
+from __future__ import annotations
+
+import random
+import shutil
+import struct
+import subprocess
+import sys
+from math import isfinite
+from pathlib import Path
+
+import pytest
+from config.runtime.bundles import example_bundle
+from runtime.runtime_recordings import input_lines, record, samples
+from typer.testing import CliRunner
+
+from pipeline.cli import app
+from pipeline.config.runtime import RuntimeConfig
+from pipeline.runtime.lines import number
+
+ROOT = Path(__file__).parents[2]
+SOURCE, BUILD = ROOT / "pipeline/kernel/runtime", ROOT / "build/runtime"
+
+
+def tool(name: str) -> str | None:
+    """Find a program, also one that came with a wheel."""
+    beside = Path(sys.executable).parent / name
+    return str(beside) if beside.exists() else shutil.which(name)
+
+
+CMAKE = tool("cmake")
+pytestmark = pytest.mark.skipif(CMAKE is None, reason="no cmake")
+
+
+def run(*command: object, given: str = "") -> str:
+    done = subprocess.run(
+        [str(part) for part in command], input=given, capture_output=True, text=True, check=False, timeout=300
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def example() -> Path:
+    """Build the C++ example (again only what changed)."""
+    run(CMAKE, "-S", SOURCE, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
+    run(CMAKE, "--build", BUILD)
+    return BUILD / "contactbench-locate"
+
+
+@pytest.fixture(scope="module")
+def bundle(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, RuntimeConfig]:
+    folder = tmp_path_factory.mktemp("bundles") / "bundle"
+    return folder, example_bundle(folder)
+
+
+def test_a_recording_gives_the_same_bytes(
+    example: Path, bundle: tuple[Path, RuntimeConfig], tmp_path: Path
+) -> None:
+    folder, config = bundle
+    mixed = samples(config, 5_000)
+    file = record(tmp_path / "r.mcap", mixed)
+    address = f"replay://{file}?speed=step"
+    told = tmp_path / "told.jsonl"
+    arguments = ["run", str(folder), "--sensor", address, "--pose", address, "--out", str(told)]
+    assert CliRunner().invoke(app, arguments).exit_code == 0
+    out = told.read_text().splitlines()
+    expected = run(example, folder, given="\n".join(input_lines(mixed))).splitlines()
+    assert len(out) == 5_000
+    early = len(out) - len(expected)
+    assert early == 10
+    assert all('"reason":"stale"' in line for line in out[:early])
+    assert out[early:] == expected
+    text = "".join(expected)
+    for reason in ("ok", "low_force", "not_finite", "saturated"):
+        assert f'"reason":"{reason}"' in text
+
+
+def test_numbers_are_written_alike(example: Path, bundle: tuple[Path, RuntimeConfig]) -> None:
+    chance = random.Random(5)  # noqa: S311 - no secret
+    values = [0.0, -0.0, 1.0, -1e5, 1e-4, 1.2e-4, 1e22, 2.0**53 + 2, 123456789012345680000.0, 5e-324, 1.7e308]
+    values += [chance.uniform(-1, 1) * 10 ** chance.uniform(-8, 9) for _ in range(5_000)]
+    values += [struct.unpack("<d", chance.randbytes(8))[0] for _ in range(5_000)]
+    values += [chance.randint(-999, 999) * 10.0 ** chance.randint(-25, 25) for _ in range(5_000)]
+    values = [value for value in values if isfinite(value)]
+    # A sample that is refused is told with its time.
+    given = "\n".join(f"{value!r} nan 0 0 0 0 0 1 0 0 0 1 0 0 0 1" for value in values)
+    told = [line.split(",")[0] for line in run(example, bundle[0], given=given).splitlines()]
+    assert told == [f'{{"time":{number(value)}' for value in values]

@@ -1,0 +1,117 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pipeline.study.verification import bench
+from pipeline.verification import diagnosis
+from pipeline.verification.causes import Evidence, alignment_columns, explain
+from pipeline.verification.diagnosis import diagnose
+from pipeline.verification.figures import Cause
+
+MARKERS = pytest.mark.skipif(
+    "MARKERS" not in Cause.__members__, reason="a verification has no such cause yet"
+)
+NOISE = np.diag(np.repeat([0.02, 5e-4], 3) ** 2) / 50
+
+
+def touches(*, repeats=1, sides=False, orientations=False, tilt=0.02, seed=0):
+    """Evidence without errors: a face of 5 x 3 markers, pressed from above; or all six sides of a box."""
+    rng = np.random.default_rng(seed)
+    x, y = (each.ravel() for each in np.meshgrid(np.linspace(-0.028, 0.028, 5), [-0.005, 0.0, 0.005]))
+    points = np.column_stack([x, y, np.full(15, 0.03)])
+    normals = np.tile([0.0, 0.0, 1.0], (15, 1))
+    if sides:
+        turns = Rotation.create_group("O").as_matrix()[rng.permutation(24)[:15]]
+        points, normals = (np.einsum("nij,nj->ni", turns, each) for each in (points, normals))
+        points = points + [0.0, 0.0, 0.1]
+    markers = np.repeat(np.arange(15), repeats)
+    points, normals = points[markers], normals[markers]
+    n = len(markers)
+    F = 9.0 * (tilt * rng.normal(size=(n, 3)) - normals)
+    R = Rotation.random(n, random_state=seed).as_matrix() if orientations else np.tile(np.eye(3), (n, 1, 1))
+    theta = np.concatenate([[0.0, 0.0, -5.0], np.zeros(9)])
+    theta[6:9] = [0.0, 0.0, -0.2]
+    wrenches = np.hstack([F, np.cross(points, F)])
+    return Evidence(
+        np.zeros((n, 3)), markers, points, normals, np.zeros(n), wrenches, R, np.zeros(n), NOISE, theta
+    )
+
+
+def misaligned(evidence, *, turn=(0.0, 0.0, 0.0), shift=(0.002, 0.0, 0.0)):
+    return with_errors(
+        evidence, alignment_columns(evidence.sensitivities, evidence.wrenches) @ [*turn, *shift]
+    )
+
+
+def with_errors(evidence, errors, seed=1):
+    noise = np.random.default_rng(seed).multivariate_normal(np.zeros(6), NOISE, len(errors))
+    along = errors - np.einsum("ni,ni,nj->nj", errors, evidence.normals, evidence.normals)
+    return replace(evidence, errors=along + np.einsum("nij,nj->ni", evidence.sensitivities, noise))
+
+
+@pytest.mark.parametrize("tilt", [0.02, 0.2])
+def test_a_face_pressed_one_way_in_one_orientation_cannot_tell_alignment_from_gravity(tilt):
+    evidence = misaligned(touches(tilt=tilt), turn=(0.0, 0.02, 0.0) if tilt > 0.1 else (0.0, 0.0, 0.0))
+    found = explain(evidence)
+    assert {found.first, *found.rivals} == {Cause.ALIGNMENT, Cause.GRAVITY}
+    assert not found.aligned
+    text = diagnose(evidence, within=False).text
+    assert "these touches cannot tell; touch in a second orientation, or on other sides" in text
+    assert "alignment or gravity" in text or "gravity or alignment" in text
+    assert "Align the probe again" not in text
+    assert "Calibrate bias" not in text
+
+
+def test_sides_or_orientations_tell_them_apart():
+    for evidence in (touches(sides=True), touches(orientations=True)):
+        found = explain(misaligned(evidence, turn=(0.03, 0.02, 0.0)))
+        assert found.first is Cause.ALIGNMENT
+        assert found.rivals == ()
+        assert found.aligned
+
+
+def test_an_alignment_that_would_make_up_for_a_wrong_weight_does_not_help():
+    found = [bench(Cause.GRAVITY, np.random.default_rng([9, t])).verified() for t in range(3)]
+    assert all(each.diagnosis.first is Cause.GRAVITY for each in found)
+    assert not any(each.alignment_refined.helps for each in found)
+
+
+@pytest.mark.parametrize(("share", "words"), [(0.48, "the largest part of"), (0.7, "most of")])
+def test_less_than_half_is_not_called_most(monkeypatch, share, words):
+    evidence = misaligned(touches(sides=True), turn=(0.03, 0.02, 0.0))
+    shares = {Cause.ALIGNMENT: share, Cause.NOISE: 0.9 - share, Cause.MESH: 0.1}
+    mixed = replace(explain(evidence), shares={**dict.fromkeys(Cause, 0.0), **shares})
+    monkeypatch.setattr(diagnosis, "explain", lambda _: mixed)
+    for within in (True, False):
+        text = diagnose(evidence, within).text
+        assert {part: part in text for part in ("the largest part of", "most of")} == {
+            part: part == words for part in ("the largest part of", "most of")
+        }
+
+
+@pytest.mark.parametrize("wrong", [(1, 3), (7,)])
+def test_markers_that_are_elsewhere_are_named(wrong):
+    evidence = touches(repeats=3, sides=True)
+    errors = np.zeros((45, 3))
+    errors[np.isin(evidence.markers, wrong)] = [0.0015, 0.0012, 0.0009]
+    found = diagnose(with_errors(evidence, errors), within=False)
+    assert found.first is Cause.MARKERS
+    assert f"check the places of {'markers 2, 4' if len(wrong) == 2 else 'the marker 8'}." in found.text
+    named = diagnose(with_errors(evidence, errors), within=False, names=[f"m{k}" for k in range(15)])
+    assert f"m{wrong[0]}" in named.text
+
+
+def test_where_all_markers_are_off_all_are_to_be_checked():
+    evidence = touches(repeats=3, sides=True)
+    places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
+    found = diagnose(with_errors(evidence, places[evidence.markers]), within=False)
+    assert found.first is Cause.MARKERS
+    assert "check the places of the markers." in found.text
+
+
+def test_single_touches_do_not_tell_markers_from_noise():
+    evidence = touches(sides=True)
+    places = 0.0005 * np.random.default_rng(4).normal(size=(15, 3))
+    assert diagnose(with_errors(evidence, places), within=False).first is Cause.NOISE

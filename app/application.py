@@ -1,0 +1,81 @@
+"""Starting the window: the Qt application, its theme and language, and what happens to errors."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QIcon
+from PySide6.QtWidgets import QApplication
+
+from app.errors import Faults, LogFile
+from app.settings import Settings
+from app.translation import load
+from app.window import MainWindow
+from widgets.theme import follow_system, use_theme
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+# Streams and workers share one interpreter with the window, which waits so long for each of them at most: Python's
+# 5 ms, a hundred times in a frame, are a window that hangs.
+_SWITCH_S = 0.0005
+
+
+def run(session: Path | None = None, *, virtual: bool = False, language: str = "") -> int:
+    """
+    Open the window, and return when it is closed.
+
+    Parameters
+    ----------
+    session : path, optional
+        Opened at once; with `virtual`, made where there is none.
+    virtual : bool
+        Whether to begin with a virtual bench.
+    language : str
+        Such as "de"; empty: as remembered, or that of the computer.
+
+    Returns
+    -------
+    int
+        Exit code.
+    """
+    application = prepared()
+    settings, faults, log = Settings(), Faults(), LogFile()
+    load(application, language or settings.now.language)
+    use_theme(settings.now.theme)
+    window = MainWindow(settings, faults, log)
+    faults.install()
+    follow_system(lambda: settings.now.theme)
+    window.show()
+    for number in (signal.SIGINT, signal.SIGTERM):  # the heartbeat lets Python see them
+        signal.signal(number, lambda *_: window.close())
+    if virtual:
+        window.sessions.try_virtual(session)
+    elif session is not None:
+        window.sessions.open(session)
+    try:
+        return application.exec()
+    finally:
+        faults.uninstall()
+        log.close()
+
+
+def prepared() -> QApplication:
+    """Return the Qt application, made and named if there is none yet."""
+    # the 3D view may be a window of its own; what lies beside it need not
+    QApplication.setAttribute(Qt.ApplicationAttribute.AA_DontCreateNativeWidgetSiblings)
+    application = QApplication.instance()
+    if not isinstance(application, QApplication):
+        application = QApplication(sys.argv[:1])
+    sys.setswitchinterval(_SWITCH_S)
+    application.setApplicationName("contactbench")
+    application.setDesktopFileName("contactbench")
+    application.setStyle("Fusion")  # the same everywhere, and it keeps to the palette
+    from importlib.resources import as_file, files
+
+    with as_file(files("assets") / "icon.svg") as file:
+        application.setWindowIcon(QIcon(str(file)))
+    return application

@@ -1,0 +1,145 @@
+"""What every page works with: a session, its devices, the scene, long work, and what can be undone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QUndoStack
+
+from app.jobs import Jobs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pipeline.session import Session
+    from pipeline.workbench.desk import Desk
+    from pipeline.workbench.live import Live
+    from pipeline.workbench.steps import Step
+    from widgets.scene import Scene
+
+
+_PATIENCE_S = 30.0
+
+
+class Weight(StrEnum):
+    """How much a message matters."""
+
+    INFO = "info"
+    GOOD = "good"
+    WARNING = "warning"
+    ERROR = "error"
+
+
+@dataclass(frozen=True)
+class Message:
+    """
+    Something to tell.
+
+    Attributes
+    ----------
+    weight : Weight
+    text : str
+        What happened, why it matters, what to do.
+    details : str
+        For who asks, such as a stack trace.
+    """
+
+    weight: Weight
+    text: str
+    details: str = ""
+
+
+class Bench(QObject):
+    """
+    One session in a window.
+
+    Attributes
+    ----------
+    desk : Desk
+    live : Live
+    scene : Scene
+    jobs : Jobs
+    undo : QUndoStack
+        Everything that can be undone goes through it.
+    running : set of Step
+        Steps in which something goes on.
+    failed : dict of Step to str
+        Steps whose last work failed, and why; see `set_failed`.
+    """
+
+    changed = Signal()  # the session's state; in the GUI thread
+    told = Signal(object)  # Message
+    go_to = Signal(object)  # Step that a page wants to be shown
+    _stirred = Signal()
+
+    def __init__(self, desk: Desk, scene: Scene, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.desk, self.scene = desk, scene
+        self.live = self._new_live()
+        self.jobs = Jobs(self)
+        self.undo = QUndoStack(self)
+        self.running: set[Step] = set()
+        self.failed: dict[Step, str] = {}
+        self._stirred.connect(self.changed)  # from the desk's thread into this one
+        self._end = desk.subscribe(self._stirred.emit)
+        self._let_go = False
+
+    @staticmethod
+    def _new_live() -> Live:
+        # Here, not above: it brings half of scipy, for which a window without a session need not wait.
+        from pipeline.workbench.live import Live
+
+        return Live()
+
+    def tell(self, weight: Weight, text: str, details: str = "") -> None:
+        """Put a message into the list."""
+        self.told.emit(Message(weight, text, details))
+
+    def do(
+        self,
+        title: str,
+        action: Callable[[Session], Any],
+        done: Callable[[Any], None] | None = None,
+        failed: Callable[[BaseException], None] | None = None,
+    ) -> None:
+        """Have something done with the session; as `Jobs.start`, but in the desk's order."""
+        self.jobs.follow(title, self.desk.do(action), done, failed)
+
+    def set_running(self, step: Step, going_on: bool) -> None:
+        """Say whether something goes on in a step."""
+        before = set(self.running)
+        (self.running.add if going_on else self.running.discard)(step)
+        if self.running != before:
+            self.changed.emit()
+
+    def set_failed(self, step: Step, sentence: str) -> None:
+        """Say that the last work of a step failed, and why; an empty sentence: it did not."""
+        before = dict(self.failed)
+        if sentence:
+            self.failed[step] = sentence
+        else:
+            self.failed.pop(step, None)
+        if self.failed != before:
+            self.changed.emit()
+
+    def let_go(self) -> None:
+        """Begin to end it all: nothing is told any more, and what can be stopped is asked to."""
+        if not self._let_go:
+            self._end()
+        self._let_go = True
+        for job in self.jobs.running:
+            job.cancel()
+
+    def end(self) -> None:
+        """End it all; waits for devices, workers and the disk, so call it in a worker, after `let_go`."""
+        self.live.close()
+        self.jobs.wait(_PATIENCE_S)
+        self.desk.close()
+
+    def close(self) -> None:
+        """End it all, and wait for it."""
+        self.let_go()
+        self.end()

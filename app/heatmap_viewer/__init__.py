@@ -1,0 +1,46 @@
+"""The heatmap viewer: a window of its own, or inside the main one."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from app.heatmap_viewer.viewer import HeatmapViewer
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+__all__ = ["HeatmapViewer", "run"]
+
+
+def run(paths: list[Path]) -> int:
+    """
+    Show the heatmap viewer until it is closed.
+
+    Parameters
+    ----------
+    paths : list of Path
+        Recordings, contacts, verifications, sessions, with their probe and calibration.
+
+    Returns
+    -------
+    int
+        Exit code.
+    """
+    from PySide6.QtCore import QCoreApplication
+    from PySide6.QtWidgets import QApplication
+
+    from widgets.theme import use_theme
+
+    application = QApplication.instance() or QApplication(sys.argv[:1])
+    use_theme()
+    viewer = HeatmapViewer()
+    viewer.setWindowTitle(QCoreApplication.translate("HeatmapViewer", "Heatmaps - contactbench"))
+    viewer.resize(1280, 800)
+    viewer.show()
+    if paths:
+        viewer.open(paths)
+    try:
+        return int(application.exec())
+    finally:
+        viewer.close_viewer()

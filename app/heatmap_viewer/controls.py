@@ -1,0 +1,316 @@
+"""What of the contacts is shown: quantity, bandwidth, force; and what is saved of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QScrollArea,
+    QSlider,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.icons import icon
+from widgets.progress import show_value
+from widgets.range_slider import RangeSlider
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pipeline.heatmap.windowing import Selection
+
+_LEAST_MM, _MOST_MM = 0.5, 20.0
+_PATIENCE = 200  # ms without a change before the bells are made again
+
+
+class Controls(QWidget):
+    """The panel on the right of the viewer."""
+
+    changed = Signal()  # the quantity, what it adds up to, or the range of force
+    widened = Signal(float)  # another bandwidth, m, and no further change of it for a moment
+    compared = Signal(bool)
+    asked_open = Signal(bool)  # True: the folder of a session
+    asked_save = Signal(str)  # "picture", "film" or "mesh"
+    asked_stop = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.quantity, self.per = QComboBox(self), QComboBox(self)
+        self.bandwidth, self.fine = QDoubleSpinBox(self), QSlider(Qt.Orientation.Horizontal, self)
+        self.force, self.force_words = RangeSlider(self), QLabel(self)
+        self.compare = QCheckBox(self.tr("Compare two side by side"), self)
+        self.message = QLabel(self)
+        self.bar, self.stop = QProgressBar(self), QPushButton(self.tr("Cancel"), self)
+        self._saving: list[QPushButton] = []
+        self._opening: list[QPushButton] = []
+        self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
+        self._fill()
+        self._lay_out()
+        self._connect()
+        self.show_force()
+        self.show_work(None)
+
+    # ---- making ------------------------------------------------------------------------------------
+
+    def _fill(self) -> None:
+        for text, name in (
+            (self.tr("Contact density"), "density"),
+            (self.tr("Mean force"), "force"),
+            (self.tr("Peak force"), "peak"),
+            (self.tr("Mean error"), "error"),
+            (self.tr("Uncertainty (1 sigma)"), "uncertainty"),
+        ):
+            self.quantity.addItem(text, name)
+        self.quantity.setToolTip(
+            self.tr("What the colours mean. Density: per mm2; forces: N; error and uncertainty: mm.")
+        )
+        for text, name in (
+            (self.tr("number of contacts"), "contacts"),
+            (self.tr("seconds of contact"), "seconds"),
+            (self.tr("contacts per second"), "rate"),
+        ):
+            self.per.addItem(text, name)
+        self.per.setToolTip(self.tr("What the density adds up to over the whole surface."))
+        self.bandwidth.setRange(_LEAST_MM, _MOST_MM)
+        self.bandwidth.setDecimals(1)
+        self.bandwidth.setSingleStep(0.5)
+        self.bandwidth.setSuffix(" mm")
+        self.bandwidth.setValue(2.0)
+        self.bandwidth.setMinimumSize(112, 36)
+        self.fine.setRange(round(10 * _LEAST_MM), round(10 * _MOST_MM))
+        self.fine.setValue(20)
+        tip = self.tr(
+            "Standard deviation of the Gaussian by which each contact is spread along the surface, mm."
+        )
+        for each, name in (
+            (self.quantity, self.tr("Quantity")),
+            (self.per, self.tr("What a density adds up to")),
+            (self.bandwidth, self.tr("Bandwidth in mm")),
+            (self.fine, self.tr("Bandwidth in mm")),
+            (self.force, self.tr("Range of force in N")),
+        ):
+            each.setAccessibleName(name)
+        self.bandwidth.setToolTip(tip)
+        self.fine.setToolTip(tip)
+        self.force.setToolTip(self.tr("Only contacts with a force in this range count, N."))
+        self.compare.setToolTip(self.tr("A second heatmap with the same view and the same colours."))
+        self.compare.setMinimumHeight(36)
+        self.message.setWordWrap(True)
+        self.message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+
+    def _lay_out(self) -> None:
+        column = QVBoxLayout()
+        column.setContentsMargins(12, 10, 12, 8)
+        column.setSpacing(8)
+        column.addWidget(_titled(self.tr("Heatmap")))
+        column.addLayout(
+            self._buttons(
+                (
+                    (
+                        self.tr("Open files"),
+                        "folder",
+                        self.tr("Recordings with their calibration and probe, contacts, verifications."),
+                        lambda: self.asked_open.emit(False),
+                    ),
+                    (
+                        self.tr("Open session"),
+                        "folder",
+                        self.tr("The newest recording and verification of a session."),
+                        lambda: self.asked_open.emit(True),
+                    ),
+                )
+            )
+        )
+        form = QFormLayout()
+        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
+        form.setSpacing(4)
+        form.addRow(self.tr("Quantity"), self.quantity)
+        form.addRow(self.tr("Adds up to"), self.per)
+        wide = QHBoxLayout()
+        wide.addWidget(self.fine, 1)
+        wide.addWidget(self.bandwidth)
+        form.addRow(self.tr("Bandwidth"), wide)
+        form.addRow(self.tr("Force"), self.force)
+        self._per_label = form.labelForField(self.per)
+        column.addLayout(form)
+        column.addWidget(self.force_words)
+        column.addWidget(self.compare)
+        column.addWidget(_titled(self.tr("Save")))
+        column.addLayout(
+            self._buttons(
+                (
+                    (
+                        self.tr("Picture"),
+                        "camera",
+                        self.tr("What is shown, from two sides, as .png."),
+                        lambda: self.asked_save.emit("picture"),
+                    ),
+                    (
+                        self.tr("Film"),
+                        "play",
+                        self.tr("The time window, played at the chosen speed, as .mp4 or .gif."),
+                        lambda: self.asked_save.emit("film"),
+                    ),
+                    (
+                        self.tr("Mesh"),
+                        "export",
+                        self.tr("The values at the vertices, as .ply or .glb (glTF)."),
+                        lambda: self.asked_save.emit("mesh"),
+                    ),
+                ),
+                saving=True,
+            )
+        )
+        column.addWidget(self.message)
+        column.addStretch(1)
+        work = QHBoxLayout()
+        work.addWidget(self.bar, 1)
+        work.addWidget(self.stop)
+        column.addLayout(work)
+        inside = QWidget(self)
+        inside.setLayout(column)
+        area = QScrollArea(self)
+        area.setWidget(inside)
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(area)
+        self.setFixedWidth(348)
+
+    def _buttons(self, wanted: tuple[tuple[str, str, str, object], ...], saving: bool = False) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(6)
+        for text, name, tip, action in wanted:
+            button = QPushButton(icon(name), text, self)
+            button.setToolTip(tip)
+            button.setMinimumHeight(36)
+            button.setStyleSheet("padding: 4px 6px;")
+            button.clicked.connect(action)
+            row.addWidget(button, 1)
+            (self._saving if saving else self._opening).append(button)
+        return row
+
+    def _connect(self) -> None:
+        self.quantity.currentIndexChanged.connect(lambda _index: self._quantity_changed())
+        self.per.currentIndexChanged.connect(lambda _index: self.changed.emit())
+        self.force.changed.connect(lambda _low, _high: self.show_force())
+        self.force.changed.connect(lambda _low, _high: self.changed.emit())
+        self.fine.valueChanged.connect(lambda value: self.bandwidth.setValue(value / 10))
+        self.bandwidth.valueChanged.connect(self._bandwidth_changed)
+        self._patience.timeout.connect(lambda: self.widened.emit(self.bandwidth_m()))
+        self.compare.toggled.connect(self.compared)
+        self.stop.clicked.connect(self.asked_stop)
+
+    # ---- what is chosen ----------------------------------------------------------------------------
+
+    def bandwidth_m(self) -> float:
+        """Return the bandwidth, m."""
+        return round(self.bandwidth.value(), 1) / 1000
+
+    def selection(self, start: float | None, end: float | None) -> Selection:
+        """Return what is chosen, in a window of time, s."""
+        from pipeline.heatmap.windowing import Selection
+
+        least: float | None = None
+        most: float | None = None
+        if self.force.isEnabled():
+            low, high = self.force.values()
+            limits = self.force.limits()
+            least = low if low > limits[0] else None
+            most = high if high < limits[1] else None
+        return Selection(
+            self.quantity.currentData(), self.per.currentData(), self.bandwidth_m(), start, end, least, most
+        )
+
+    def set_bandwidth(self, metres: float) -> None:
+        """Show a bandwidth; tells nobody."""
+        self.bandwidth.setValue(1000 * metres)
+        self._patience.stop()
+
+    def set_forces(self, largest: float | None, profile: NDArray[np.float64] | None = None) -> None:
+        """Offer forces up to the largest, N; None: they are unknown. What was chosen stays as far as it can."""
+        low, high = self.force.values()
+        before = None if self.force.whole() else (low, high)
+        self.force.setEnabled(largest is not None)
+        self.force.set_limits(0.0, largest or 1.0)
+        self.force.set_profile(profile)
+        if before is not None:
+            self.force.set_values(*before)
+        self.show_force()
+
+    def show_force(self) -> None:
+        """Say the range of force."""
+        if not self.force.isEnabled():
+            self.force_words.setText(self.tr("The forces are unknown."))
+            return
+        low, high = self.force.values()
+        self.force_words.setText(self.tr("{low:.1f} to {high:.1f} N").format(low=low, high=high))
+
+    def _quantity_changed(self) -> None:
+        density = self.quantity.currentData() == "density"
+        self.per.setVisible(density)
+        self._per_label.setVisible(density)
+        self.changed.emit()
+
+    def _bandwidth_changed(self, value: float) -> None:
+        self.fine.blockSignals(True)
+        self.fine.setValue(round(10 * value))
+        self.fine.blockSignals(False)
+        self._patience.start()
+
+    # ---- what goes on ------------------------------------------------------------------------------
+
+    def set_ready(self, ready: bool) -> None:
+        """Say whether there is something to show and to save."""
+        for each in (self.quantity, self.per, self.bandwidth, self.fine, self.compare, *self._saving):
+            each.setEnabled(ready)
+        # one accented button: before anything is open that one, later the one that plays
+        first = self._opening[0]
+        first.setProperty("primary", "false" if ready else "true")
+        first.setIcon(icon("folder", "text" if ready else "panel"))
+        _dressed(first)
+        if not ready:
+            self.force.setEnabled(False)
+            self.force_words.setText("")
+
+    def say(self, text: str, bad: bool = False) -> None:
+        """Show a sentence."""
+        self.message.setProperty("role", "bad" if bad else "")
+        _dressed(self.message)
+        self.message.setText(text)
+
+    def show_work(self, title: str | None, share: float = 0.0) -> None:
+        """Show long work, how far it is, 0 to 1, and a way to stop it; None: there is none."""
+        self.bar.setVisible(title is not None)
+        self.stop.setVisible(title is not None)
+        if title is not None:
+            self.bar.setRange(0, 1000)
+            show_value(self.bar, round(1000 * share))
+            self.bar.setFormat(self.tr("{title}: {percent}").format(title=title, percent="%p %"))
+            self.bar.setAccessibleName(title)
+
+
+def _dressed(widget: QWidget) -> None:
+    """Have the style sheet look at a widget's properties again."""
+    widget.style().unpolish(widget)
+    widget.style().polish(widget)
+
+
+def _titled(text: str) -> QLabel:
+    label = QLabel(text)
+    label.setProperty("role", "title")
+    return label

@@ -1,0 +1,180 @@
+"""One heatmap in the viewer: whose it is, the scene, and the value under the cursor."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from pipeline.errors import InputError
+from widgets.scene import Scene
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from app.heatmap_viewer.sources import Source
+    from pipeline.heatmap.playback import Frame, Playback
+    from pipeline.heatmap.windowing import Selection
+    from widgets.scene import Pick
+
+
+class Side(QWidget):
+    """
+    One heatmap.
+
+    Attributes
+    ----------
+    scene : Scene
+    playback : Playback or None
+        What is shown; None: nothing yet.
+    frame : Frame or None
+        What is seen.
+    """
+
+    chosen = Signal(int)  # another source, by its number
+    pointed = Signal(object)  # Pick or None: where the mouse is
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.scene = Scene(self)
+        self.playback: Playback | None = None
+        self.frame: Frame | None = None
+        self._selection: Selection | None = None
+        self._pick: Pick | None = None
+        self._probe_of: object = None
+        self.source = QComboBox(self)
+        self.source.setMinimumHeight(36)
+        self.source.setAccessibleName(self.tr("What is shown"))
+        self.source.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.source.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.words = QLabel(self)
+        self.words.setWordWrap(True)
+        self.value = QLabel(self)
+        self.value.setProperty("role", "title")
+        self.value.setAccessibleName(self.tr("Value under the cursor"))
+        self.value.setMinimumHeight(28)  # an empty one takes as much room: the scene must not jump
+        self.value.setToolTip(
+            self.tr(
+                "± 1 sigma. Density: by the number of touches behind it.\n"
+                "Means: the spread of what they are the mean of. Peak force: the sensor's noise."
+            )
+        )
+        self.place = QLabel(self)
+        self.place.setProperty("role", "muted")
+        self._lay_out()
+        self.source.activated.connect(self.chosen)
+        self.scene.hovered.connect(self.read_at)
+        self.scene.hovered.connect(self.pointed)
+        self._show_value()
+
+    def _lay_out(self) -> None:
+        foot = QHBoxLayout()
+        foot.addWidget(self.value)
+        foot.addWidget(self.place)
+        foot.addStretch(1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(6, 6, 6, 4)
+        column.setSpacing(4)
+        column.addWidget(self.source)
+        column.addWidget(self.scene, 1)
+        column.addLayout(foot)
+        column.addWidget(self.words)
+
+    def set_sources(self, names: Sequence[str], current: int) -> None:
+        """Offer sources."""
+        self.source.clear()
+        self.source.addItems(list(names))
+        self.source.setCurrentIndex(current)
+
+    def set_playback(self, source: Source, playback: Playback) -> None:
+        """Show another one."""
+        self.playback, self._pick = playback, None
+        if self._probe_of is not source.probe:
+            first = self._probe_of is None
+            self._probe_of = source.probe
+            self.scene.show_field(None)
+            self.scene.show_probe(source.probe.probe)
+            if first:
+                self.scene.look("fit")
+
+    def top(self, selection: Selection, window: float | None) -> float:
+        """Return where its colours would end by themselves; 0: nothing is shown."""
+        if self.playback is None:
+            return 0.0
+        try:
+            return self.playback.top(selection, window)
+        except InputError:
+            return 0.0
+
+    def show_selection(self, selection: Selection, top: float) -> None:
+        """Show what is selected, coloured up to `top`; or say why there is nothing."""
+        self._selection, self.frame = selection, None
+        if self.playback is None:
+            return
+        try:
+            frame = self.playback.frame(selection)
+        except InputError as error:
+            self.scene.show_field(None)
+            self._say(self.tr("Nothing to show: {why}").format(why=error))
+            return
+        self.frame = frame
+        title = f"{self._title(selection)}, {frame.unit}"
+        self.scene.show_field(frame.values, title, (0.0, top or 1.0))
+        self._say(self._said(frame))
+
+    def _said(self, frame: Frame) -> str:
+        if self.playback is None or not frame.contacts:
+            return self.tr("No contact in this time window and range of force: widen one of them.")
+        contacts = self.playback.contacts
+        touches = contacts.counted == "touches"
+        text = (
+            self.tr("Touches: {count:,} of {all:,}; plain grey: no data")
+            if touches
+            else self.tr("Samples: {count:,} of {all:,}; plain grey: no data")
+        )
+        return text.format(count=frame.contacts, all=len(contacts.points))
+
+    def _title(self, selection: Selection) -> str:
+        return {
+            "density": self.tr("contact density"),
+            "force": self.tr("mean force"),
+            "peak": self.tr("peak force"),
+            "error": self.tr("mean error"),
+            "uncertainty": self.tr("uncertainty"),
+        }[selection.quantity]
+
+    def _say(self, text: str) -> None:
+        if self.words.text() != text:
+            self.words.setText(text)
+        self._show_value()
+
+    def read_at(self, pick: Pick | None) -> None:
+        """Read the value at a place on the probe; None: at none."""
+        self._pick = pick
+        self._show_value()
+
+    def _show_value(self) -> None:
+        pick, frame = self._pick, self.frame
+        if pick is None or frame is None or self.playback is None or self._selection is None:
+            self.value.setText("")
+            self.place.setText(self.tr("point at the probe to read a value"))
+            return
+        said = self.playback.at(self._selection, frame, pick.face, pick.point)
+        if math.isnan(said.value):
+            self.value.setText(self.tr("no data"))
+        else:
+            self.value.setText(number_with_unit(said.value, said.plus_minus, said.unit))
+        x, y, z = (1e3 * pick.point).tolist()
+        self.place.setText(self.tr("at {x:.1f}, {y:.1f}, {z:.1f} mm").format(x=x, y=y, z=z))
+
+
+def number_with_unit(value: float, plus_minus: float, unit: str) -> str:
+    """Return a number as people read it: no more digits than its uncertainty allows."""
+    if math.isnan(plus_minus) or plus_minus <= 0:
+        return f"{value:.3g} {unit}"
+    digits = max(0, 1 - math.floor(math.log10(plus_minus)))
+    if digits > 6:
+        return f"{value:.3g} ± {plus_minus:.1g} {unit}"
+    return f"{value:.{digits}f} ± {plus_minus:.{digits}f} {unit}"

@@ -1,0 +1,297 @@
+"""What the heatmap viewer can show: contacts with their probe, out of the files and sessions that were given."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.files.calibration_file import load_calibration
+from pipeline.calibration.files.capture_recording import is_recording
+from pipeline.contact import Gates
+from pipeline.errors import InputError
+from pipeline.heatmap import HeatmapError
+from pipeline.heatmap.contacts import locate_recording, read_contacts, read_points
+from pipeline.heatmap.touched import touches_of
+from pipeline.heatmap.windowing import in_order
+from pipeline.mesh.engines.errors import Cancelled
+from pipeline.mesh.sidecar import load_probe_file
+from pipeline.report.making import check_sources, sha256_of
+from pipeline.report.reading import read_verification
+from pipeline.session import Session
+from pipeline.session.recompute import lay_out, newest_inputs
+from pipeline.verification.figures import SCHEMA as VERIFICATION
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from pipeline.heatmap.contacts import Contacts
+    from pipeline.mesh.sidecar import ProbeFile
+
+_MESHES = (".ply", ".stl", ".obj", ".off", ".3mf")
+_HEAD = 65_536  # bytes that tell what a JSON file is
+_OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
+_MARKER_DISTANCE = 0.010  # m: as the command has it
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """
+    Contacts on a probe.
+
+    Attributes
+    ----------
+    name : str
+        For people.
+    probe : ProbeFile
+    contacts : Contacts
+        In order of time.
+    notes : tuple of str
+        Sentences.
+    """
+
+    name: str
+    probe: ProbeFile
+    contacts: Contacts
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Files:
+    """
+    Files by what they are.
+
+    Attributes
+    ----------
+    sessions, recordings, tables, verifications : tuple of Path
+    probe, calibration, wrenches, markers : Path or None
+        What the others are shown with; the newest that was given.
+    """
+
+    sessions: tuple[Path, ...] = ()
+    recordings: tuple[Path, ...] = ()
+    tables: tuple[Path, ...] = ()
+    verifications: tuple[Path, ...] = ()
+    probe: Path | None = None
+    calibration: Path | None = None
+    wrenches: Path | None = None
+    markers: Path | None = None
+
+    @property
+    def contacts(self) -> tuple[Path, ...]:
+        """All that holds contacts."""
+        return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """
+    What came of files.
+
+    Attributes
+    ----------
+    sources : tuple of Source
+    problems : tuple of str
+        What could not be opened, in sentences.
+    files : Files
+        To be given again with the next ones, so that a probe may come after its recording.
+    """
+
+    sources: tuple[Source, ...]
+    problems: tuple[str, ...]
+    files: Files = field(default_factory=Files)
+
+
+def sorted_files(paths: Iterable[Path], before: Files | None = None) -> Files:
+    """
+    Return files by what they are.
+
+    Parameters
+    ----------
+    paths : iterable of Path
+    before : Files, optional
+        What was given before: its probe, calibration, wrenches and markers still hold.
+
+    Raises
+    ------
+    InputError
+        Something else is among them, or one cannot be read.
+    """
+    found: dict[str, list[Path]] = {}
+    for path in paths:
+        found.setdefault(_kind(path), []).append(path)
+    old = before or Files()
+
+    def one(kind: str, known: Path | None) -> Path | None:
+        return found[kind][-1] if kind in found else known
+
+    return Files(
+        sessions=tuple(found.get("session", ())),
+        recordings=tuple(found.get("recording", ())),
+        tables=tuple(found.get("table", ())),
+        verifications=tuple(found.get("verification", ())),
+        probe=one("probe", old.probe),
+        calibration=one("calibration", old.calibration),
+        wrenches=one("wrenches", old.wrenches),
+        markers=one("markers", old.markers),
+    )
+
+
+def _kind(path: Path) -> str:
+    """Return which field of `Files` a path belongs to."""
+    if path.is_dir():
+        return "session"
+    suffix = path.suffix.lower()
+    if suffix in _MESHES:
+        return "probe"
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(_HEAD)
+    except (OSError, ValueError) as error:
+        raise HeatmapError(f"{path}: the file cannot be read ({error}): check the path.") from error
+    if is_recording(path):
+        return "recording"
+    if suffix == ".json" or head.lstrip().startswith(b"{"):
+        return _kind_of_json(path)
+    names = {name.strip() for name in head.split(b"\n", 1)[0].decode("utf-8", "replace").split(",")}
+    if "x_mm" in names:
+        return "markers"
+    if {"x", "y", "z", "reason"} <= names:
+        return "table"
+    if {"fx", "fy", "fz"} <= names:
+        return "wrenches"
+    raise HeatmapError(
+        f"{path.name}: this is nothing that can be shown: give a recording (.mcap) with its calibration and probe,"
+        " contacts (.csv), a verification (.json), or the folder of a session."
+    )
+
+
+def _kind_of_json(path: Path) -> str:
+    try:
+        content = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError) as error:
+        raise HeatmapError(f"{path.name}: this is not JSON ({error}): choose another file.") from error
+    verified = isinstance(content, dict) and content.get("schema") == VERIFICATION
+    return "verification" if verified else "calibration"
+
+
+def open_files(
+    files: Files,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Opened:
+    """
+    Read all contacts, each with its probe; one that cannot be read is a problem of its own.
+
+    Parameters
+    ----------
+    files : Files
+    progress, cancelled : callable, optional
+        Gets the share that is done; says whether to stop.
+
+    Raises
+    ------
+    Cancelled
+        `cancelled` answered True.
+    """
+    sources: list[Source] = []
+    problems: list[str] = []
+    count = max(len(files.contacts), 1)
+
+    for number, path in enumerate(files.contacts):
+
+        def told(done: int, whole: int, number: int = number) -> None:
+            if cancelled is not None and cancelled():
+                raise Cancelled
+            if progress is not None:
+                progress((number + done / max(whole, 1)) / count)
+
+        told(0, 1)
+        try:
+            if path in files.sessions:
+                sources.extend(_of_session(path, files, told, problems))
+            else:
+                sources.append(_of_file(path, files, told))
+        except InputError as error:
+            problems.append(str(error))
+        told(1, 1)
+    return Opened(tuple(sources), tuple(problems), files)
+
+
+def _of_file(path: Path, files: Files, told: Callable[[int, int], None], name: str = "") -> Source:
+    if files.probe is None:
+        raise HeatmapError(f"{path.name}: give the probe that was touched, too: the .ply that was prepared.")
+    probe = load_probe_file(files.probe)
+    if probe.history and probe.frame != "S":
+        raise HeatmapError(
+            f"{files.probe.name}: the probe is not aligned with the sensor, contacts would be drawn at wrong places:"
+            " align it first."
+        )
+    if path in files.recordings:
+        contacts = _of_recording(path, files, probe, told)
+    elif path in files.tables:
+        contacts = read_contacts(path, files.wrenches)
+    else:
+        verification = read_verification(path)
+        used = {"verification": path, "probe": files.probe}
+        check_sources(verification.sources, {"probe": sha256_of(files.probe)}, used)
+        contacts = touches_of(verification)
+    if not len(contacts.points):
+        raise HeatmapError(f"{path.name}: nothing touched the probe in it: touch it while recording.")
+    if files.markers is not None and contacts.known_errors is None:
+        contacts = _with_errors(contacts, files.markers)
+    return Source(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
+
+
+def _of_recording(path: Path, files: Files, probe: ProbeFile, told: Callable[[int, int], None]) -> Contacts:
+    if files.calibration is None:
+        raise HeatmapError(
+            f"{path.name}: give its calibration.json, too: the weight of the probe is in its readings."
+        )
+    model = load_calibration(files.calibration).model
+    return locate_recording(path, probe.probe, model, gates=Gates(min_force=0.5), progress=told)
+
+
+def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
+    """Return contacts whose errors are the distances to the nearest marker, where the force is steady."""
+    errors, near = contacts.errors(read_points(markers), _MARKER_DISTANCE)
+    steady = near if contacts.settled is None else near & contacts.settled
+    return replace(contacts, known_errors=np.where(steady, errors, np.nan))
+
+
+def _of_session(
+    folder: Path, given: Files, told: Callable[[int, int], None], problems: list[str]
+) -> list[Source]:
+    """Return the newest recording of a session, and the touches of its verification."""
+    found: list[Source] = []
+    reasons: list[str] = []
+    with Session.open(folder, write=False) as session:
+        for kind, main in _OF_SESSION:
+            try:
+                roles = newest_inputs(session.state, kind)
+            except InputError as error:
+                reasons.append(str(error))
+                continue
+            with tempfile.TemporaryDirectory(prefix="contactbench-heatmap-") as scratch:
+                laid = lay_out(session.folder, session.state, roles, Path(scratch))
+                own = (laid[main],)
+                files = replace(
+                    given,
+                    sessions=(),
+                    tables=(),
+                    recordings=own if main == "recording" else (),
+                    verifications=own if main == "verification" else (),
+                    probe=laid["probe"],
+                    calibration=laid.get("calibration"),
+                )
+                try:
+                    found.append(_of_file(laid[main], files, told, f"{folder.name}: {laid[main].name}"))
+                except InputError as error:
+                    problems.append(f"{folder.name}: {error}")
+    if not found and len(reasons) == len(_OF_SESSION):
+        raise HeatmapError(f"{folder.name}: {reasons[0]}")
+    return found

@@ -1,0 +1,362 @@
+"""The heatmap viewer: one or two heatmaps with one camera and one scale, through time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
+
+from app.heatmap_viewer.cameras import OneCamera
+from app.heatmap_viewer.controls import Controls
+from app.heatmap_viewer.saving import Saving
+from app.heatmap_viewer.side import Side
+from app.heatmap_viewer.work import Work
+from app.jobs import Jobs
+from widgets.time_bar import TimeBar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+
+    from app.heatmap_viewer.sources import Files, Opened, Source
+    from pipeline.heatmap.playback import Playback
+    from pipeline.heatmap.windowing import Selection
+    from widgets.scene import Pick
+
+# What computes takes seconds to import: that is done beside the window, when there is something to open.
+
+_PROFILE = 160  # parts of the time and of the forces that are counted
+_REDRAW = 15  # ms: several changes become one picture
+_KEPT = 8  # playbacks
+
+
+class HeatmapViewer(QWidget):
+    """
+    Shows where, when and how hard a probe was touched.
+
+    Parameters
+    ----------
+    jobs : Jobs, optional
+        Of the window it is in; by default its own.
+
+    Attributes
+    ----------
+    controls : Controls
+    time : TimeBar
+    sides : list of Side
+        One, and a second once two were compared.
+    sources : list of Source
+    """
+
+    def __init__(self, jobs: Jobs | None = None, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.jobs = jobs or Jobs(self)
+        self.controls, self.time = Controls(self), TimeBar(self)
+        self.sides = [Side(self)]
+        self.sources: list[Source] = []
+        self._files: Files | None = None
+        self._shown = [0, 0]
+        self._wanted: dict[int, tuple[Source, float]] = {}
+        self._making: set[int] = set()
+        self._playbacks: dict[tuple[int, float], Playback] = {}
+        self.work = Work(self.jobs, self.controls)
+        self._closed = False
+        self._camera = OneCamera(self)
+        self._saving = Saving(self)
+        self._redraw = QTimer(self, interval=_REDRAW, singleShot=True)
+        self._lay_out()
+        self._connect()
+        self.setAcceptDrops(True)
+        self.controls.set_ready(False)
+        self.time.setEnabled(False)
+
+    # ---- making ------------------------------------------------------------------------------------
+
+    def _lay_out(self) -> None:
+        self._empty = QLabel(
+            self.tr(
+                "Drop files here: a recording (.mcap) with its calibration (.json) and the probe (.ply),\n"
+                "contacts (.csv) with the probe, a verification (.json) with the probe,\n"
+                "or the folder of a session, which has them all."
+            ),
+            self,
+        )
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._empty.setWordWrap(True)
+        self._empty.setProperty("role", "muted")
+        self._beside = QHBoxLayout()
+        self._beside.setContentsMargins(0, 0, 0, 0)
+        self._beside.addWidget(self.sides[0], 1)
+        maps = QWidget(self)
+        maps.setLayout(self._beside)
+        self._stack = QStackedWidget(self)
+        self._stack.addWidget(self._empty)
+        self._stack.addWidget(maps)
+        left = QVBoxLayout()
+        left.setSpacing(0)
+        left.addWidget(self._stack, 1)
+        left.addWidget(self.time)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        row.addLayout(left, 1)
+        row.addWidget(self.controls)
+
+    def _connect(self) -> None:
+        controls = self.controls
+        controls.changed.connect(self._redraw.start)
+        controls.widened.connect(lambda _metres: self._make_all())
+        controls.compared.connect(self._compare)
+        controls.asked_open.connect(self._ask_open)
+        controls.asked_save.connect(self._saving.ask)
+        self.time.changed.connect(self._redraw.start)
+        self._redraw.timeout.connect(self._show)
+        self._join(0)
+        for keys, action in (
+            ("P", self._play),
+            ("Ctrl+O", lambda: self._ask_open(False)),
+            ("Ctrl+S", lambda: self._saving.ask("picture")),
+        ):
+            shortcut = QShortcut(QKeySequence(keys), self)
+            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            shortcut.activated.connect(action)
+        self.time.play.setToolTip(self.tr("Play or pause the time window (P)."))
+
+    def _join(self, number: int) -> None:
+        side = self.sides[number]
+        side.chosen.connect(lambda source: self._choose(number, source))
+        side.scene.dropped.connect(lambda path: self.open([path]))
+        side.pointed.connect(lambda pick: self._read_beside(number, pick))
+        self._camera.add(side.scene)
+
+    def _read_beside(self, number: int, pick: Pick | None) -> None:
+        """Read the other heatmap at the same place, too, where both are on one probe."""
+        here = self.sides[number].playback
+        for side in self.sides:
+            there = side.playback
+            if side is self.sides[number] or here is None or there is None:
+                continue
+            same = here.probe is there.probe or (
+                np.array_equal(here.probe.faces, there.probe.faces)
+                and np.array_equal(here.probe.vertices, there.probe.vertices)
+            )
+            side.read_at(pick if same else None)
+
+    def _play(self) -> None:
+        if self.time.isEnabled():
+            self.time.toggle()
+
+    # ---- opening -----------------------------------------------------------------------------------
+
+    def open(self, paths: Iterable[Path]) -> None:
+        """Open files and folders of sessions, beside what is open; what is missing is said."""
+        before, given = self._files, tuple(paths)
+
+        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
+            from app.heatmap_viewer.sources import open_files, sorted_files
+
+            found = sorted_files(given, before)
+            if before is not None and not found.contacts:  # a probe alone: what waited for it is tried again
+                found = sorted_files((*before.contacts, *given), before)
+            return open_files(found, progress, cancelled)
+
+        self.work.start(self.tr("Opening"), work, self._opened)
+
+    def _opened(self, opened: Opened) -> None:
+        from pipeline.heatmap.heatmap import default_bandwidth
+
+        known = {source.name for source in self.sources}
+        self._files = opened.files
+        fresh = [*opened.sources]
+        self.sources = [each for each in self.sources if each.name not in {new.name for new in fresh}] + fresh
+        said = [*opened.problems, *(note for source in fresh for note in source.notes)]
+        if not opened.files.contacts:
+            said.append(self.tr("Now give what touched it: a recording, contacts, or a verification."))
+        self.controls.say("\n".join(dict.fromkeys(said)), bad=bool(opened.problems))
+        if not fresh:
+            return
+        first = len(self.sources) - len(fresh)
+        self._shown = [first, min(first + 1, len(self.sources) - 1)]
+        if not known:
+            self.controls.set_bandwidth(
+                max(5e-4, round(default_bandwidth(fresh[0].contacts.sigmas), 4)),
+            )
+        self._stack.setCurrentIndex(1)
+        self.controls.set_ready(True)
+        self.time.setEnabled(True)
+        self._sources_changed()
+
+    def _sources_changed(self) -> None:
+        names = [source.name for source in self.sources]
+        for number, side in enumerate(self.sides):
+            side.set_sources(names, self._shown[number])
+        seen = [self.sources[self._shown[number]] for number in range(self._visible())]
+        duration = max(max(s.contacts.duration, float(s.contacts.moments[-1])) for s in seen)
+        if duration != self.time.slider.limits()[1]:
+            self.time.set_duration(duration)
+        self.time.slider.set_profile(_counted([s.contacts.moments for s in seen], duration))
+        forces = [s.contacts.forces for s in seen if s.contacts.forces is not None]
+        largest = float(np.ceil(10 * max(f.max() for f in forces))) / 10 if forces else None
+        self.controls.set_forces(largest, None if largest is None else _counted(forces, largest))
+        self._make_all()
+
+    def _choose(self, number: int, source: int) -> None:
+        self._shown[number] = source
+        self._sources_changed()
+
+    def _visible(self) -> int:
+        return 2 if self.controls.compare.isChecked() and len(self.sides) > 1 else 1
+
+    def _compare(self, two: bool) -> None:
+        if two and len(self.sides) == 1:
+            self.sides.append(Side(self))
+            self._beside.addWidget(self.sides[1], 1)
+            self._join(1)
+        if len(self.sides) > 1:
+            self.sides[1].setVisible(two)
+        self._camera.join(two)
+        if self.sources:
+            self._sources_changed()
+
+    def _ask_open(self, session: bool) -> None:
+        if session:
+            folder = QFileDialog.getExistingDirectory(self, self.tr("Open the folder of a session"))
+            names = [folder] if folder else []
+        else:
+            names, _ = QFileDialog.getOpenFileNames(
+                self,
+                self.tr("Open recordings, contacts or verifications, with probe and calibration"),
+                "",
+                self.tr(
+                    "What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf);;All files (*)"
+                ),
+            )
+        if names:
+            self.open([Path(name) for name in names])
+
+    # ---- showing -----------------------------------------------------------------------------------
+
+    def _make_all(self) -> None:
+        """Have every side's contacts spread by the bandwidth that is wanted now."""
+        if not self.sources or self._closed:
+            return
+        for number in range(self._visible()):
+            source = self.sources[self._shown[number]]
+            self._wanted[number] = (source, self.controls.bandwidth_m())
+            self._make(number)
+        self._redraw.start()
+
+    def _make(self, number: int) -> None:
+        if number in self._making:
+            return  # the newest wish is fulfilled when that is done
+        source, bandwidth = self._wanted[number]
+        key = (id(source), bandwidth)
+        kept = self._playbacks.get(key)
+        if kept is not None and kept.contacts is source.contacts:  # a number may belong to another one by now
+            self._made(number, source, kept)
+            return
+        self._making.add(number)
+
+        def done(playback: Playback) -> None:
+            while len(self._playbacks) >= _KEPT:
+                self._playbacks.pop(next(iter(self._playbacks)))
+            self._playbacks[key] = playback
+            self._making.discard(number)
+            if self._wanted[number] == (source, bandwidth):
+                self._made(number, source, playback)
+            else:
+                self._make(number)
+
+        def failed(error: BaseException) -> None:
+            self._making.discard(number)
+            self.work.tell(error)
+            if self._wanted[number] != (source, bandwidth):
+                self._make(number)
+
+        def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> Playback:
+            from pipeline.heatmap.playback import Playback
+
+            return Playback(source.probe.probe, source.contacts, bandwidth)
+
+        self.work.start(self.tr("Spreading contacts"), work, done, failed)
+
+    def _made(self, number: int, source: Source, playback: Playback) -> None:
+        self.sides[number].set_playback(source, playback)
+        if number == 1:
+            self._camera.follow_first()
+        self._redraw.start()
+
+    def selection(self) -> Selection:
+        """Return what is seen now."""
+        start, end = self.time.chosen()
+        return self.controls.selection(
+            None if start is None else round(start, 3), None if end is None else round(end, 3)
+        )
+
+    def played_selection(self) -> Selection:
+        """Return all that is played."""
+        start, end = self.time.played_range()
+        return self.controls.selection(
+            None if start is None else round(start, 3), None if end is None else round(end, 3)
+        )
+
+    def source(self, number: int) -> Source:
+        """Return what a side shows."""
+        return self.sources[self._shown[number]]
+
+    def visible_sides(self) -> int:
+        """Return how many heatmaps are seen."""
+        return self._visible()
+
+    def _show(self) -> None:
+        if self._closed:
+            return
+        playing = self.time.slider.playhead() is not None
+        window = self.time.seconds() if playing else None
+        sides, whole = self.sides[: self._visible()], self.played_selection()
+        top = max((side.top(whole, window) for side in sides), default=0.0)
+        selection = self.selection()
+        for side in sides:
+            side.show_selection(selection, top)
+
+    # ---- dropping and closing ----------------------------------------------------------------------
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files."""
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open what was dropped."""
+        paths = [Path(url.toLocalFile()) for url in event.mimeData().urls() if url.isLocalFile()]
+        if paths:
+            event.acceptProposedAction()
+            self.open(paths)
+
+    def close_viewer(self) -> None:
+        """End the work and give the scenes back; it is of no use afterwards."""
+        if self._closed:
+            return
+        self._closed = True
+        self.time.stop()
+        self._redraw.stop()
+        self._camera.join(False)
+        self.work.close()
+        for side in self.sides:
+            side.scene.close_scene()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Close for good."""
+        self.close_viewer()
+        super().closeEvent(event)
+
+
+def _counted(parts: list[Any], most: float) -> Any:
+    """Return how many of all numbers are in each even part from 0 to the largest; roots, so that few are seen, too."""
+    counts, _ = np.histogram(np.concatenate(parts), bins=_PROFILE, range=(0.0, max(most, 1e-9)))
+    return np.sqrt(counts)

@@ -1,0 +1,287 @@
+"""Step 1: which sensor, what tells its orientation, and whether they work."""
+
+from __future__ import annotations
+
+import time
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import TYPE_CHECKING, ClassVar
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QFormLayout,
+    QFrame,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QScrollArea,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.bench import Weight
+from app.page import Page
+from app.pages.devices_sources import PoseSource, SensorSource, angle_field
+from app.undo import SetParameters
+from pipeline.devices.drive import State
+from pipeline.devices.transport.ports import SerialPort, list_ports
+from pipeline.workbench.live_devices import Devices, gives_poses, problem_of
+from pipeline.workbench.live_trial import trial_of
+from pipeline.workbench.steps import Step
+from widgets.device_trial import DeviceChannels, DeviceTrial
+
+if TYPE_CHECKING:
+    from app.bench import Bench
+    from pipeline.workbench.live_trial import Trial
+    from pipeline.workbench.steps import StepStatus
+
+_PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
+_HIGH = 40
+_BAD = (State.SILENT, State.LOST)
+
+
+class DevicesPage(Page):
+    """Choose devices, try them, use them."""
+
+    step: ClassVar[Step] = Step.DEVICES
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(bench, parent)
+        self._worker = ThreadPoolExecutor(1, "serial ports")
+        self._ports: Future[list[SerialPort]] | None = None
+        self._ports_at = self._trial_at = 0.0
+        self._told: State | None = None
+        self._opening = False
+        self._refused = ("", "")  # the address that could not be opened, and why
+        self._known = Devices.of(bench.desk.state)
+        self._build()
+        self._show_devices(self._known)
+        bench.changed.connect(self._follow_session)
+
+    # ---- what is there -----------------------------------------------------------------------------
+
+    def _build(self) -> None:
+        self._status = QLabel()
+        self._status.setWordWrap(True)
+        self.sensor, self.poses = SensorSource(), PoseSource()
+        self.serial = QLineEdit()
+        self.serial.setPlaceholderText(self.tr("on the sensor's label"))
+        self.serial.setAccessibleName(self.tr("Serial number of the sensor"))
+        self.mount = [angle_field(axis) for axis in "xyz"]
+        for spin in self.mount:
+            spin.setAccessibleName(self.tr("Mounting angle about {axis}").format(axis=spin.prefix()))
+            spin.setToolTip(
+                self.tr(
+                    "How the sensor is turned on the flange, about the flange's fixed axes x, then y, then z"
+                )
+            )
+        self.try_button = QPushButton(self.tr("Test connection"))
+        self.use_button = QPushButton(self.tr("Use these devices"))
+        self.use_button.setProperty("primary", True)
+        for button in (self.try_button, self.use_button):
+            button.setMinimumHeight(_HIGH)
+        self._note = QLabel()
+        self._note.setWordWrap(True)
+        self._note.setProperty("role", "muted")
+        self.trial, self.channels = DeviceTrial(), DeviceChannels()
+        self._lay_out()
+        self.sensor.changed.connect(self._edited)
+        self.poses.changed.connect(self._edited)
+        self.try_button.clicked.connect(self.test)
+        self.use_button.clicked.connect(self.use)
+
+    def _lay_out(self) -> None:
+        title = QLabel(self.tr("Devices"))
+        title.setProperty("role", "title")
+        mount = QHBoxLayout()
+        for spin in self.mount:
+            mount.addWidget(spin)
+        group = QGroupBox(self.tr("Mounting"))
+        form = QFormLayout(group)
+        form.setRowWrapPolicy(QFormLayout.RowWrapPolicy.WrapAllRows)
+        form.addRow(self.tr("Sensor on the flange"), mount)
+        form.addRow(self.tr("Serial number"), self.serial)
+        inside = QWidget()
+        box = QVBoxLayout(inside)
+        box.setContentsMargins(0, 0, 4, 0)
+        measured = QGroupBox(self.tr("Measured"))
+        QVBoxLayout(measured).addWidget(self.channels)
+        for widget in (title, self._status, self.trial, self.sensor, self.poses, group, measured):
+            box.addWidget(widget)
+        box.addStretch(1)
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(inside)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(8, 8, 8, 8)
+        outer.addWidget(area, 1)
+        outer.addWidget(self._note)
+        buttons = QHBoxLayout()
+        buttons.addWidget(self.try_button)
+        buttons.addWidget(self.use_button)
+        outer.addLayout(buttons)
+
+    # ---- what is chosen ----------------------------------------------------------------------------
+
+    def devices(self) -> Devices:
+        """Return what is chosen on the page."""
+        sensor = self.sensor.address_now()
+        x, y, z = (spin.value() for spin in self.mount)
+        return Devices(sensor, self.poses.address_now(sensor), (x, y, z), self.serial.text().strip())
+
+    def _show_devices(self, devices: Devices) -> None:
+        self.sensor.choose(devices.sensor)
+        self.poses.choose(devices.poses, devices.sensor)
+        for spin, angle in zip(self.mount, devices.mount, strict=True):
+            spin.setValue(angle)
+        self.serial.setText(devices.serial)
+        self._edited()
+
+    def _edited(self) -> None:
+        sensor = self.sensor.address_now()
+        same = gives_poses(sensor)
+        # An empty field is no mistake yet: the button says what is missing.
+        refused = self._refused[1] if self._refused[0] == sensor else ""
+        self.sensor.say((problem_of(sensor) or refused) if sensor else "")
+        self.poses.say(self.poses.problem_of(sensor) if sensor or not same else "")
+        self._allow()
+
+    def _problem(self) -> str:
+        sensor = self.sensor.address_now()
+        return problem_of(sensor) or self.poses.problem_of(sensor)
+
+    def _allow(self) -> None:
+        recording = {Step.GRAVITY, Step.VERIFY} & self.bench.running
+        problem = self._problem()
+        free = not (recording or problem or self._opening)
+        self.try_button.setEnabled(free)
+        self.use_button.setEnabled(free)
+        note = "" if problem in (self.sensor.problem, self.poses.problem) else problem
+        if recording:
+            note = self.tr("A recording is being made with the devices: finish it before you change them.")
+        elif self._opening:
+            note = self.tr("Opening the devices…")
+        self._note.setText(note)
+        self._note.setVisible(bool(note))
+
+    # ---- trying and using --------------------------------------------------------------------------
+
+    def test(self) -> None:
+        """Open what is chosen and show how good it is; the session is not changed."""
+        self._open(self.devices(), self.tr("Testing the connection"))
+
+    def use(self) -> None:
+        """Write what is chosen into the session, and open it; can be undone."""
+        devices = self.devices()
+        self.bench.undo.push(
+            SetParameters(self.bench, devices.settings, self.tr("choose devices"), failed=self._not_set)
+        )
+        self._open(devices, self.tr("Opening the devices"))
+
+    def _open(self, devices: Devices, title: str) -> None:
+        if self._opening:
+            return
+        self._opening = True
+        self._told = None
+        self._allow()
+        live = self.bench.live
+
+        def work(_progress: object, _cancelled: object) -> None:
+            live.ensure(devices.sensor, devices.poses, devices.R_ES)
+
+        self.bench.jobs.start(title, work, self._opened, self._not_opened)
+
+    def _opened(self, _: object) -> None:
+        self._opening, self._refused = False, ("", "")
+        self.bench.set_failed(Step.DEVICES, "")
+        self._allow()
+        self.bench.changed.emit()  # whether they are connected is no part of the session
+
+    def _not_opened(self, error: BaseException) -> None:
+        self._opening, self._refused = False, (self.sensor.address_now(), str(error))
+        self._allow()
+        words = self.tr("The devices could not be opened: {why}").format(why=error)
+        self.sensor.say(str(error))
+        self.bench.tell(Weight.ERROR, words)
+        self.bench.set_failed(Step.DEVICES, words)
+
+    def _not_set(self, error: BaseException) -> None:
+        self.bench.tell(Weight.ERROR, self.tr("The devices could not be noted: {why}").format(why=error))
+
+    def _follow_session(self) -> None:
+        """Show, and open, what the session says now, such as after an undo."""
+        self._allow()
+        devices = Devices.of(self.bench.desk.state)
+        if devices == self._known:
+            return
+        before, self._known = self._known, devices
+        if devices != self.devices():
+            self._show_devices(devices)
+        live, wanted = self.bench.live, (devices.sensor, devices.poses)
+        moved = wanted != (before.sensor, before.poses) and wanted != live.addresses
+        busy = {Step.GRAVITY, Step.VERIFY} & self.bench.running
+        if self._opening or busy or not moved or live.pair is None:
+            return
+        if devices.sensor:
+            self._open(devices, self.tr("Opening the devices"))
+        else:
+            self.bench.jobs.start(self.tr("Closing the devices"), lambda _progress, _cancelled: live.close())
+
+    # ---- the page ----------------------------------------------------------------------------------
+
+    def enter(self) -> None:
+        """Be shown: look for serial ports, and measure."""
+        self._ports_at = self._trial_at = 0.0
+
+    def leave(self) -> None:
+        """Be hidden: what was only tried gives way to what the session says."""
+        devices = Devices.of(self.bench.desk.state)
+        live = self.bench.live
+        known = (devices.sensor, devices.poses)
+        if devices.sensor and live.pair is not None and live.addresses != known and not self._opening:
+            self._open(devices, self.tr("Opening the devices"))
+
+    def show_state(self, status: StepStatus) -> None:
+        """Show how the step stands."""
+        self._status.setText(status.sentence)
+        self._allow()
+
+    def tick(self) -> None:
+        """Show what is plugged in and how good the connection is."""
+        now = time.monotonic()
+        self._look_for_ports(now)
+        if now - self._trial_at >= _TRIAL_EVERY_S:
+            self._trial_at = now
+            trial = trial_of(self.bench.live)
+            self.trial.show_trial(trial)
+            self.channels.show_trial(trial)
+            self._tell_changes(trial)
+
+    def close_page(self) -> None:
+        """End the look-out for ports."""
+        self.bench.changed.disconnect(self._follow_session)
+        self._worker.shutdown(wait=False, cancel_futures=True)
+
+    def _look_for_ports(self, now: float) -> None:
+        if self._ports is not None:
+            if self._ports.done():
+                found, self._ports = self._ports, None
+                if found.exception() is None:
+                    self.sensor.set_ports(found.result())
+        elif now - self._ports_at >= _PORTS_EVERY_S:
+            self._ports_at = now
+            self._ports = self._worker.submit(list_ports)
+
+    def _tell_changes(self, trial: Trial | None) -> None:
+        """Put into the message list that a device went away or came back."""
+        state = None if trial is None else trial.state
+        if trial is None or state is self._told:
+            return
+        before, self._told = self._told, state
+        if state in _BAD and trial.sentences:
+            self.bench.tell(Weight.WARNING, trial.sentences[0])
+        elif state is State.STREAMING and before in _BAD:
+            self.bench.tell(Weight.GOOD, self.tr("The sensor is back: readings come again."))

@@ -1,0 +1,370 @@
+"""The Export page: what a bundle rests on, what will be in it, and writing it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, ClassVar
+
+from PySide6.QtCore import Qt, QUrl
+from PySide6.QtGui import QDesktopServices
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QFileDialog,
+    QFrame,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.bench import Weight
+from app.page import Page
+from app.pages.export_settings import ExportSettingsPanel
+from app.pages.verify_undo import ChangeSettings
+from pipeline.config.runtime.options import ExportOptions
+from pipeline.errors import InputError
+from pipeline.workbench.export import Exported, ExportView, export, survey
+from pipeline.workbench.export_checklist import newest
+from pipeline.workbench.steps import Step
+from widgets.checklist import Checklist, ShownCheck
+from widgets.icons import Sign, icon
+
+if TYPE_CHECKING:
+    from app.bench import Bench
+    from pipeline.workbench.export import Preview
+    from pipeline.workbench.steps import StepStatus
+
+_TALL, _ICON = 36, 30
+
+
+class ExportPage(Page):
+    """
+    Checklist, settings, preview, and the button.
+
+    Attributes
+    ----------
+    view : ExportView or None
+        What was found last.
+    """
+
+    step: ClassVar[Step] = Step.EXPORT
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(bench, parent)
+        self.view: ExportView | None = None
+        self.exported: Exported | None = None
+        self._read_at, self._busy, self._shown = -1, False, False
+        self._looking = self._closed = False
+        self._build()
+        self._allow()
+
+    # ---- how it looks ----------------------------------------------------------------------------
+
+    def _build(self) -> None:
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        area = QScrollArea()
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(10, 8, 10, 8)
+        column.setSpacing(8)
+        area.setWidget(inside)
+        outer.addWidget(area)
+        title = QLabel(self.tr("Export"))
+        title.setProperty("role", "title")
+        column.addWidget(title)
+        column.addLayout(self._standing())
+        self.checklist = Checklist()
+        self.checklist.wanted.connect(self.bench.go_to)
+        column.addWidget(self.checklist)
+        column.addLayout(self._buttons())
+        self.result = self._label()
+        self.result.hide()
+        column.addWidget(self.result)
+        column.addLayout(self._after())
+        column.addWidget(self._boxed(self.tr("What will be in it"), self._preview_labels()))
+        self.settings = ExportSettingsPanel()
+        self.settings.changed.connect(self._set)
+        column.addWidget(self._boxed(self.tr("Settings"), [self.settings]))
+        column.addStretch(1)
+
+    def _standing(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        row.setSpacing(8)
+        self.sign, self.standing = Sign(_ICON), self._label()
+        row.addWidget(self.sign, 0, Qt.AlignmentFlag.AlignTop)
+        row.addWidget(self.standing, 1)
+        return row
+
+    def _buttons(self) -> QVBoxLayout:
+        column = QVBoxLayout()
+        self.unverified = QCheckBox(self.tr("Write it although it is not verified"))
+        self.unverified.setToolTip(
+            self.tr("For trials only: the bundle says that nobody has shown that it is right")
+        )
+        self.unverified.setMinimumHeight(_TALL)
+        self.unverified.toggled.connect(lambda _: self._allow())
+        column.addWidget(self.unverified)
+        row = QHBoxLayout()
+        self.zip = QPushButton(icon("export", "panel"), self.tr("Export a file…"))
+        self.zip.setProperty("primary", True)
+        self.zip.setToolTip(self.tr("One zip file, which a robot's runtime loads as it is"))
+        self.folder = QPushButton(icon("folder"), self.tr("Export a folder…"))
+        for button, choose in ((self.zip, self._choose_file), (self.folder, self._choose_folder)):
+            button.setMinimumHeight(_TALL)
+            button.clicked.connect(lambda _=False, choose=choose: choose())
+            row.addWidget(button, 1)
+        column.addLayout(row)
+        return column
+
+    def _after(self) -> QHBoxLayout:
+        row = QHBoxLayout()
+        self.report = QPushButton(icon("info"), self.tr("Open the report"))
+        self.report.clicked.connect(lambda _=False: self._open(self._report_file()))
+        self.show_folder = QPushButton(icon("folder"), self.tr("Show where it is"))
+        self.show_folder.clicked.connect(lambda _=False: self._open(self._place()))
+        for button in (self.report, self.show_folder):
+            button.setMinimumHeight(_TALL)
+            button.hide()
+            row.addWidget(button, 1)
+        return row
+
+    def _preview_labels(self) -> list[QWidget]:
+        self.figures, self.files, self.changes = self._label(), self._label(), self._label()
+        self.files.setProperty("role", "muted")
+        return [self.figures, self.files, self.changes]
+
+    def _boxed(self, title: str, widgets: list[QWidget]) -> QGroupBox:
+        box = QGroupBox(title)
+        column = QVBoxLayout(box)
+        for each in widgets:
+            column.addWidget(each)
+        return box
+
+    def _label(self) -> QLabel:
+        label = QLabel()
+        label.setWordWrap(True)
+        label.setTextFormat(Qt.TextFormat.PlainText)
+        label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        return label
+
+    # ---- shown -----------------------------------------------------------------------------------
+
+    def enter(self) -> None:
+        """Look at the session anew."""
+        self._shown = True
+        self._look()
+
+    def leave(self) -> None:
+        """Look no more."""
+        self._shown = False
+
+    def close_page(self) -> None:
+        """Show nothing any more; what is being written is written."""
+        self._closed = True
+
+    def show_state(self, status: StepStatus) -> None:  # noqa: ARG002 - the checklist says it line by line
+        """Show how the step stands."""
+        self._look()
+
+    def _look(self) -> None:
+        """Have the checklist and a bundle in memory made, if the session changed, while the page is shown."""
+        state = self.bench.desk.state
+        if self._closed or not self._shown or self._looking or state.count == self._read_at:
+            return
+        try:
+            self.settings.show_options(ExportOptions.stored(state.settings), self._setting("devices.serial"))
+        except InputError as error:
+            self.bench.tell(Weight.WARNING, str(error))
+        self._looking, count = True, state.count
+
+        def came(view: ExportView) -> None:
+            self._looking, self._read_at, self.view = False, count, view
+            if self._closed:
+                return
+            self._show(view)
+            self._look()  # it may have changed meanwhile
+
+        def wrong(error: BaseException) -> None:
+            self._looking, self._read_at = False, count
+            self._said(error)
+
+        self.bench.do(self.tr("Looking at the bundle"), survey, came, wrong)
+
+    def _setting(self, key: str) -> str:
+        setting = self.bench.desk.state.settings.get(key)
+        return setting.value if setting is not None and isinstance(setting.value, str) else ""
+
+    def _show(self, view: ExportView) -> None:
+        self.checklist.show_items(
+            [
+                ShownCheck(
+                    self._name(item.step, item.name), item.state.value, item.sentence, item.step, item.holds
+                )
+                for item in view.items
+            ]
+        )
+        preview = view.preview
+        if preview is None:
+            self._stand("failed", "bad", view.problem)
+            self.figures.setText(view.problem)
+            self.files.setText("")
+            self.changes.setText("")
+        else:
+            self._show_preview(preview)
+        self._allow()
+
+    def _show_preview(self, preview: Preview) -> None:
+        self.figures.setText("\n".join(f"{what}: {value}" for what, value in preview.figures))
+        total = sum(size for _, size in preview.files)
+        lines = [f"{name}  {_size(size)}" for name, size in preview.files]
+        lines.append(
+            self.tr("together {size}, SHA-256 {sha256}…").format(
+                size=_size(total), sha256=preview.sha256[:12]
+            )
+        )
+        self.files.setText("\n".join(lines))
+        changes = preview.changes
+        if changes is None:
+            self.changes.setText(self.tr("Nothing was exported from this session before."))
+        else:
+            self.changes.setText(
+                self.tr("Against the last export:") + "\n" + "\n".join(f"• {each}" for each in changes)
+            )
+        if preview.reasons:
+            why = " ".join(preview.reasons[:2])
+            self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
+        elif self._setting("export.sha256") == preview.sha256:
+            self._stand("done", "good", self.tr("Verified, and exported as it is."))
+        else:
+            self._stand("done", "good", self.tr("Verified: ready to be exported."))
+
+    def _name(self, step: Step, name: str) -> str:
+        return {
+            Step.DEVICES: self.tr("Sensor"),
+            Step.GRAVITY: self.tr("Calibration"),
+            Step.PROBE: self.tr("Probe"),
+            Step.REGIONS: self.tr("Regions"),
+        }.get(step, self.tr("Report") if name == "Report" else self.tr("Verification"))
+
+    def _stand(self, name: str, colour: str, words: str) -> None:
+        self.sign.show_icon(icon(name, colour))
+        self.standing.setText(words)
+
+    def _allow(self) -> None:
+        preview = None if self.view is None else self.view.preview
+        doubtful = preview is not None and bool(preview.reasons)
+        self.unverified.setVisible(doubtful)
+        ready = preview is not None and not self._busy and (not doubtful or self.unverified.isChecked())
+        self.zip.setEnabled(ready)
+        self.folder.setEnabled(ready)
+        self.report.setVisible(self._report_file() is not None)
+        place = self._place()
+        self.show_folder.setVisible(place is not None)
+        self.show_folder.setToolTip(str(place or ""))
+
+    # ---- settings --------------------------------------------------------------------------------
+
+    def _set(self, values: dict[str, object], text: str) -> None:
+        settings = self.bench.desk.state.settings
+        try:
+            before = ExportOptions.stored(settings)
+            given = {name: value for name, value in values.items() if value is not None}
+            ExportOptions.stored(settings, given).settings()
+        except InputError as error:
+            self.bench.tell(Weight.WARNING, str(error))
+            self._read_at = -1
+            self._look()
+            return
+        plain, usual = before.model_dump(mode="json"), ExportOptions().model_dump(mode="json")
+        if all(plain[name] == (usual[name] if value is None else value) for name, value in values.items()):
+            return
+        stored = {name: settings[f"config.{name}"].value for name in values if f"config.{name}" in settings}
+        was = {f"config.{name}": stored.get(name) for name in values}
+        now = {f"config.{name}": value for name, value in values.items()}
+        self.bench.undo.push(ChangeSettings(self.bench, was, now, text))
+
+    # ---- writing ---------------------------------------------------------------------------------
+
+    def _choose_file(self) -> None:
+        name, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Export a file"), str(self._beside("runtime.zip")), self.tr("Bundles (*.zip)")
+        )
+        if name:
+            place = Path(name)
+            self.write(place if place.suffix.lower() == ".zip" else place.with_name(f"{place.name}.zip"))
+
+    def _choose_folder(self) -> None:
+        name, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Export a folder: give it a name"), str(self._beside("runtime")), ""
+        )
+        if name:
+            self.write(Path(name))
+
+    def _beside(self, name: str) -> Path:
+        place = self._place()
+        return (self.bench.desk.folder.parent if place is None else place.parent) / name
+
+    def write(self, place: Path) -> None:
+        """Write the bundle, check what was written, and say so."""
+        if self._busy:
+            return
+        self._busy, unverified = True, self.unverified.isVisible() and self.unverified.isChecked()
+        self._allow()
+        self.result.hide()
+
+        def done(found: Exported) -> None:
+            self._busy, self.exported = False, found
+            if self._closed:
+                return
+            self.result.setText(found.sentence)
+            self.result.setProperty("role", "" if found.verified else "bad")
+            self.result.show()
+            self.bench.tell(Weight.GOOD if found.verified else Weight.WARNING, found.sentence)
+            self._allow()
+
+        def wrong(error: BaseException) -> None:
+            self._busy = False
+            self._said(error)
+            if not self._closed:
+                self._allow()
+
+        self.bench.do(
+            self.tr("Exporting"), lambda session: export(session, place, unverified=unverified), done, wrong
+        )
+
+    def _said(self, error: BaseException) -> None:
+        if not isinstance(error, InputError):
+            raise error
+        if self._closed:
+            return
+        self.result.setText(str(error))
+        self.result.show()
+        self.bench.tell(Weight.ERROR, str(error))
+
+    def _place(self) -> Path | None:
+        place = self._setting("export.place")
+        return Path(place) if place else None
+
+    def _report_file(self) -> Path | None:
+        found = newest(self.bench.desk.state, "report")
+        return None if found is None else self.bench.desk.folder / found.file.path
+
+    def _open(self, place: Path | None) -> None:
+        if place is not None:
+            target = place.parent if place.suffix.lower() == ".zip" else place
+            QDesktopServices.openUrl(QUrl.fromLocalFile(str(target)))
+
+
+def _size(count: int) -> str:
+    return (
+        f"{count} B" if count < 1_000 else f"{count / 1e3:.0f} kB" if count < 1e6 else f"{count / 1e6:.1f} MB"
+    )

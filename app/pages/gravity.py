@@ -1,0 +1,339 @@
+"""The page on which the tool is weighed: captures in still poses, and what they amount to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QVBoxLayout, QWidget
+
+from app.bench import Weight
+from app.page import Page
+from app.pages.gravity_changes import GravityChanges
+from app.pages.gravity_choices import GravityChoices
+from app.pages.gravity_panel import GravityPanel, big_button
+from app.pages.gravity_run import GravityRun, Phase
+from pipeline.calibration.stillness import StillState
+from pipeline.workbench.gravity_poses import PoseState
+from pipeline.workbench.gravity_settings import TILT
+from pipeline.workbench.steps import Step, StepState
+from widgets.icons import icon
+from widgets.verdict_box import LOCKED, REFUSE
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from PySide6.QtWidgets import QPushButton
+
+    from app.bench import Bench
+    from pipeline.simulation.virtual.bench import VirtualBench
+    from pipeline.workbench.gravity import GravityView
+    from pipeline.workbench.gravity_poses import PoseRow
+    from pipeline.workbench.gravity_solving import Finding
+    from pipeline.workbench.steps import StepStatus
+
+_BUMP_N = [6.0, 0.0, 0.0]
+
+
+class GravityPage(Page):
+    """The gravity step."""
+
+    step: ClassVar[Step] = Step.GRAVITY
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(bench, parent)
+        self.run = GravityRun(bench, self)
+        self.changes, self.choices = GravityChanges(self.run), GravityChoices(self.run)
+        self.panel = GravityPanel()
+        self.primary, self.second = big_button(""), big_button("")
+        self._shown, self._heard = -1, -1
+        self._locked = self._entered = False
+        row = QHBoxLayout()
+        row.setContentsMargins(10, 4, 10, 10)
+        row.addWidget(self.second)
+        row.addWidget(self.primary, 1)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addWidget(self.panel, 1)
+        box.addLayout(row)
+        self.space = QShortcut(QKeySequence(Qt.Key.Key_Space), self)
+        self.space.setContext(Qt.ShortcutContext.WindowShortcut)
+        self.space.setWhatsThis(self.tr("Take this pose (gravity)"))
+        self._connect()
+        self._show()
+
+    def _connect(self) -> None:
+        panel, run = self.panel, self.run
+        run.changed.connect(self._show)
+        self.space.activated.connect(self._take)
+        self.primary.clicked.connect(lambda: self._press(0))
+        self.second.clicked.connect(lambda: self._press(1))
+        panel.automatic.toggled.connect(run.set_automatic)
+        panel.table.leave_out.connect(lambda rows: self._leave_out(rows, left_out=True))
+        panel.table.take_back.connect(lambda rows: self._leave_out(rows, left_out=False))
+        panel.table.selectionModel().selectionChanged.connect(self._show_selection)
+        panel.findings.confirmed.connect(self._confirm)
+        panel.turn.clicked.connect(self._turn)
+        panel.bump.clicked.connect(self._bump)
+        panel.tilt.valueChanged.connect(self._set_tilt)
+
+    # ---- what the window calls ---------------------------------------------------------------------
+
+    def enter(self) -> None:
+        """Be shown."""
+        self._entered = True
+        self.bench.scene.show_orientation(self._now())  # before: then the whole of its world is fitted
+        self.bench.scene.look("fit")
+        self.run.reload()
+        self._show()
+
+    def leave(self) -> None:
+        """Be hidden; captures go on."""
+        self._entered = False
+        self.space.setEnabled(False)
+        self.bench.scene.show_ghost(None)
+        self.bench.scene.show_orientation(None)
+
+    def show_state(self, status: StepStatus) -> None:
+        """Show how the step stands."""
+        self._locked = status.state is StepState.LOCKED
+        self.run.reload()
+        self._show()
+        if self._locked:
+            self.panel.problem.show_verdict(LOCKED, [status.sentence])
+            self.panel.problem.show()
+
+    def tick(self) -> None:
+        """Show the newest of what is live."""
+        self.run.poll()
+        R_WS = self._now()
+        self.bench.scene.show_orientation(R_WS)
+        self.panel.coverage.show_now(R_WS)
+        if self.run.work is not None:
+            pair = self.bench.live.pair
+            self._show_view(self.run.work.view(None if pair is None else pair.now()))
+        elif self.run.check is not None:
+            self.panel.state.show_state(self.run.check.state)
+            self.panel.sentence.setText(self.run.check.sentence)
+            self.panel.show_away(R_WS, self.run.check.proposal)
+
+    def close_page(self) -> None:
+        """End everything."""
+        self.run.close()
+
+    # ---- what it shows -----------------------------------------------------------------------------
+
+    def _now(self) -> NDArray[np.float64] | None:
+        reading = self.bench.live.reading() if self.bench.live.pair is not None else None
+        return None if reading is None or not np.isfinite(reading.R_WS).all() else reading.R_WS
+
+    def _show(self) -> None:
+        """Show all that does not change by itself."""
+        self._shown = -1
+        run, panel = self.run, self.panel
+        capturing, checking = run.phase is Phase.CAPTURING, run.phase is Phase.CHECKING
+        outcome = run.outcome if run.phase in {Phase.IDLE, Phase.CHECKING} else None
+        self.space.setEnabled(self._entered and capturing)
+        panel.problem.setVisible(bool(run.problem))
+        if run.problem:
+            panel.problem.show_verdict(REFUSE, [run.problem], self.tr("This did not work"))
+        panel.intro.setVisible(run.phase is Phase.IDLE and outcome is None)
+        panel.state.setVisible(capturing or checking)
+        panel.sentence.setVisible(capturing or checking)
+        panel.automatic.setVisible(
+            capturing or (run.phase is Phase.IDLE and outcome is None and not self._locked)
+        )
+        panel.figures.setVisible(capturing or outcome is not None)
+        panel.verdict.setVisible(outcome is not None)
+        panel.checked.setVisible(run.checked is not None and outcome is not None)
+        for widget in (panel.table, panel.out, panel.back, panel.coverage):
+            widget.setVisible(capturing or outcome is not None)
+        self._show_tilt()
+        if not capturing:
+            self._show_result()
+        self._show_buttons()
+        self._show_selection()
+
+    def _show_result(self) -> None:
+        """Show what the session has."""
+        run, panel = self.run, self.panel
+        outcome = None if run.busy else run.outcome
+        check = run.check
+        virtual = self._bench() is not None
+        panel.next.hide()
+        panel.away.setVisible(check is not None)
+        panel.turn.setVisible(check is not None and virtual)
+        panel.bump.hide()
+        self.bench.scene.show_ghost(check.proposal if check is not None and self._entered else None)
+        panel.findings.show_findings(() if outcome is None else outcome.findings)
+        if outcome is None:
+            return
+        fitted = outcome.calibration
+        panel.verdict.show_verdict(fitted.verdict.level.value, fitted.verdict.reasons)
+        panel.figures.show_figures(
+            int(fitted.kept.sum()), len(fitted.poses), (fitted.contact_error,), running=False
+        )
+        panel.coverage.show_poses(outcome.rows, None if check is None else check.proposal, self._max_tilt())
+        panel.table.show_rows(outcome.rows)
+        if run.checked is not None:
+            verdict = run.checked.verdict
+            panel.checked.show_verdict(
+                verdict.level.value, verdict.reasons, self.tr("Checked in a pose it had not seen")
+            )
+
+    def _show_view(self, view: GravityView) -> None:
+        """Show the captures as they come."""
+        panel = self.panel
+        panel.state.show_state(
+            view.state,
+            seconds=view.seconds,
+            share=view.progress,
+            captured=view.captured,
+            by_key=not self.run.automatic,
+            wanted=view.wanted,
+        )
+        asked = view.state is StillState.STILL and not (self.run.automatic or view.captured or view.wanted)
+        panel.sentence.setText("" if asked else view.sentence)  # what is averaged is not taken yet
+        goal = view.solved.proposal
+        panel.show_away(self._now(), None if goal is None else goal.R_WS)
+        if view.revision * 2 + view.busy == self._shown:
+            return
+        self._shown = view.revision * 2 + view.busy
+        proposal = view.solved.proposal
+        panel.table.show_rows(view.rows)
+        panel.coverage.show_poses(view.rows, None if proposal is None else proposal.R_WS, self._max_tilt())
+        panel.figures.show_figures(view.count, view.expected, view.errors, running=True)
+        panel.findings.show_findings(view.solved.findings)
+        panel.show_next(proposal, virtual=self._bench() is not None, running=True)
+        self.bench.scene.show_ghost(None if proposal is None or not self._entered else proposal.R_WS)
+        fitted = view.solved.calibration
+        panel.verdict.setVisible(fitted is not None)
+        if fitted is not None:
+            panel.verdict.show_verdict(
+                fitted.verdict.level.value,
+                fitted.verdict.reasons,
+                self.tr("So far: {level}").format(level=self._word(fitted.verdict.level.value)),
+            )
+        self._beep(view.rows)
+        self._show_buttons()
+        self._show_selection()
+
+    def _word(self, level: str) -> str:
+        return {
+            "good": self.tr("good"),
+            "usable": self.tr("usable"),
+            "refuse": self.tr("not enough to be used"),
+        }[level]
+
+    def _beep(self, rows: tuple[PoseRow, ...]) -> None:
+        """Let it be heard that a pose was taken: nobody needs to look."""
+        taken = sum(row.state is PoseState.TAKEN and not row.earlier for row in rows)
+        if taken > self._heard >= 0:
+            QApplication.beep()
+        self._heard = taken
+
+    def _show_buttons(self) -> None:
+        run = self.run
+        first, second = self.choices.now()
+        self.primary.setText(first.text)
+        self.second.setText("" if second is None else second.text)
+        self.second.setVisible(second is not None)
+        waits = run.busy or run.phase is Phase.CHECKING  # for the machine, or for a pose
+        self.primary.setEnabled(not waits and not self._locked)
+        self.second.setEnabled(not run.busy and not self._locked)
+        tip = ""
+        if run.phase is Phase.CAPTURING and run.work is not None:
+            enough = run.work.view().count >= 3
+            self.primary.setEnabled(enough)
+            tip = "" if enough else self.tr("A calibration needs three poses or more.")
+        self.primary.setToolTip(tip)
+        good = self._enough() if run.work is not None else run.phase is Phase.IDLE and not self._mendable()
+        if self._locked and not waits and run.phase is Phase.IDLE:
+            self.primary.setText(self.tr("Go to Devices"))
+            self.primary.setEnabled(True)
+            good = True
+        for button, accented in ((self.primary, good), (self.panel.turn, not good)):
+            self._accent(button, accented)
+        self.panel.turn.setIcon(icon("play", "text" if good else "panel"))
+
+    def _enough(self) -> bool:
+        return self.run.work is not None and self.run.work.view().solved.enough
+
+    def _mendable(self) -> bool:
+        """Whether there is a finding whose remedy is the thing to do now."""
+        outcome = self.run.outcome
+        return outcome is not None and any(finding.settings for finding in outcome.findings)
+
+    def _accent(self, button: QPushButton, accented: bool) -> None:
+        if button.property("primary") != accented:
+            button.setProperty("primary", accented)
+            button.style().unpolish(button)
+            button.style().polish(button)
+
+    def _show_selection(self) -> None:
+        rows = self.panel.table.selected() if not self.run.busy else ()
+        self.panel.out.setEnabled(any(row.state is not PoseState.LEFT_OUT for row in rows))
+        self.panel.back.setEnabled(any(row.state is PoseState.LEFT_OUT for row in rows))
+
+    def _max_tilt(self) -> float:
+        setting = self.bench.desk.state.settings.get(TILT)
+        return 180.0 if setting is None else float(setting.value)
+
+    def _show_tilt(self) -> None:
+        self.panel.tilt.blockSignals(True)
+        self.panel.tilt.setValue(round(self._max_tilt()))
+        self.panel.tilt.blockSignals(False)
+
+    # ---- what the buttons do -----------------------------------------------------------------------
+
+    def _press(self, number: int) -> None:
+        """Do what a button says; 0: the primary one."""
+        if self._locked and not self.run.busy:
+            self.bench.go_to.emit(Step.DEVICES)
+            return
+        choice = self.choices.now()[number]
+        if choice is not None and not self.run.busy:
+            self._heard = -1
+            choice.do()
+
+    def _take(self) -> None:
+        words = self.run.take()
+        if words:
+            self.bench.tell(Weight.INFO, words)
+
+    def _leave_out(self, rows: tuple[PoseRow, ...], *, left_out: bool) -> None:
+        if rows and not self.run.busy:
+            self.changes.leave_out(rows, left_out)
+
+    def _confirm(self, finding: Finding) -> None:
+        if not self.run.busy:
+            self.changes.confirm(finding)
+
+    def _set_tilt(self, degrees: int) -> None:
+        self.changes.set_parameters(
+            self.tr("set the largest tilt to {degrees}°").format(degrees=degrees), ((TILT, float(degrees)),)
+        )
+
+    # ---- on the virtual bench ----------------------------------------------------------------------
+
+    def _bench(self) -> VirtualBench | None:
+        pair = self.bench.live.pair
+        return None if pair is None else pair.bench
+
+    def _turn(self) -> None:
+        """Have the virtual wrist turn to the pose that is proposed."""
+        bench = self._bench()
+        R_WS = None
+        if self.run.check is not None:
+            R_WS = self.run.check.proposal
+        elif self.run.work is not None:
+            proposal = self.run.work.view().solved.proposal
+            R_WS = None if proposal is None else proposal.R_WS
+        if bench is not None and R_WS is not None:
+            bench.turn_to(R_WS)
+
+    def _bump(self) -> None:
+        bench = self._bench()
+        if bench is not None:
+            bench.bump(_BUMP_N)

@@ -1,0 +1,272 @@
+"""The parts of the gravity page, and how they show what goes on."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from pipeline.calibration import Limits
+from pipeline.calibration.wording import plain
+from widgets.capture_state import CaptureState
+from widgets.coverage import Coverage
+from widgets.icons import icon
+from widgets.residual_table import ResidualTable
+from widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.workbench.gravity_solving import Finding, Proposal
+
+_UNDETERMINED = 0.05  # m: beyond, a number says nothing
+_HIGH, _THREE_LINES = 38, 54  # px
+_THERE = 8.0  # degrees: near enough, what a pose tells hardly changes
+
+
+def big_button(text: str, name: str = "") -> QPushButton:
+    """Return a button that a glove can press."""
+    button = QPushButton(text)
+    button.setMinimumHeight(_HIGH)
+    if name:
+        button.setIcon(icon(name))
+    return button
+
+
+def wrapped(role: str = "") -> QLabel:
+    """Return a label for sentences."""
+    label = QLabel()
+    label.setWordWrap(True)
+    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    if role:
+        label.setProperty("role", role)
+    return label
+
+
+class Figures(QWidget):
+    """How many poses, and the contact error with its curve."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.count, self.before, self.error = QLabel(), QLabel(), QLabel()
+        self.count.setProperty("role", "title")
+        self.before.setProperty("role", "muted")
+        self.error.setProperty("role", "number")
+        self.curve = Shrinking()
+        caption = QLabel(self.tr("contact error from the calibration (1 sigma)"))
+        caption.setProperty("role", "muted")
+        caption.setToolTip(
+            self.tr(
+                "How far a contact point may be off because of the calibration alone, in mm: the worst case over the"
+                " touches that it is for. 0.5 mm is good."
+            )
+        )
+        self.curve.setToolTip(
+            self.tr("With each pose, on a logarithmic scale; dashed: 0.5 mm, the limit for good")
+        )
+        numbers = QHBoxLayout()
+        numbers.setSpacing(6)
+        numbers.addWidget(self.before, 0, Qt.AlignmentFlag.AlignBottom)
+        numbers.addWidget(self.error, 0, Qt.AlignmentFlag.AlignBottom)
+        numbers.addWidget(self.curve, 1)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(2)
+        box.addWidget(self.count)
+        box.addWidget(caption)
+        box.addLayout(numbers)
+
+    def show_figures(self, count: int, expected: int, errors: Sequence[float], *, running: bool) -> None:
+        """Show the numbers."""
+        if running:
+            text = self.tr("pose {count} of ~{expected}").format(
+                count=min(count + 1, expected), expected=expected
+            )
+            if count >= expected:
+                text = self.tr("{count} poses: enough").format(count=count)
+        else:
+            text = self.tr("poses: {count}").format(count=count)
+        self.count.setText(text)
+        known = [error for error in errors if error < _UNDETERMINED]
+        determined = bool(errors) and errors[-1] < _UNDETERMINED
+        self.error.setText(f"{plain(1e3 * known[-1])} mm" if determined else "\N{EN DASH} mm")
+        arrow = determined and len(known) > 1
+        self.before.setText(f"{plain(1e3 * known[-2])} \N{RIGHTWARDS ARROW}" if arrow else "")
+        self.before.setVisible(arrow)
+        self.curve.setVisible(len(known) > 1)
+        self.curve.show_values(known, Limits().good_error)
+
+
+class Findings(QWidget):
+    """Sentences, each with a button that does what mends it."""
+
+    confirmed = Signal(object)  # Finding
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._box = QVBoxLayout(self)
+        self._box.setContentsMargins(0, 0, 0, 0)
+        self._shown: tuple[tuple[str, str], ...] = ()
+        self.buttons: list[QPushButton] = []
+
+    def show_findings(self, findings: Sequence[Finding]) -> None:
+        """Show these, and no others."""
+        shown = tuple((finding.sentence, finding.remedy) for finding in findings)
+        if shown == self._shown:
+            return
+        self._shown, self.buttons = shown, []
+        while (item := self._box.takeAt(0)) is not None:
+            if (widget := item.widget()) is not None:
+                widget.deleteLater()
+        for finding in findings:
+            self._box.addWidget(self._card(finding))
+
+    def _card(self, finding: Finding) -> QWidget:
+        card = QFrame()
+        card.setProperty("role", "card")
+        box = QVBoxLayout(card)
+        words = VerdictBox()
+        heavy = bool(finding.settings) or not finding.leave_out
+        words.show_verdict(REFUSE if heavy else USABLE, [finding.sentence], self.tr("Found"))
+        box.addWidget(words)
+        if finding.remedy:
+            button = big_button(self.tr("Do that"), "check")
+            button.setToolTip(finding.remedy)
+            button.setAccessibleName(finding.remedy)
+            button.setProperty("primary", bool(finding.settings))
+            button.clicked.connect(lambda: self.confirmed.emit(finding))
+            what = wrapped("muted")
+            what.setText(f"{finding.remedy}.")
+            box.addWidget(what)
+            box.addWidget(button)
+            self.buttons.append(button)
+        return card
+
+
+class GravityPanel(QScrollArea):
+    """All that the page shows, above its buttons."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        inside = QWidget()
+        self._box = QVBoxLayout(inside)
+        self._box.setContentsMargins(10, 8, 10, 8)
+        self.setWidget(inside)
+        self._make()
+
+    def _make(self) -> None:
+        title = QLabel(self.tr("Gravity"))
+        title.setProperty("role", "title")
+        self.intro = wrapped()
+        self.intro.setText(
+            self.tr(
+                "Hold the tool still in about six different tilts, touching nothing. From them follow its weight and"
+                " the sensor's zero, which are then taken off every reading."
+            )
+        )
+        self.state = CaptureState()
+        self.sentence = wrapped("muted")
+        self.sentence.setMinimumHeight(_THREE_LINES)  # what comes and goes does not move the rest
+        self.automatic = QCheckBox(self.tr("Take each still pose by itself"))
+        self.automatic.setChecked(True)
+        self.automatic.setToolTip(
+            self.tr("Off: press SPACE, or the foot switch, in each pose that shall count.")
+        )
+        self.figures = Figures()
+        self.verdict = VerdictBox()
+        self.checked = VerdictBox()
+        self.findings = Findings()
+        self.problem = VerdictBox()
+        self.coverage = Coverage()
+        self.table = ResidualTable()
+        self._add(title, self.intro, self.problem, self.state, self.sentence, self.automatic)
+        self._make_next()
+        self._add(self.figures, self.verdict, self.checked, self.findings, self.coverage, self.table)
+        self._make_table_buttons()
+        self._make_tilt()
+        self._box.addStretch(1)
+
+    def _add(self, *widgets: QWidget) -> None:
+        for widget in widgets:
+            self._box.addWidget(widget)
+
+    def _make_next(self) -> None:
+        self.next = wrapped()
+        self.away = wrapped("muted")
+        self.turn = big_button(self.tr("Turn it there for me"), "play")
+        self.bump = big_button(self.tr("Bump it"))
+        self.bump.setToolTip(self.tr("Push the virtual tool for a moment, to see what that does"))
+        row = QHBoxLayout()
+        row.addWidget(self.turn, 1)
+        row.addWidget(self.bump)
+        self._add(self.next, self.away)
+        self._box.addLayout(row)
+
+    def _make_table_buttons(self) -> None:
+        self.out = big_button(self.tr("Leave out"), "remove")
+        self.back = big_button(self.tr("Take back"), "check")
+        self.out.setToolTip(self.tr("The selected poses do not count (Delete)"))
+        self.back.setToolTip(self.tr("The selected poses count again (Return)"))
+        self.out.clicked.connect(lambda: self.table.leave_out.emit(self.table.selected()))
+        self.back.clicked.connect(lambda: self.table.take_back.emit(self.table.selected()))
+        row = QHBoxLayout()
+        row.addWidget(self.out)
+        row.addWidget(self.back)
+        self._box.addLayout(row)
+
+    def _make_tilt(self) -> None:
+        self.tilt = QSpinBox()
+        self.tilt.setRange(20, 180)
+        self.tilt.setSingleStep(10)
+        self.tilt.setSuffix("°")
+        self.tilt.setMinimumHeight(_HIGH)
+        self.tilt.setKeyboardTracking(False)
+        self.tilt.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        label = QLabel(self.tr("The tool can tilt by up to"))
+        label.setBuddy(self.tilt)
+        self.tilt.setAccessibleName(label.text())
+        self.tilt.setToolTip(
+            self.tr(
+                "Largest angle between the sensor's z axis and straight down, degrees; poses beyond are not proposed."
+            )
+        )
+        row = QHBoxLayout()
+        row.addWidget(label, 1)
+        row.addWidget(self.tilt)
+        self._box.addLayout(row)
+
+    def show_next(self, proposal: Proposal | None, *, virtual: bool, running: bool) -> None:
+        """Show the pose to take next, and on a virtual bench the buttons that do it."""
+        self.next.setText(
+            "" if proposal is None else self.tr("Next: {words}").format(words=proposal.sentence)
+        )
+        self.next.setVisible(proposal is not None)
+        self.away.setVisible(proposal is not None)
+        self.turn.setVisible(virtual and proposal is not None)
+        self.bump.setVisible(virtual and running)
+
+    def show_away(self, R_WS: NDArray[np.float64] | None, goal: NDArray[np.float64] | None) -> None:
+        """Show by how much the weight's direction still differs from that of a pose to take."""
+        if R_WS is None or goal is None:
+            self.away.setText("")
+            return
+        angle = float(np.degrees(np.arccos(np.clip(R_WS[2] @ goal[2], -1, 1))))
+        words = self.tr("You are there: keep still.") if angle < _THERE else self.tr("{angle:.0f}° to go.")
+        self.away.setText(words.format(angle=angle))

@@ -1,0 +1,374 @@
+"""A gravity calibration from start to result: what the page's buttons do."""
+
+from __future__ import annotations
+
+import re
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from app.bench import Weight
+from pipeline.calibration import Level
+from pipeline.errors import InputError
+from pipeline.workbench import gravity_results as results
+from pipeline.workbench.gravity import GravityWork
+from pipeline.workbench.gravity_check import GravityCheck
+from pipeline.workbench.gravity_settings import gravity_settings
+from pipeline.workbench.steps import Step
+from pipeline.workbench.tape import Tape
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from app.bench import Bench
+    from pipeline.calibration import PoseSample
+    from pipeline.calibration.verify import StillVerification
+    from pipeline.workbench.gravity_results import Outcome
+    from pipeline.workbench.gravity_settings import GravitySettings
+
+
+_DIGITS = re.compile(r"\d+")
+
+
+class Phase(StrEnum):
+    """What goes on."""
+
+    IDLE = "idle"
+    STARTING = "starting"
+    CAPTURING = "capturing"
+    FINISHING = "finishing"
+    CHECKING = "checking"
+
+
+class GravityRun(QObject):
+    """
+    The run of a bench's gravity step; everything in it happens in the GUI thread but what is handed to jobs.
+
+    Attributes
+    ----------
+    phase : Phase
+    work : GravityWork or None
+        While captures are made.
+    check : GravityCheck or None
+        While the held-out pose is waited for.
+    outcome : Outcome or None
+        What the session has.
+    checked : StillVerification or None
+        Of the outcome.
+    problem : str
+        Why the last thing did not work, in words.
+    """
+
+    changed = Signal()
+    finished = Signal()  # captures were ended, and the session has what came of them
+
+    def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.bench = bench
+        self.phase = Phase.IDLE
+        self.work: GravityWork | None = None
+        self.check: GravityCheck | None = None
+        self.outcome: Outcome | None = None
+        self.checked: StillVerification | None = None
+        self.problem = ""
+        self.automatic = True
+        self._tape: Tape | None = None
+        self._earlier: str | None = None
+        self._compared: tuple[PoseSample, ...] = ()
+        self._end_following: Callable[[], None] = lambda: None
+        self._read = (-1, 0)
+        self._wanted: str | None = None  # to begin once there are devices; as in `start`
+        self._said: tuple[str, ...] = ()
+        self._closed = False
+
+    # ---- what the session has ----------------------------------------------------------------------
+
+    def settings(self) -> GravitySettings | None:
+        """Return how this session calibrates; None, and a message: its parameters make no sense."""
+        try:
+            return gravity_settings(self.bench.desk.state)
+        except InputError as error:
+            self.fail(error)
+            return None
+
+    def reload(self) -> None:
+        """Read the session's calibration, if it changed."""
+        state, key = self.bench.desk.state, self._known()
+        if key == self._read or self.phase is Phase.FINISHING:
+            return
+        self._read = key
+        folder = self.bench.desk.folder
+        self.bench.jobs.start(
+            self.tr("Reading the calibration"),
+            lambda _progress, _cancelled: results.outcome_of(folder, state),
+            self.have,
+            self.fail,
+        )
+
+    def _known(self) -> tuple[int, int]:
+        """Return what tells one state of the session's calibrations from another."""
+        found = [each for each in self.bench.desk.state.results if each.action.kind == "calibration"]
+        return max((each.number for each in found), default=0), sum(len(each.marks) for each in found)
+
+    def have(self, outcome: Outcome | None) -> None:
+        """Take what the session has now."""
+        if self._closed:
+            return
+        self.outcome, self.checked, self._compared = outcome, None, ()
+        self._read = self._known()
+        model = (
+            None
+            if outcome is None or outcome.calibration.verdict.level is Level.REFUSE
+            else outcome.calibration.model
+        )
+        self.bench.jobs.start(
+            self.tr("Compensating"), lambda _progress, _cancelled: self.bench.live.set_model(model)
+        )
+        self.changed.emit()
+
+    @property
+    def left_behind(self) -> str:
+        """Name of a recording that can be gone on from; empty: none."""
+        found = results.interrupted(self.bench.desk.state)
+        return "" if found is None or self.phase is not Phase.IDLE else found.name
+
+    # ---- captures ----------------------------------------------------------------------------------
+
+    def start(self, earlier: str = "") -> None:
+        """Begin to capture; `earlier`: go on from the poses of that recording."""
+        settings = self.settings()
+        if self.phase is not Phase.IDLE or settings is None or self._waits(earlier) or not self._ready():
+            return
+        self.be(Phase.STARTING)
+        desk, live = self.bench.desk, self.bench.live
+        name = results.next_name(desk.state, desk.folder)
+        serial = self._serial()
+
+        def begin(_progress: object, _cancelled: object) -> tuple[Tape, tuple[str, tuple[PoseSample, ...]]]:
+            before: tuple[str, tuple[PoseSample, ...]] = ("", ())
+            if earlier:
+                before = desk.do(lambda session: results.take_up(session, earlier)).result()
+            return Tape.start(desk, live, name, serial).result(), before
+
+        def begun(made: tuple[Tape, tuple[str, tuple[PoseSample, ...]]]) -> None:
+            tape, (part, poses) = made
+            self._tape, self._earlier = tape, part or None
+            self.work = GravityWork(settings, live_R_ES=live.R_ES, earlier=poses, automatic=self.automatic)
+            self._end_following = live.follow(self.work.feed)
+            self.be(Phase.CAPTURING)
+
+        self.bench.jobs.start(self.tr("Beginning to record"), begin, begun, self.idle_again)
+
+    def _waits(self, earlier: str) -> bool:
+        """Tell whether the devices are still being opened; then it begins once they are."""
+        waits = self.bench.live.pair is None and self.bench.live.opening
+        self._wanted = earlier if waits else None
+        if waits:
+            self.problem = ""
+            self.bench.tell(
+                Weight.INFO, self.tr("The devices are being opened; the first pose is waited for after that.")
+            )
+        return waits
+
+    def _ready(self) -> bool:
+        """Tell whether there is something to record from; a message says what is missing."""
+        pair = self.bench.live.pair
+        if pair is None:
+            self.problem = self.tr("No device is open: choose and open a sensor under Devices first.")
+        elif pair.poses is None:
+            self.problem = self.tr(
+                "There is no source of poses. A weight can only be told from the sensor's zero if it is known how the"
+                " sensor stands: choose a robot, a file of poses or the virtual bench under Devices."
+            )
+        else:
+            self.problem = ""
+            return True
+        self.bench.tell(Weight.WARNING, self.problem)
+        self.changed.emit()
+        return False
+
+    def set_automatic(self, automatic: bool) -> None:
+        """Choose whether each still pose is taken."""
+        self.automatic = automatic
+        if self.work is not None:
+            self.work.set_automatic(automatic)
+        self.changed.emit()
+
+    def take(self) -> str:
+        """Take the present pose; returns what that means."""
+        return self.work.take() if self.work is not None else ""
+
+    def finish(self) -> None:
+        """End the captures, and have the session compute from its recording."""
+        work, tape, earlier = self.work, self._tape, self._earlier
+        if self.phase is not Phase.CAPTURING or work is None or tape is None:
+            return
+        self._end_following()
+        self.be(Phase.FINISHING)
+        desk = self.bench.desk
+
+        def compute(_progress: object, _cancelled: object) -> tuple[Outcome, str]:
+            tape.keep().result()
+            work.finish()
+            work.wait()
+            left = work.left_out
+            made = desk.do(lambda session: results.finish(session, tape.name, left, earlier)).result()
+            return made, results.difference(work.view().solved.calibration, made)
+
+        def done(made: tuple[Outcome, str]) -> None:
+            outcome, differs = made
+            self._end_work()
+            self.be(Phase.IDLE)
+            self.have(outcome)
+            verdict = outcome.calibration.verdict
+            weight = {Level.GOOD: Weight.GOOD, Level.USABLE: Weight.WARNING, Level.REFUSE: Weight.ERROR}
+            self.bench.tell(weight[verdict.level], self.tr("Gravity: {why}").format(why=verdict.reasons[0]))
+            if differs:
+                self.bench.tell(Weight.INFO, differs)
+            self.finished.emit()
+
+        self.bench.jobs.start(self.tr("Computing the calibration"), compute, done, self.idle_again)
+
+    def stop(self) -> None:
+        """End the captures; what was recorded stays in the session, and can be gone on from."""
+        tape = self._tape
+        if self.phase not in {Phase.CAPTURING, Phase.CHECKING} or tape is None:
+            return
+        self._end_following()
+        self.be(Phase.FINISHING)
+        self.bench.jobs.start(
+            self.tr("Keeping the recording"),
+            lambda _progress, _cancelled: tape.keep().result(),
+            lambda _record: self.idle_again(None),
+            self.idle_again,
+        )
+
+    def _end_work(self) -> None:
+        self._end_following()
+        self._end_following = lambda: None
+        work, self.work, self.check, self._tape = self.work, None, None, None
+        if work is not None:
+            work.close()
+
+    def idle_again(self, error: BaseException | None) -> None:
+        """Be done, well or not."""
+        self._end_work()
+        self.be(Phase.IDLE)
+        if error is not None:
+            self.fail(error)
+        self.reload()
+
+    # ---- the held-out pose -------------------------------------------------------------------------
+
+    def begin_check(self) -> None:
+        """Wait for one more pose that the calibration has not seen."""
+        settings, outcome = self.settings(), self.outcome
+        if self.phase is not Phase.IDLE or settings is None or outcome is None or not self._ready():
+            return
+        self.be(Phase.STARTING)
+        desk, live = self.bench.desk, self.bench.live
+        name, serial = results.next_name(desk.state, desk.folder, check=True), self._serial()
+
+        def begun(tape: Tape) -> None:
+            self._tape = tape
+            self.check = GravityCheck(
+                outcome.calibration, settings, live_R_ES=live.R_ES, before=self._compared
+            )
+            self._end_following = live.follow(self.check.feed)
+            self.be(Phase.CHECKING)
+
+        self.bench.jobs.start(
+            self.tr("Beginning to record"),
+            lambda _progress, _cancelled: Tape.start(desk, live, name, serial).result(),
+            begun,
+            self.idle_again,
+        )
+
+    def poll(self) -> None:
+        """See what came meanwhile; called at each tick."""
+        if self._wanted is not None and not self.bench.live.opening:
+            self.start(self._wanted)
+        if self._tape is not None and self.phase in {Phase.CAPTURING, Phase.CHECKING}:
+            self._tell_findings(self._tape.findings)
+        if self.phase is Phase.CHECKING and self.check is not None and self.check.found is not None:
+            self._have_checked(self.check.found)
+
+    def _tell_findings(self, said: tuple[str, ...]) -> None:
+        before = {_DIGITS.sub("", each) for each in self._said}  # another rate is no other finding
+        for sentence in said:
+            if _DIGITS.sub("", sentence) not in before:
+                self.bench.tell(Weight.WARNING, sentence)
+        if self._said and not said:
+            self.bench.tell(Weight.GOOD, self.tr("All devices give samples again; the recording goes on."))
+        self._said = said
+
+    def _have_checked(self, found: StillVerification) -> None:
+        self._end_following()
+        tape = self._tape
+        self.be(Phase.FINISHING)
+        level, compared = found.verdict.level, self.check.poses if self.check is not None else ()
+        words = (
+            f"The calibration was checked in a pose that it had not seen"
+            f"{'' if tape is None else f' ({tape.name})'}: {level.value}. {' '.join(found.verdict.reasons)}"
+        )
+
+        def keep(_progress: object, _cancelled: object) -> None:
+            if tape is not None:
+                tape.keep().result()
+            self.bench.desk.do(lambda session: session.note(words)).result()
+
+        def done(_: object) -> None:
+            self._compared = compared
+            self.idle_again(None)
+            self.checked = found
+            said = {
+                Level.GOOD: self.tr("In a pose that it had not seen, the calibration proved good."),
+                Level.USABLE: self.tr("In a pose that it had not seen, the calibration proved usable."),
+                Level.REFUSE: self.tr(
+                    "In a pose that it had not seen, the calibration proved wrong: do not use it."
+                ),
+            }[level]
+            weight = Weight.GOOD if found.passed else Weight.ERROR
+            self.bench.tell(weight, " ".join((said, *found.verdict.reasons)))
+            self.changed.emit()
+
+        self.bench.jobs.start(self.tr("Keeping the check"), keep, done, self.idle_again)
+
+    # ---- of all ------------------------------------------------------------------------------------
+
+    @property
+    def busy(self) -> bool:
+        """Whether something runs that must not be begun twice."""
+        return self.phase in {Phase.STARTING, Phase.FINISHING}
+
+    def close(self) -> None:
+        """End it: the recording that runs is kept."""
+        self._closed = True
+        tape = self._tape
+        running = self.phase in {Phase.CAPTURING, Phase.CHECKING}
+        self._end_work()
+        if running and tape is not None:
+            tape.keep()  # in the desk's order: it is done before the session is closed
+
+    def _serial(self) -> str | None:
+        setting = self.bench.desk.state.settings.get("devices.serial")
+        return str(setting.value) if setting is not None and setting.value else None
+
+    def be(self, phase: Phase) -> None:
+        """Go over to a phase."""
+        if self._closed:
+            return
+        self.phase = phase
+        if phase is Phase.STARTING:
+            self.problem, self._said = "", ()
+        self.bench.set_running(Step.GRAVITY, phase is not Phase.IDLE)
+        self.changed.emit()
+
+    def fail(self, error: BaseException) -> None:
+        """Say what did not work."""
+        if self._closed:
+            return
+        self.problem = str(error) if isinstance(error, InputError) else f"{type(error).__name__}: {error}"
+        self.bench.tell(Weight.ERROR, self.problem)
+        self.changed.emit()

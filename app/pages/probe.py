@@ -1,0 +1,234 @@
+"""The step in which the mesh of a probe becomes the surface that contacts are found on."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QVBoxLayout, QWidget
+
+from app.page import Page
+from app.pages.probe_housing import bench_address
+from app.pages.probe_placing import Placing
+from app.pages.probe_sections import FacetsSection, MeshSection, NextBar, PlaceSection, SurfaceSection
+from app.pages.probe_stages import TARGETS, ProbeStages, key_of
+from pipeline.workbench.steps import Step
+from widgets.theme import accent
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QDragEnterEvent, QDropEvent
+
+    from app.bench import Bench
+    from pipeline.workbench.steps import StepStatus
+    from widgets.scene import Pick
+
+_MESHES = "(*.stl *.ply *.obj *.off *.3mf)"
+
+
+class ProbePage(Page):
+    """A view over the stages: four sections one below the other, and one button for what is next."""
+
+    step = Step.PROBE
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(bench, parent)
+        self._here = False
+        self.mesh_section, self.surface = MeshSection(), SurfaceSection()
+        self.place, self.facets = PlaceSection(), FacetsSection()
+        self.next_bar = NextBar()
+        self.stages = ProbeStages(bench, self.next_bar, self)
+        self.placing = Placing(self.stages, self.next_bar, self.place)
+        self._lay_out()
+        self._connect()
+        self.setAcceptDrops(True)
+        self._show()
+
+    def _lay_out(self) -> None:
+        self.area = QScrollArea()
+        self.area.setWidgetResizable(True)
+        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        inside = QWidget()
+        column = QVBoxLayout(inside)
+        column.setContentsMargins(10, 8, 10, 8)
+        title = QLabel(self.tr("Probe"))
+        title.setProperty("role", "title")
+        column.addWidget(title)
+        for section in (self.mesh_section, self.surface, self.place, self.facets):
+            column.addWidget(section)
+        column.addStretch()
+        self.area.setWidget(inside)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.area, 1)
+        layout.addWidget(self.next_bar)
+
+    def _connect(self) -> None:
+        stages = self.stages
+        stages.changed.connect(self._show)
+        stages.redraw.connect(self._draw)
+        # Once the section has its place.
+        stages.ready.connect(
+            lambda: QTimer.singleShot(0, self, lambda: self.area.ensureWidgetVisible(self.facets.chart))
+        )
+        self.mesh_section.choose.clicked.connect(self._choose)
+        self.mesh_section.housing.clicked.connect(stages.take_housing)
+        self.mesh_section.unit_said.connect(stages.say_unit)
+        self.surface.changed.connect(
+            lambda: stages.close_by(self.surface.closings, self.surface.alpha.value() or None)
+        )
+        self.facets.changed.connect(lambda: stages.aim(replace(stages.plan, **self.facets.chosen)))
+        self.facets.chart.chosen.connect(stages.keep)
+        self.facets.overlay.toggled.connect(self._show_overlay)
+        self.facets.deviation.toggled.connect(self._show_deviation)
+        self.next_bar.next.clicked.connect(self._next)
+
+    def _choose(self) -> None:
+        name, _ = QFileDialog.getOpenFileName(
+            self, self.tr("Mesh of the probe"), "", self.tr("Meshes") + f" {_MESHES}"
+        )
+        if name:
+            self.stages.take(Path(name))
+
+    def _next(self) -> None:
+        if self.stages.in_use:
+            self.bench.go_to.emit(Step.REGIONS)
+        elif self.stages.mesh is None:
+            self._choose()
+        elif self.stages.asked:
+            self.area.ensureWidgetVisible(self.mesh_section.question)
+        elif self.stages.dense is None:
+            self.stages.make_surface()
+        elif not self.stages.in_sensor_frame:
+            self.area.ensureWidgetVisible(self.place)
+        elif self.stages.preview is None:
+            self.stages.measure()
+        else:
+            self.stages.use()
+
+    def _next_words(self) -> tuple[str, bool]:
+        """Return what the button says, and whether it can be pressed."""
+        if self.stages.using:
+            return self.tr("Keeping the probe"), False
+        if self.stages.in_use:
+            return self.tr("In use. Go on: Regions"), True
+        if self.stages.mesh is None:
+            return self.tr("Choose a mesh..."), True
+        if self.stages.asked:
+            return self.tr("Say how long the probe is (1)"), True
+        if self.stages.dense is None:
+            return self.tr("Make the outer surface"), True
+        if not self.stages.in_sensor_frame:
+            return self.tr("Say where it lies (3)"), True
+        if self.stages.preview is None:
+            return self.tr("Prepare the probe"), True
+        return self.tr("Use this probe"), True
+
+    def _show(self) -> None:
+        """Show how things stand: the one place that does."""
+        words, can = self._next_words()
+        self.next_bar.next.setText(words)
+        self.next_bar.next.setEnabled(can and not self.stages.worker.busy)
+        self.mesh_section.show_mesh(self.stages.mesh, self.stages.asked)
+        virtual, none = bench_address(self.bench.desk.state) is not None, self.stages.mesh is None
+        self.mesh_section.housing.setVisible(virtual)
+        self.mesh_section.choose.setVisible(not none)  # else it is what is next
+        accent(self.mesh_section.housing, virtual and none)
+        accent(self.next_bar.next, not (virtual and none))
+        self.surface.show_plan(self.stages.plan.close, self.stages.plan.alpha)
+        shell = None if self.stages.dense is None else self.stages.dense.shell
+        self.surface.report.show_sentences([] if shell is None else [("note", s) for s in shell.sentences])
+        mesh = self.stages.mesh
+        known = mesh is not None and not self.stages.asked
+        self.surface.setVisible(known)
+        # What lies in the sensor frame would be moved twice.
+        self.place.setVisible(known and mesh is not None and mesh.original.frame == "P")
+        self.facets.setVisible(known and self.stages.in_sensor_frame)
+        self._show_facets()
+
+    def _show_facets(self) -> None:
+        plan, preview = self.stages.plan, self.stages.preview
+        target = {name: value for name in TARGETS if (value := getattr(plan, name)) is not None}
+        self.facets.show_plan(
+            target, plan.engine, plan.region_ratio, self.stages.work.has_regions, plan.painted
+        )
+        self.facets.chart.setVisible(self.stages.trade is not None)
+        count = None if preview is None else len(preview.done.content.probe.faces)
+        self.facets.chart.show_trade(self.stages.trade, count or plan.facets or 0)
+        meaning = ""
+        sentences: tuple[str, ...] = ()
+        if preview is not None:
+            meaning = self.tr("{} from the outer surface.").format(preview.done.simplified.deviation.sentence)
+            sentences = (
+                *preview.done.simplified.sentences,
+                *(each.sentence for each in preview.done.carried),
+            )
+        elif self.stages.view.used is not None and self.stages.in_use:
+            count, meaning = len(self.stages.view.used.faces), self.tr("The session's probe.")
+        self.facets.show_result(count, meaning)
+        reason = () if self.stages.trade is None else (self.stages.trade.reason,)
+        self.facets.report.show_sentences([("note", each) for each in (*reason, *sentences)])
+
+    def _draw(self, fit: bool) -> None:
+        if self._here:
+            self.stages.view.draw(fit=fit)
+
+    def _show_overlay(self, on: bool) -> None:
+        self.stages.view.overlay = on
+        self._draw(False)
+
+    def _show_deviation(self, on: bool) -> None:
+        self.stages.view.deviation = on
+        self._draw(False)
+
+    def _picked(self, pick: Pick) -> None:
+        self.placing.pick(pick.point, pick.face, self.stages.view.shown)
+
+    def enter(self) -> None:
+        """Show the mesh, and take files and places from the scene."""
+        if not self._here:
+            self.bench.scene.dropped.connect(self.stages.take)
+            self.bench.scene.picked.connect(self._picked)
+        self._here = True
+        self.placing.choose_tool()
+        if self.stages.known != key_of(self.bench.desk.state) and not self.stages.worker.busy:
+            self.stages.reload()
+        self._draw(True)
+        self._show()
+
+    def leave(self) -> None:
+        """Leave the scene to another page; what is computed goes on."""
+        if not self._here:
+            return
+        self._here = False
+        self.bench.scene.dropped.disconnect(self.stages.take)
+        self.bench.scene.picked.disconnect(self._picked)
+        self.bench.scene.set_tool("turn")
+        self.stages.view.forget()
+
+    def show_state(self, status: StepStatus) -> None:
+        """Show what changed in the session, unless it is this page's own doing."""
+        self.setAccessibleDescription(status.sentence)
+        known = self.stages.known == key_of(self.bench.desk.state)
+        if not known and self._here and not self.stages.using and not self.stages.worker.busy:
+            self.stages.reload()
+        elif not self.stages.worker.busy:
+            self._show()
+
+    def close_page(self) -> None:
+        """Stop what runs, and remove the copies of meshes."""
+        self.leave()
+        self.stages.close()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take files."""
+        if any(url.isLocalFile() for url in event.mimeData().urls()):
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Take the first of the files."""
+        files = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
+        if files:
+            event.acceptProposedAction()
+            self.stages.take(Path(files[0]))

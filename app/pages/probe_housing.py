@@ -1,0 +1,78 @@
+"""The mesh of the probe that hangs on the virtual bench, as a technician would get it, and how it is mounted."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.devices.url import DeviceAddress, Protocol
+from pipeline.errors import InputError
+from pipeline.preparation.alignment import from_transform
+
+if TYPE_CHECKING:
+    from pipeline.preparation.alignment import Alignment
+    from pipeline.session.state import State
+    from pipeline.workbench.probe import Mesh, ProbeWork
+
+SENSOR = "devices.sensor"
+
+
+@dataclass(frozen=True, eq=False)
+class Housing:
+    """
+    A mesh with what is known about it.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    alignment : Alignment or None
+        None: it is aligned.
+    units : str
+    alpha_mm : float or None
+        Size of the outer surface's facets.
+    """
+
+    mesh: Mesh
+    alignment: Alignment | None
+    units: str
+    alpha_mm: float | None
+
+
+def bench_address(state: State) -> DeviceAddress | None:
+    """Return the virtual bench that a session works with; None: it works with a real one."""
+    setting = state.settings.get(SENSOR)
+    if setting is None or not isinstance(setting.value, str):
+        return None
+    try:
+        address = DeviceAddress.parse(setting.value)
+    except InputError:  # the page on which it was typed says what is wrong
+        return None
+    return address if address.protocol is Protocol.VIRTUAL else None
+
+
+def take_housing(
+    work: ProbeWork,
+    address: DeviceAddress,
+    progress: object = None,
+    cancelled: object = None,
+) -> Housing:
+    """Take the virtual bench's mesh; as ``contactbench demo`` writes it, housing.stl. For a worker."""
+    options = address.bench
+    if options is None:
+        raise InputError(f"{address}: this is no virtual bench: choose a mesh instead.")
+    if options.mesh is not None:
+        mesh = work.take(Path(options.mesh), "m", progress, cancelled)  # type: ignore[arg-type]
+        aligned = mesh.original.frame == "S"
+        return Housing(mesh, None if aligned else from_transform(np.eye(4)), "m", None)
+    from pipeline.demo.housing import housing_of  # it brings what draws the demo's pictures
+
+    content, T_SP, alpha = housing_of(options.probe)
+    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
+        file = Path(scratch) / f"{options.probe}-housing.stl"
+        file.write_bytes(content)
+        mesh = work.take(file, "mm", progress, cancelled)  # type: ignore[arg-type]
+    return Housing(mesh, from_transform(T_SP), "mm", 1e3 * alpha)

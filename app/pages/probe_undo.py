@@ -1,0 +1,78 @@
+"""`Use this probe`, as the window's undo stack knows it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtGui import QUndoCommand
+
+from pipeline.workbench.probe_commit import Before, before, bring_back, commit
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from app.bench import Bench
+    from pipeline.session import Session
+    from pipeline.workbench.probe import Preview
+
+
+class UseProbe(QUndoCommand):
+    """
+    A probe that takes the place of the one before.
+
+    Parameters
+    ----------
+    bench : Bench
+    preview : Preview
+    words : tuple of str
+        For the stack: what was done; for the list of running work: doing, undoing.
+    done : callable
+        Called in the GUI thread when the session has it; with what was used, or None after an undo or a redo.
+    failed : callable
+        Gets why it could not be.
+    """
+
+    def __init__(
+        self,
+        bench: Bench,
+        preview: Preview,
+        words: tuple[str, str, str],
+        done: Callable[[Preview | None], None],
+        failed: Callable[[BaseException], None],
+    ) -> None:
+        super().__init__(words[0])
+        self._bench, self._preview, self._words = bench, preview, words
+        self._done, self._failed = done, failed
+        self._before: Before | None = None
+        self._after: Before | None = None
+
+    def redo(self) -> None:
+        """Put it into the session."""
+        if self._after is None:
+            preview = self._preview
+            self._bench.do(self._words[1], self._use, lambda _: self._done(preview), self._wrong)
+        else:
+            self._back_to(self._words[1], self._after)
+
+    def undo(self) -> None:
+        """Put back what was there before."""
+        if self._before is not None:
+            self._back_to(self._words[2], self._before)
+
+    def _use(self, session: Session) -> None:
+        # In the desk's thread: what was there before is what is there when it is this one's turn.
+        there = before(session.state)
+        commit(session, self._preview)
+        self._before, self._after = there, before(session.state)
+
+    def _back_to(self, title: str, wanted: Before) -> None:
+        self._bench.do(
+            title,
+            lambda session: bring_back(session, wanted),
+            lambda _: self._done(None),
+            self._failed,
+        )
+
+    def _wrong(self, error: BaseException) -> None:
+        self.setObsolete(True)  # there is nothing to undo
+        self._failed(error)

@@ -1,0 +1,79 @@
+"""Regions are kept in the session by themselves: soon after the last change, and at once when the page goes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from app.bench import Weight
+from pipeline.workbench.regions_session import keep
+
+if TYPE_CHECKING:
+    from app.bench import Bench
+    from pipeline.workbench.regions import RegionsWork
+
+PAUSE = 1500  # ms after the last change
+
+
+class Keeper(QObject):
+    """
+    What keeps the regions of one page.
+
+    Attributes
+    ----------
+    dirty : bool
+        There are changes that the session does not have.
+    """
+
+    kept = Signal()  # nothing is left to be kept
+    failed = Signal(str)  # why it could not be; the next change tries again
+
+    def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._bench = bench
+        self._work: RegionsWork | None = None
+        self._kept_at = 0
+        self._timer = QTimer(self, singleShot=True, interval=PAUSE)
+        self._timer.timeout.connect(self.keep_now)
+
+    @property
+    def dirty(self) -> bool:
+        """See the class."""
+        return self._work is not None and self._work.revision != self._kept_at
+
+    def watch(self, work: RegionsWork | None) -> None:
+        """Keep these from now on, after those before."""
+        self.keep_now()
+        self._work = work
+        self._kept_at = 0 if work is None else work.revision
+
+    def changed(self) -> None:
+        """Keep them soon."""
+        if self.dirty:
+            self._timer.start()
+
+    def keep_now(self) -> None:
+        """Keep them at once, in the desk's thread."""
+        self._timer.stop()
+        work = self._work
+        if work is None or not self.dirty:
+            return
+        work.abort()
+        revision, regions, shell = work.revision, work.model.snapshot(), work.shell
+        self._kept_at = revision
+        bench, title = self._bench, self.tr("Keeping the regions")
+
+        def done(_record: object) -> None:
+            # Something else may be watched by now, or the page be closed and this object be gone.
+            if self._work is work and not self.dirty:
+                self.kept.emit()
+
+        def wrong(error: BaseException) -> None:
+            if self._work is work:
+                self._kept_at = -1
+                self.failed.emit(str(error))
+            else:
+                bench.tell(Weight.ERROR, str(error))
+
+        bench.do(title, lambda session: keep(session, regions, shell), done, wrong)

@@ -1,0 +1,144 @@
+"""What the Verify page shows in the scene: markers, the contact, and where the probe was touched."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.errors import InputError
+from pipeline.heatmap.heatmap import default_bandwidth, heatmap
+
+if TYPE_CHECKING:
+    from app.bench import Bench
+    from pipeline.mesh import Probe
+    from pipeline.workbench.live import Reading
+    from pipeline.workbench.markers import Markers
+    from pipeline.workbench.verify_touches import TouchView
+
+_EVERY_S = 0.5
+_MOST = 4_000
+_LEAST_N = 1.0
+_SHOWN = {"skipped": "open"}  # the scene knows open, done and failed
+
+
+class TouchScene:
+    """
+    Draws for one page; nothing while that is not shown.
+
+    Parameters
+    ----------
+    bench : Bench
+    """
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench, self._scene = bench, bench.scene
+        self.probe: Probe | None = None
+        self.heat = False
+        self._shown: Any = None
+        self._arrows = -1
+        self._points: list[np.ndarray[Any, Any]] = []
+        self._sigmas: list[float] = []
+        self._counted, self._drawn_at, self._busy = 0, 0.0, False
+        self._contact: Any = None
+
+    def begin(self, title: str) -> None:
+        """Show all of it anew; `title` is what the job of drawing heat is called."""
+        self._title, self._shown, self._arrows, self._contact = title, None, -1, None
+        if self.probe is not None:
+            self._scene.show_probe(self.probe)
+        self._scene.set_tool("turn")
+
+    def end(self) -> None:
+        """Take it all away."""
+        none = np.zeros((0, 3))
+        self._scene.show_markers(none)
+        self._scene.show_error_arrows(none, none)
+        self._scene.show_contact(None)
+        self._scene.show_force(None)
+        self._scene.show_field(None)
+        self._scene.set_tool("turn")
+
+    # ---- markers -----------------------------------------------------------------------------
+
+    def show_markers(self, markers: Markers, view: TouchView | None) -> None:
+        """Show markers, and how far they are; only if something changed."""
+        states = (
+            tuple(_SHOWN.get(row.state, row.state) for row in view.rows) if view else ("open",) * len(markers)
+        )
+        next_one = None if view is None else view.next_one
+        content = (markers, states, next_one)
+        if content != self._shown:
+            self._shown = content
+            points = np.array([each.point_S for each in markers.all]).reshape(-1, 3)
+            self._scene.show_markers(points, markers.names, states, next_one)
+        count = 0 if view is None else len(view.contacts)
+        if count != self._arrows:
+            self._arrows = count
+            pairs = view.contacts if view is not None else ()
+            starts = np.array([start for start, _ in pairs]).reshape(-1, 3)
+            ends = np.array([end for _, end in pairs]).reshape(-1, 3)
+            self._scene.show_error_arrows(starts, ends)
+
+    # ---- the contact -------------------------------------------------------------------------
+
+    def show_reading(self, reading: Reading | None) -> None:
+        """Show the contact and the force now."""
+        contact = None if reading is None else reading.contact
+        # A hand that lets go: the ellipse of so little force is larger than the probe, and says nothing.
+        light = reading is None or float(np.linalg.norm(reading.compensated[:3])) < _LEAST_N
+        if contact is None or contact.point is None or reading is None or light:
+            if self._contact is not None:
+                self._contact = None
+                self._scene.show_contact(None)
+                self._scene.show_force(None)
+            return
+        self._contact = contact
+        lost = [np.asarray(each.point) for each in contact.candidates[1:]]
+        others = np.array(lost).reshape(-1, 3) if lost else None
+        self._scene.show_contact(contact.point, contact.covariance, contact.normal, others)
+        self._scene.show_force(reading.compensated[:3], contact.point)
+        if contact.accepted and len(self._points) < _MOST:
+            self._points.append(np.asarray(contact.point))
+            self._sigmas.append(float(contact.sigma_max))
+
+    # ---- heat --------------------------------------------------------------------------------
+
+    def forget_contacts(self) -> None:
+        """Begin anew with where it was touched."""
+        self._points, self._sigmas, self._counted = [], [], 0
+        self._scene.show_field(None)
+
+    def show_heat(self, wanted: bool) -> None:
+        """Colour the probe by contacts, or not."""
+        self.heat, self._counted = wanted, 0
+        if not wanted:
+            self._scene.show_field(None)
+
+    def tick(self) -> None:
+        """Bring the heat up to date, twice a second at most, in a worker."""
+        probe, count = self.probe, len(self._points)
+        if not self.heat or self._busy or probe is None or count == self._counted or not count:
+            return
+        if time.monotonic() < self._drawn_at + _EVERY_S:
+            return
+        self._busy, self._counted, self._drawn_at = True, count, time.monotonic()
+        points, width = np.array(self._points), default_bandwidth(self._sigmas)
+
+        def work(_progress: object, _cancelled: object) -> Any:
+            try:
+                return heatmap(probe, points, bandwidth=width, counted="samples")
+            except InputError:  # a bandwidth that does not suit a tiny probe: no colours then
+                return None
+
+        self._bench.jobs.start(self._title, work, self._drawn, self._not_drawn)
+
+    def _drawn(self, found: Any) -> None:
+        self._busy = False
+        if found is not None and self.heat:
+            self._scene.show_field(found.values, f"{found.title} [{found.unit}]", (0.0, found.top))
+
+    def _not_drawn(self, error: BaseException) -> None:
+        self._busy = self.heat = False
+        self._bench.jobs.failed.emit(None, error)

@@ -1,0 +1,99 @@
+"""Touches that the virtual bench does for somebody without hardware."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal
+
+from pipeline.verification.protocol import State
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from app.bench import Bench
+    from pipeline.workbench.verify_touches import LiveTouches, TouchView
+
+_HELD_S, _PAUSE_S, _MOST_TRIES = 1.2, 0.4, 3
+
+
+class Toucher(QObject):
+    """
+    Presses markers on the virtual bench, one or all.
+
+    Attributes
+    ----------
+    all : bool
+        Whether it goes on by itself.
+    """
+
+    stopped = Signal(str)  # why it does not go on; empty: all are done
+
+    def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._bench, self.all = bench, False
+        self._free_at, self._tried, self._tries = 0.0, -1, 0
+        self._asked: Future[object] | None = None
+
+    @property
+    def there(self) -> bool:
+        """Whether a virtual bench is open."""
+        pair = self._bench.live.pair
+        return pair is not None and pair.bench is not None
+
+    def touch(self, point: NDArray[np.float64], force: float) -> None:
+        """Press a point, m, with a force, N; for a little more than a second."""
+        pair = self._bench.live.pair
+        if pair is None or pair.bench is None:
+            return
+        self._asked = pair.bench.touch(point_S=point, force=force, seconds=_HELD_S)  # type: ignore[assignment]
+        self._free_at = time.monotonic() + _HELD_S + _PAUSE_S
+
+    def press_next(self, touches: LiveTouches, view: TouchView) -> None:
+        """Press the next marker, in the middle of its force window."""
+        if view.next_one is not None:
+            self.touch(touches.markers[view.next_one].point_S, 0.5 * sum(view.window))
+
+    def begin(self) -> None:
+        """Go on by itself from now on."""
+        self.all, self._tried, self._tries = True, -1, 0
+
+    def end(self) -> None:
+        """Do no more."""
+        self.all = False
+
+    def tick(self, touches: LiveTouches | None, view: TouchView | None) -> None:
+        """Press the next marker, if the one before is over."""
+        if self._asked is not None and self._asked.done():
+            error, self._asked = self._asked.exception(), None
+            if error is not None:
+                self._stop(str(error))
+                return
+        if not self.all or time.monotonic() < self._free_at:
+            return
+        if touches is None or view is None or view.next_one is None:
+            self._stop("")
+            return
+        if view.state is not State.ARMED:
+            return
+        self._tries = self._tries + 1 if view.next_one == self._tried else 1
+        self._tried = view.next_one
+        if self._tries > max(_MOST_TRIES, view.rows[view.next_one].wanted + 1):
+            name = touches.markers[view.next_one].name
+            why = "" if view.last is None else view.last.why
+            self._stop(
+                self.tr(
+                    "{name} was pressed {count} times and never counted ({why}). Press Leave it out and then Touch"
+                    " all again, or throw the touches away and move the marker."
+                ).format(name=name, count=self._tries - 1, why=why or self.tr("no touch came of it"))
+            )
+            return
+        self.press_next(touches, view)
+
+    def _stop(self, why: str) -> None:
+        self.all = False
+        self.stopped.emit(why)

@@ -1,0 +1,143 @@
+"""What the window remembers from one start to the next: never anything that belongs to a session."""
+
+from __future__ import annotations
+
+import json
+import os
+import threading
+from dataclasses import asdict, dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import platformdirs
+
+from pipeline.durable import write_durably
+
+VERSION = 1
+_MOST_RECENT = 10
+_HOME = "CONTACTBENCH_HOME"  # a folder for settings, logs and sessions, instead of the computer's own places
+
+
+@dataclass(frozen=True)
+class Recent:
+    """
+    A session that was open.
+
+    Attributes
+    ----------
+    folder : str
+    opened : str
+        When, ISO 8601, UTC.
+    page : str
+        The step that was shown.
+    done : str
+        How far it was, for people.
+    """
+
+    folder: str
+    opened: str = ""
+    page: str = ""
+    done: str = ""
+
+
+@dataclass(frozen=True)
+class Remembered:
+    """
+    What is in the file.
+
+    Attributes
+    ----------
+    theme : "system", "light" or "dark"
+    language : str
+        Such as "de"; empty: the computer's.
+    geometry, docks : str
+        Of the window, as Qt gives them, in base 64.
+    recent : tuple of Recent
+        Newest first.
+    """
+
+    theme: str = "system"
+    language: str = ""
+    geometry: str = ""
+    docks: str = ""
+    recent: tuple[Recent, ...] = field(default_factory=tuple)
+
+
+def own_folder(kind: str) -> Path:
+    """Return the folder for "config", "log" or "sessions", which need not exist."""
+    if home := os.environ.get(_HOME):
+        return Path(home) / kind
+    if kind == "config":
+        return platformdirs.user_config_path("contactbench", appauthor=False)
+    if kind == "log":
+        return platformdirs.user_log_path("contactbench", appauthor=False)
+    return platformdirs.user_documents_path() / "contactbench"
+
+
+class Settings:
+    """
+    The file with what is remembered. One that is missing, damaged or of another version counts as empty.
+
+    Parameters
+    ----------
+    folder : path, optional
+        Left out: the computer's place for such files.
+    sessions : path, optional
+        Where new sessions are offered to be made.
+    """
+
+    def __init__(self, folder: Path | None = None, sessions: Path | None = None) -> None:
+        self.file = (folder or own_folder("config")) / "window.json"
+        self.sessions = sessions or own_folder("sessions")
+        self.now, self._lock = _read(self.file), threading.Lock()
+
+    def change(self, *, write: bool = True, **values: Any) -> None:
+        """Remember other values, and write them unless that is done later."""
+        self.now = replace(self.now, **values)
+        if write:
+            self.write()
+
+    def write(self) -> None:
+        """Write what is remembered, in any thread; a disk that fails is no reason to stop working."""
+        with self._lock:
+            content = {"version": VERSION, **asdict(self.now)}
+            try:
+                self.file.parent.mkdir(parents=True, exist_ok=True)
+                write_durably(self.file, json.dumps(content, indent=1).encode())
+            except OSError:
+                return
+
+    def opened(self, folder: Path, page: str, done: str, *, write: bool = True) -> None:
+        """Put a session first among the recent ones."""
+        place = str(folder.absolute())
+        new = Recent(place, datetime.now(UTC).isoformat(timespec="seconds"), page, done)
+        others = [each for each in self.now.recent if each.folder != place]
+        self.change(write=write, recent=(new, *others)[:_MOST_RECENT])
+
+    def forget(self, folder: str) -> None:
+        """Take one out of the recent ones."""
+        self.change(recent=tuple(each for each in self.now.recent if each.folder != folder))
+
+    def page_of(self, folder: Path) -> str:
+        """Return the step that was shown when this session was open, or nothing."""
+        place = str(folder.absolute())
+        return next((each.page for each in self.now.recent if each.folder == place), "")
+
+
+def _read(file: Path) -> Remembered:
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return Remembered()
+    if not isinstance(content, dict) or content.get("version") != VERSION:
+        return Remembered()
+    texts = {name: content.get(name) for name in ("theme", "language", "geometry", "docks")}
+    known = {name: value for name, value in texts.items() if isinstance(value, str)}
+    rows = content.get("recent")
+    recent = tuple(_recent(row) for row in rows if isinstance(row, dict)) if isinstance(rows, list) else ()
+    return Remembered(**known, recent=tuple(each for each in recent if each.folder))
+
+
+def _recent(row: dict[str, Any]) -> Recent:
+    return Recent(*(str(row.get(name, "")) for name in ("folder", "opened", "page", "done")))

@@ -1,0 +1,246 @@
+"""The first page: the virtual bench, a new session, an open one, the recent ones; and what hinders opening one."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QCoreApplication, QDateTime, QLocale, Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QListWidgetItem,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.opening import holds_session
+from widgets.icons import Sign, icon
+from widgets.theme import accent
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Sequence
+
+    from PySide6.QtGui import QDragEnterEvent, QDropEvent
+
+    from app.settings import Recent
+
+_WIDTH = 720
+
+
+class StartPage(QWidget):
+    """
+    What is shown while no session is open.
+
+    Signals
+    -------
+    virtual, new, browse
+        A button was pressed.
+    chosen : Path
+        A session's folder.
+    """
+
+    virtual = Signal()
+    new = Signal()
+    browse = Signal()
+    chosen = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAcceptDrops(True)
+        inner = QWidget()
+        inner.setMaximumWidth(_WIDTH)
+        column = QVBoxLayout(inner)
+        column.setSpacing(10)
+        column.addStretch(1)
+        title = QLabel(self.tr("contactbench"))
+        title.setProperty("role", "number")
+        column.addWidget(title)
+        words = QLabel(
+            self.tr(
+                "Calibrate a force/torque sensor behind a probe, prepare the probe's mesh, verify contacts at the"
+                " bench, and export a bundle."
+            ),
+            wordWrap=True,
+        )
+        words.setProperty("role", "muted")
+        column.addWidget(words)
+        column.addSpacing(8)
+        column.addLayout(self._buttons())
+        self.question = Question()
+        self.question.asked.connect(lambda on: accent(self.virtual_button, not on))
+        self.question.asked.connect(
+            lambda on: self.virtual_button.setIcon(icon("play", "text" if on else "panel"))
+        )
+        column.addWidget(self.question)
+        column.addSpacing(8)
+        self._heading = QLabel(self.tr("Recent sessions"))
+        self._heading.setProperty("role", "title")
+        column.addWidget(self._heading)
+        self._recent = QListWidget()
+        self._recent.setAccessibleName(self.tr("Recent sessions"))
+        self._recent.setMinimumHeight(190)
+        self._recent.setWordWrap(True)
+        self._recent.itemActivated.connect(self._open_recent)
+        self._recent.itemClicked.connect(self._open_recent)
+        column.addWidget(self._recent, 3)
+        hint = QLabel(self.tr("A session's folder can also be dropped on this window."), wordWrap=True)
+        hint.setProperty("role", "muted")
+        column.addWidget(hint)
+        column.addStretch(1)
+        row = QHBoxLayout(self)
+        row.addStretch(1)
+        row.addWidget(inner, 8)
+        row.addStretch(1)
+        self.show_recent(())
+
+    def _buttons(self) -> QHBoxLayout:
+        self.virtual_button = QPushButton(icon("play", "panel"), self.tr("Try the virtual bench"))
+        self.virtual_button.setProperty("primary", True)
+        self.virtual_button.setToolTip(
+            self.tr("A simulated sensor, robot and probe: nothing needs to be connected")
+        )
+        self.new_button = QPushButton(icon("add"), self.tr("New session"))
+        self.new_button.setToolTip(self.tr("Begin with an empty folder for one sensor and one probe"))
+        self.open_button = QPushButton(icon("folder"), self.tr("Open session"))
+        self.open_button.setToolTip(self.tr("Go on with a session that is on this computer"))
+        row = QHBoxLayout()
+        for button, signal in (
+            (self.virtual_button, self.virtual),
+            (self.new_button, self.new),
+            (self.open_button, self.browse),
+        ):
+            button.setProperty("large", True)
+            button.clicked.connect(signal)
+            row.addWidget(button, 1)
+        return row
+
+    def show_recent(self, recent: Sequence[Recent], missing: Collection[str] = ()) -> None:
+        """Show sessions that were open; those whose folder is missing are grey and say so."""
+        self._recent.clear()
+        for each in recent:
+            there = each.folder not in missing
+            words = [self._when(each.opened), each.done if there else self.tr("missing: moved or deleted")]
+            item = QListWidgetItem(f"{Path(each.folder).name}\n{' · '.join(filter(None, words))}")
+            item.setIcon(icon("folder" if there else "cross", "accent" if there else "muted"))
+            item.setToolTip(each.folder)
+            item.setData(Qt.ItemDataRole.UserRole, each.folder)
+            if not there:
+                item.setFlags(item.flags() & ~Qt.ItemFlag.ItemIsEnabled)
+            self._recent.addItem(item)
+        for widget in (self._heading, self._recent):
+            widget.setVisible(bool(recent))
+
+    def set_busy(self, busy: bool) -> None:
+        """Lock what begins something while a session is being opened."""
+        for widget in (self.virtual_button, self.new_button, self.open_button, self._recent):
+            widget.setEnabled(not busy)
+
+    def _when(self, text: str) -> str:
+        try:
+            moment = datetime.fromisoformat(text)
+        except ValueError:
+            return ""
+        return QLocale.system().toString(
+            QDateTime.fromSecsSinceEpoch(round(moment.timestamp())), QLocale.FormatType.ShortFormat
+        )
+
+    def _open_recent(self, item: QListWidgetItem) -> None:
+        self.chosen.emit(Path(item.data(Qt.ItemDataRole.UserRole)))
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Take a session's folder."""
+        if dropped_folder(event) is not None:
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open it."""
+        folder = dropped_folder(event)
+        if folder is not None:
+            event.acceptProposedAction()
+            self.chosen.emit(folder)
+
+
+class Question(QFrame):
+    """A sentence with what can be done about it; stays where it is until something is chosen."""
+
+    asked = Signal(bool)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setProperty("role", "card")
+        self._icon, self._words = Sign(28), QLabel(wordWrap=True)
+        self._words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._buttons = QHBoxLayout()
+        column = QVBoxLayout()
+        column.addWidget(self._words)
+        column.addLayout(self._buttons)
+        row = QHBoxLayout(self)
+        row.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
+        row.addLayout(column, 1)
+        self.hide()
+
+    @property
+    def sentence(self) -> str:
+        """What is asked; empty while nothing is."""
+        return "" if self.isHidden() else self._words.text()
+
+    def ask(
+        self, sentence: str, answers: Sequence[tuple[str, Callable[[], None]]], kind: str = "warning"
+    ) -> None:
+        """Show a sentence and one button for each answer, the first of them the accented one."""
+        self.clear()
+        self._icon.show_icon(icon(kind, "warning" if kind == "warning" else "accent"))
+        self._words.setText(sentence)
+        for number, (words, action) in enumerate(answers):
+            button = QPushButton(words)
+            button.setProperty("primary", number == 0)
+            button.clicked.connect(lambda _=False, action=action: self._answer(action))
+            self._buttons.addWidget(button)
+            if number == 0:
+                button.setFocus()
+        self._buttons.addStretch(1)
+        self.setAccessibleName(sentence)
+        self.show()
+        self.asked.emit(True)
+
+    def answers(self) -> tuple[QPushButton, ...]:
+        """Return the buttons."""
+        items = (self._buttons.itemAt(index) for index in range(self._buttons.count()))
+        widgets = (item.widget() for item in items if item is not None)
+        return tuple(widget for widget in widgets if isinstance(widget, QPushButton))
+
+    def clear(self) -> None:
+        """Ask nothing."""
+        while self._buttons.count():
+            taken = self._buttons.takeAt(0)
+            widget = taken.widget() if taken is not None else None
+            if widget is not None:
+                widget.hide()
+                widget.deleteLater()
+        self.hide()
+        self.asked.emit(False)
+
+    def _answer(self, action: Callable[[], None]) -> None:
+        self.clear()
+        action()
+
+
+def dropped_folder(event: QDragEnterEvent | QDropEvent) -> Path | None:
+    """Return the session's folder that is being dropped, if it is one."""
+    for url in event.mimeData().urls():
+        folder = Path(url.toLocalFile())
+        if folder.name == "journal":  # the file in it will do
+            folder = folder.parent
+        if holds_session(folder):
+            return folder
+    return None
+
+
+def session_name(folder: Path) -> str:
+    """Return what a session is called."""
+    return folder.name or QCoreApplication.translate("StartPage", "session")

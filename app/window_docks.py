@@ -1,0 +1,132 @@
+"""What lies around the scene, and how it is laid out; remembered from one start to the next."""
+
+from __future__ import annotations
+
+import base64
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QTimer
+from PySide6.QtWidgets import QDockWidget, QStackedWidget, QWidget
+
+from widgets.message_list import MessageList
+from widgets.step_list import StepList
+
+if TYPE_CHECKING:
+    from PySide6.QtWidgets import QMainWindow
+
+_VERSION = 1  # of the docks: an older layout is not restored
+_PAGE_PX, _STEPS_PX, _BOTTOM_PX = 380, 150, 190
+_LOW, _CHART_SHARE = 900, 0.6
+
+
+class Docks:
+    """
+    The docks of a window.
+
+    Attributes
+    ----------
+    steps : StepList
+    pages : QStackedWidget
+    messages : MessageList
+    """
+
+    def __init__(self, window: QMainWindow) -> None:
+        self._window = window
+        self.steps, self.pages, self.messages = StepList(), QStackedWidget(), MessageList()
+        self._charts = QStackedWidget()
+        area = Qt.DockWidgetArea
+        self.step_dock = self._dock(
+            "steps", QCoreApplication.translate("Docks", "Steps"), self.steps, area.LeftDockWidgetArea
+        )
+        self.page_dock = self._dock(
+            "page", QCoreApplication.translate("Docks", "Step"), self.pages, area.RightDockWidgetArea
+        )
+        self.chart_dock = self._dock(
+            "charts", QCoreApplication.translate("Docks", "Charts"), self._charts, area.BottomDockWidgetArea
+        )
+        self.message_dock = self._dock(
+            "messages",
+            QCoreApplication.translate("Docks", "Messages"),
+            self.messages,
+            area.BottomDockWidgetArea,
+        )
+        self.pages.setMinimumWidth(340)
+        # The steps and the page reach down to the edge: the page has the most to show.
+        window.setCorner(Qt.Corner.BottomRightCorner, area.RightDockWidgetArea)
+        window.setCorner(Qt.Corner.BottomLeftCorner, area.LeftDockWidgetArea)
+        self.hide()
+
+    @property
+    def all(self) -> tuple[QDockWidget, ...]:
+        """The docks, as they are offered in a menu."""
+        return (self.step_dock, self.page_dock, self.chart_dock, self.message_dock)
+
+    def set_charts(self, charts: QWidget | None) -> None:
+        """Put charts into their dock, and take out those that were there."""
+        while (before := self._charts.widget(0)) is not None:
+            self._charts.removeWidget(before)
+            before.deleteLater()
+        if charts is not None:
+            self._charts.addWidget(charts)
+
+    def charts_seen(self) -> bool:
+        """Whether somebody can see the charts."""
+        return self._charts.isVisible() and not self._charts.visibleRegion().isEmpty()
+
+    def hide(self) -> None:
+        """Hide all of them."""
+        for dock in self.all:
+            dock.hide()
+
+    def arrange(self) -> None:
+        """Lay them out as they are at first."""
+        window, area = self._window, Qt.DockWidgetArea
+        for dock, where in (
+            (self.step_dock, area.LeftDockWidgetArea),
+            (self.page_dock, area.RightDockWidgetArea),
+            (self.chart_dock, area.BottomDockWidgetArea),
+            (self.message_dock, area.BottomDockWidgetArea),
+        ):
+            dock.setFloating(False)
+            window.addDockWidget(where, dock)
+            dock.show()
+        window.splitDockWidget(self.chart_dock, self.message_dock, Qt.Orientation.Horizontal)
+        sideways, high = Qt.Orientation.Horizontal, window.height()
+        window.resizeDocks([self.step_dock, self.page_dock], [_STEPS_PX, _PAGE_PX], sideways)
+        bottom = _BOTTOM_PX if high < _LOW else round(high * 0.22)
+        window.resizeDocks([self.chart_dock, self.message_dock], [bottom, bottom], Qt.Orientation.Vertical)
+        middle = window.width() - _STEPS_PX - _PAGE_PX
+        widths = [round(_CHART_SHARE * middle), round((1 - _CHART_SHARE) * middle)]
+        below = [self.chart_dock, self.message_dock]
+        # Docks that were just shown take sizes only once they are laid out.
+        QTimer.singleShot(0, window, lambda: window.resizeDocks(below, widths, sideways))
+
+    def layout_text(self) -> str:
+        """Return how they are laid out, to be remembered."""
+        return base64.b64encode(self._window.saveState(_VERSION).data()).decode()
+
+    def restore(self, text: str) -> None:
+        """Lay them out as remembered, or as at first."""
+        if not text or not self._window.restoreState(_decoded(text), _VERSION):
+            self.arrange()
+
+    def _dock(self, name: str, title: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title, self._window)
+        dock.setObjectName(name)
+        dock.setWidget(widget)
+        self._window.addDockWidget(area, dock)
+        return dock
+
+
+def geometry_text(window: QMainWindow) -> str:
+    """Return where a window is, and how large, to be remembered."""
+    return base64.b64encode(window.saveGeometry().data()).decode()
+
+
+def restore_geometry(window: QMainWindow, text: str) -> bool:
+    """Put a window where it was; False: nothing usable is remembered."""
+    return bool(text) and window.restoreGeometry(_decoded(text))
+
+
+def _decoded(text: str) -> QByteArray:
+    return QByteArray.fromBase64(QByteArray(text.encode("ascii", "replace")))

@@ -1,0 +1,277 @@
+"""The menus and their shortcuts."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QFileDialog
+from shiboken6 import isValid
+
+from app.bench import Weight
+from app.help_pages import page_text
+from app.help_text import TextDialog
+from app.shortcuts import CheatSheet
+from app.start import session_name
+from app.translation import LANGUAGES
+from pipeline.workbench.steps import Step
+from widgets.icons import icon
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from PySide6.QtWidgets import QMenu
+
+    from app.about import AboutDialog
+    from app.heatmap_viewer import HeatmapViewer
+    from app.window import MainWindow
+
+_KEY = QKeySequence.StandardKey
+
+
+class Menus(QObject):
+    """
+    Every menu of a window.
+
+    Attributes
+    ----------
+    undo, redo, help_here : QAction
+    """
+
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window = window
+        self._only_open: list[QAction] = []
+        self._viewers: list[HeatmapViewer] = []
+        self._file()
+        self._edit()
+        self._view()
+        self._steps()
+        self._tools()
+        self._help()
+
+    def set_open(self, is_open: bool) -> None:
+        """Allow what needs a session, or not."""
+        for action in self._only_open:
+            action.setEnabled(is_open)
+
+    # ---- menus -------------------------------------------------------------------------------------
+
+    def _file(self) -> None:
+        window, menu = self._window, self._menu(self.tr("&File"))
+        sessions = window.sessions
+        self._add(menu, self.tr("&New session…"), sessions.ask_new, _KEY.New)
+        self._add(menu, self.tr("Try the &virtual bench"), sessions.try_virtual)
+        self._add(menu, self.tr("&Open session…"), sessions.ask_open, _KEY.Open)
+        self._recent = menu.addMenu(self.tr("&Recent sessions"))
+        self._recent.aboutToShow.connect(self._list_recent)
+        self._add(menu, self.tr("Open this session a&gain"), self.open_again, only_open=True)
+        self._add(menu, self.tr("&Close session"), window.close_session, "Ctrl+W", only_open=True)
+        menu.addSeparator()
+        self._add(menu, self.tr("Save &diagnostics…"), self.ask_diagnostics)
+        menu.addSeparator()
+        quits = self._add(menu, self.tr("&Quit"), window.close, "Ctrl+Q")
+        quits.setMenuRole(QAction.MenuRole.QuitRole)
+
+    def _edit(self) -> None:
+        menu = self._menu(self.tr("&Edit"))
+        self.undo = self._window.undo.createUndoAction(self._window, self.tr("Undo"))
+        self.redo = self._window.undo.createRedoAction(self._window, self.tr("Redo"))
+        self.undo.setIcon(icon("undo"))
+        self.redo.setIcon(icon("redo"))
+        self.undo.setShortcut("Ctrl+Z")
+        self.redo.setShortcuts([QKeySequence("Ctrl+Y"), QKeySequence("Ctrl+Shift+Z")])
+        menu.addActions([self.undo, self.redo])
+
+    def _view(self) -> None:
+        window, menu = self._window, self._menu(self.tr("&View"))
+        for dock in window.docks.all:
+            action = dock.toggleViewAction()
+            menu.addAction(action)
+            self._only_open.append(action)
+        self._add(menu, self.tr("&Reset layout"), window.reset_layout, only_open=True)
+        menu.addSeparator()
+        themes = (
+            ("system", self.tr("As the &system")),
+            ("light", self.tr("&Light")),
+            ("dark", self.tr("&Dark")),
+        )
+        self._choice(menu, self.tr("&Theme"), themes, window.settings.now.theme, window.set_theme)
+        languages = (("", self.tr("As the &computer")), *((code, name) for code, name in LANGUAGES.items()))
+        self._choice(menu, self.tr("Lan&guage"), languages, window.settings.now.language, self._set_language)
+        menu.addSeparator()
+        full = self._add(menu, self.tr("&Full screen"), self._full_screen, "F11")
+        full.setCheckable(True)
+
+    def _steps(self) -> None:
+        window, menu = self._window, self._menu(self.tr("&Steps"))
+        for number, step in enumerate(Step, 1):
+            name = window.steps.name_of(step)
+            show = partial(window.show_step, step)
+            self._add(menu, f"&{number} {name}", show, f"Ctrl+{number}", only_open=True)
+
+    def _tools(self) -> None:
+        menu = self._menu(self.tr("&Tools"))
+        self._add(menu, self.tr("&Heatmap viewer"), self.show_heatmap_viewer, "Ctrl+H")
+
+    def _help(self) -> None:
+        menu = self._menu(self.tr("&Help"))
+        self.help_here = self._add(menu, self.tr("&This page"), self.show_help, _KEY.HelpContents)
+        self.help_here.setIcon(icon("help"))
+        self.help_here.setShortcut("F1")
+        self._add(menu, self.tr("&Shortcuts"), self.show_shortcuts, "Ctrl+/")
+        self._add(menu, self.tr("&Log"), self.show_log)
+        about = self._add(menu, self.tr("&About contactbench"), self.show_about)
+        about.setMenuRole(QAction.MenuRole.AboutRole)
+
+    # ---- what they do ------------------------------------------------------------------------------
+
+    def open_again(self) -> None:
+        """Close the session and open it: what is to be done after a disk that was full."""
+        bench = self._window.bench
+        if bench is not None:
+            self._window.sessions.open(bench.desk.folder)
+
+    def show_help(self) -> None:
+        """Show the help on what is looked at."""
+        step = self._window.pages.step
+        name = "start" if step is None else step.value
+        title = self.tr("Help") if step is None else self._window.steps.name_of(step)
+        self._open(TextDialog(title, page_text(name), self._window, markdown=True))
+
+    def show_shortcuts(self) -> None:
+        """Show all keys."""
+        self._open(CheatSheet(self._window))
+
+    def show_log(self) -> None:
+        """Show the log."""
+        log = self._window.log
+        stalls = self._window.heartbeat.stalls()
+        words = self.tr(
+            "The window stood still for at most {:.0f} ms; 99 of 100 times for at most {:.0f} ms."
+        )
+        head = words.format(1000 * stalls.longest, 1000 * stalls.p99)
+        text = self.tr("No log is kept.") if log is None else f"{log.file}\n\n{log.read()}"
+        dialog = TextDialog(self.tr("Log"), f"{head}\n{text}", self._window)
+        dialog.view.moveCursor(dialog.view.textCursor().MoveOperation.End)
+        self._open(dialog)
+
+    def show_about(self) -> None:
+        """Show the version, and the licences of the parts."""
+        from app.about import AboutDialog
+
+        self._open(AboutDialog(self._window))
+
+    def show_heatmap_viewer(self) -> None:
+        """Show the heatmap viewer in a window of its own."""
+        from app.heatmap_viewer import HeatmapViewer
+
+        bench = self._window.bench
+        viewer = HeatmapViewer()
+        viewer.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        viewer.setWindowTitle(self.tr("Heatmap viewer"))
+        self._viewers = [each for each in self._viewers if isValid(each)] + [viewer]
+        viewer.resize(1280, 800)
+        viewer.show()
+        if bench is not None:
+            viewer.open([bench.desk.folder])
+
+    def close_windows(self) -> None:
+        """Close what was opened beside the window."""
+        for viewer in self._viewers:
+            if isValid(viewer):
+                viewer.close()
+        self._viewers.clear()
+
+    def ask_diagnostics(self) -> None:
+        """Ask where to save diagnostics."""
+        dialog = QFileDialog(self._window, self.tr("Save diagnostics"))
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setNameFilter(self.tr("Zip files (*.zip)"))
+        dialog.setDefaultSuffix("zip")
+        dialog.selectFile("contactbench-diagnostics.zip")
+        dialog.fileSelected.connect(lambda name: self.save_diagnostics(Path(name)))
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def save_diagnostics(self, file: Path) -> None:
+        """Save diagnostics, without names of people and places, and without data."""
+        from app.diagnostics import save_diagnostics
+
+        window = self._window
+        bench, log = window.bench, window.log
+        folder = None if bench is None else bench.desk.folder
+        settings, stalls = window.settings.now, window.heartbeat.stalls()
+        window.jobs.start(
+            self.tr("Saving diagnostics"),
+            lambda _p, _c: save_diagnostics(
+                file, folder, "" if log is None else log.read(), settings, stalls
+            ),
+            lambda _: window.tell(
+                Weight.GOOD,
+                self.tr(
+                    "Diagnostics are saved as {}. They hold no recordings, no meshes and no names."
+                ).format(file),
+            ),
+        )
+
+    # ---- how they are made -------------------------------------------------------------------------
+
+    def _menu(self, title: str) -> QMenu:
+        return self._window.menuBar().addMenu(title)
+
+    def _add(
+        self,
+        menu: QMenu,
+        text: str,
+        does: Callable[[], object],
+        key: QKeySequence | QKeySequence.StandardKey | str = "",
+        *,
+        only_open: bool = False,
+    ) -> QAction:
+        action = QAction(text, self._window)
+        action.triggered.connect(lambda _=False: does())
+        if key:
+            action.setShortcut(QKeySequence(key))
+        if only_open:
+            self._only_open.append(action)
+        menu.addAction(action)
+        return action
+
+    def _choice(
+        self,
+        menu: QMenu,
+        title: str,
+        choices: tuple[tuple[str, str], ...],
+        now: str,
+        choose: Callable[[str], object],
+    ) -> None:
+        below, group = menu.addMenu(title), QActionGroup(self)
+        for value, words in choices:
+            action = self._add(below, words, partial(choose, value))
+            action.setCheckable(True)
+            action.setChecked(value == now)
+            group.addAction(action)
+
+    def _open(self, dialog: TextDialog | AboutDialog | CheatSheet) -> None:
+        dialog.open()
+
+    def _list_recent(self) -> None:
+        self._recent.clear()
+        for each in self._window.settings.now.recent:
+            folder = Path(each.folder)
+            action = self._recent.addAction(session_name(folder))
+            action.setToolTip(each.folder)
+            action.triggered.connect(lambda _=False, folder=folder: self._window.sessions.open(folder))
+        if self._recent.isEmpty():
+            self._recent.addAction(self.tr("None yet")).setEnabled(False)
+
+    def _set_language(self, code: str) -> None:
+        self._window.settings.change(language=code)
+        self._window.tell(Weight.INFO, self.tr("The language changes when contactbench is started again."))
+
+    def _full_screen(self) -> None:
+        self._window.setWindowState(self._window.windowState() ^ Qt.WindowState.WindowFullScreen)

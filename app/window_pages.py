@@ -1,0 +1,215 @@
+"""The pages of the open session: made when they are needed, told how their steps stand, ticked while shown."""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtWidgets import QLabel, QVBoxLayout
+
+from app.page import Page
+from app.window_statuses import statuses_of
+from app.window_wheels import guard_wheels
+from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.finish import finish
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from PySide6.QtWidgets import QStackedWidget, QWidget
+
+    from app.bench import Bench
+    from pipeline.workbench.statuses import Facts
+
+_PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile
+
+
+def page_class(step: Step) -> type[Page]:
+    """Return what the page of a step is made of; imported only now, so that the window is there sooner."""
+    found: type[Page] = getattr(import_module(f"app.pages.{step}"), f"{step.value.capitalize()}Page")
+    return found
+
+
+class Pages(QObject):
+    """
+    Six pages, one of them shown.
+
+    Signals
+    -------
+    judged : Mapping of Step to StepStatus
+        How the steps stand.
+    complete
+        All pages are made.
+    """
+
+    judged = Signal(object)
+    complete = Signal()
+
+    def __init__(self, stack: QStackedWidget, parent: QObject) -> None:
+        super().__init__(parent)
+        self._stack = stack
+        self._bench: Bench | None = None
+        self._pages: dict[Step, Page] = {}
+        self._broken: set[Step] = set()
+        self._facts: Facts | None = None
+        self._read = -1  # after which action the facts were read
+        self.step: Step | None = None
+        self.statuses: Mapping[Step, StepStatus] = {}
+        self._ahead = QTimer(self, interval=_PAUSE_MS)
+        self._ahead.timeout.connect(self._make_one_ahead)
+
+    # ---- opened and closed -------------------------------------------------------------------------
+
+    def open(self, bench: Bench) -> None:
+        """Begin with a session."""
+        self._bench, self._facts, self.step, self._read = bench, None, None, -1
+        self.statuses = {}
+        self.read_statuses()
+        self._ahead.start()
+
+    def close(self) -> None:
+        """Have the pages end what they do, and keep what they were recording."""
+        self._ahead.stop()
+        if self.step is not None:
+            self._guarded(self._pages[self.step], "leave")
+        for page in self._pages.values():
+            self._guarded(page, "close_page")
+
+    def forget(self) -> None:
+        """Give the pages back; their session is closed."""
+        for page in self._pages.values():
+            self._stack.removeWidget(page)
+            page.deleteLater()
+        self._pages.clear()
+        self._broken.clear()
+        self._bench, self.step = None, None
+
+    # ---- shown -------------------------------------------------------------------------------------
+
+    def first(self) -> Step:
+        """Return the step with which to begin: the first that can be worked on and is not done."""
+        for step, status in self.statuses.items():
+            if status.state not in (StepState.DONE, StepState.LOCKED):
+                return step
+        return Step.DEVICES
+
+    def show(self, step: Step) -> None:
+        """Show the page of a step; a locked one says what is missing."""
+        if self._bench is None:
+            return
+        if self.step is not None and self.step is not step:
+            self._guarded(self._pages[self.step], "leave")
+        page = self._page(step)
+        if self.step is not step:
+            self.step = step
+            self._broken.discard(step)
+            self._stack.setCurrentWidget(page)
+            self._guarded(page, "enter")
+            guard_wheels(page)
+            finish(page)
+        self._tell_state(step)
+
+    def tick(self) -> None:
+        """Have the page that is shown show what is live."""
+        if self.step is not None and self.step not in self._broken:
+            page = self._pages[self.step]
+            if not self._guarded(page, "tick"):  # not again 30 times a second, until it is shown anew
+                self._broken.add(self.step)
+
+    @property
+    def current(self) -> Page | None:
+        """The page that is shown."""
+        return None if self.step is None else self._pages[self.step]
+
+    @property
+    def made(self) -> bool:
+        """Whether all pages are there: none will be made ahead any more."""
+        return len(self._pages) == len(Step)
+
+    # ---- how the steps stand -----------------------------------------------------------------------
+
+    def read_statuses(self) -> None:
+        """Find out how the steps stand: at once from what is known, and again when the results are read."""
+        self._judge()
+        bench = self._bench
+        if bench is None:
+            return
+
+        from pipeline.workbench.statuses import read_facts
+
+        folder, state = bench.desk.folder, bench.desk.state
+        if state.count == self._read:
+            return
+        self._read = state.count
+
+        def came(facts: Facts) -> None:
+            if self._bench is bench and self._read == state.count:
+                self._facts = facts
+                self._judge()
+
+        bench.jobs.start(self.tr("Looking at the session"), lambda _p, _c: read_facts(folder, state), came)
+
+    def _judge(self) -> None:
+        if self._bench is None:
+            return
+        self.statuses = statuses_of(self._bench, self._facts)
+        self.judged.emit(self.statuses)
+        if self.step is not None:
+            self._tell_state(self.step)
+
+    def _tell_state(self, step: Step) -> None:
+        status = self.statuses.get(step)
+        if status is not None and step in self._pages:
+            page = self._pages[step]
+            self._guarded(page, "show_state", status)
+
+    # ---- made --------------------------------------------------------------------------------------
+
+    def _page(self, step: Step) -> Page:
+        if step not in self._pages:
+            page = self._made(step)
+            self._pages[step] = page
+            self._stack.addWidget(page)
+            guard_wheels(page)
+        return self._pages[step]
+
+    def _made(self, step: Step) -> Page:
+        assert self._bench is not None  # noqa: S101 - only called while a session is open
+        try:
+            page = page_class(step)(self._bench)
+        except Exception:  # noqa: BLE001 - one page that cannot be made leaves the other five
+            sys.excepthook(*sys.exc_info())
+            return _Missing(self._bench)
+        return page
+
+    def _make_one_ahead(self) -> None:
+        missing = [step for step in Step if step not in self._pages]
+        if missing and self._bench is not None:
+            self._page(missing[0])
+            self._tell_state(missing[0])
+        if len(missing) <= 1:
+            self._ahead.stop()
+            self.complete.emit()
+
+    def _guarded(self, page: Page, method: str, *arguments: object) -> bool:
+        """Call a page; what it raises is told, and leaves the window alive."""
+        call: Callable[..., None] = getattr(page, method)
+        try:
+            call(*arguments)
+        except Exception:  # noqa: BLE001 - told by the hook, as what Qt calls itself
+            sys.excepthook(*sys.exc_info())
+            return False
+        return True
+
+
+class _Missing(Page):
+    """Stands in for a page that could not be made."""
+
+    step = Step.DEVICES
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(bench, parent)
+        words = self.tr("This page could not be made; the messages say why. The other steps can be used.")
+        QVBoxLayout(self).addWidget(QLabel(words, wordWrap=True))

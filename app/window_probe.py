@@ -1,0 +1,48 @@
+"""The session's probe in the scene, also on pages that have no other mesh to show."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from app.bench import Bench
+    from pipeline.mesh import Probe
+
+
+class SessionProbe(QObject):
+    """Shows the newest probe of a session from its opening on, until a page shows one itself."""
+
+    def open(self, bench: Bench) -> None:
+        """Begin with a session: the scene is emptied, and shows its probe when it is read."""
+        from pipeline.workbench.export_checklist import newest
+
+        scene, folder, state = bench.scene, bench.desk.folder, bench.desk.state
+        scene.show_field(None)
+        scene.show_probe(None)
+        found = newest(state, "probe")
+        if found is None:
+            return
+
+        def read(_progress: object, _cancelled: object) -> Probe | None:
+            from pipeline.session.recompute import lay_out
+            from pipeline.verification.result import load_surface
+
+            try:
+                with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
+                    files = lay_out(folder, state, {"probe": found.content}, Path(scratch))
+                    return load_surface(files["probe"])
+            except (InputError, OSError, LookupError):
+                return None  # the page that needs it says why
+
+        def came(probe: Probe | None) -> None:
+            if probe is not None and scene.probe_layer.probe is None:
+                scene.show_probe(probe)
+                scene.look("fit")
+
+        bench.jobs.start(self.tr("Reading the probe"), read, came)

@@ -1,0 +1,262 @@
+"""Which session the window shows: opening, making, closing, and what is asked on the way."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QStandardPaths, Signal
+from PySide6.QtWidgets import QFileDialog
+
+from app.errors import in_words
+from app.help_text import TextDialog
+from app.opening import (
+    Opened,
+    Problem,
+    adopt,
+    description,
+    free_folder,
+    holds_session,
+    new_session,
+    open_session,
+    problem_with,
+    virtual_session,
+)
+from app.start import session_name
+from pipeline.workbench.steps import Step
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from app.jobs import Jobs
+    from app.settings import Settings
+    from app.start import StartPage
+
+_NEEDED = (
+    "widgets.scene",
+    "widgets.strip_chart",
+    "pipeline.workbench.live",
+    "pipeline.workbench.statuses",
+    *(f"app.pages.{step}" for step in Step),
+)
+
+
+class Sessions(QObject):
+    """
+    Opens and makes sessions, in workers; the window shows what comes.
+
+    Signals
+    -------
+    opened : Opened, Step or None
+        A session, and the page that it should begin with.
+    wanted
+        Another session is asked for: the one that is open must be closed first, then `proceed` be called.
+    told : str, str, str
+        Weight, sentence, details.
+    """
+
+    opened = Signal(object, object)
+    wanted = Signal()
+    told = Signal(str, str, str)
+
+    def __init__(self, start: StartPage, jobs: Jobs, settings: Settings, parent: QObject) -> None:
+        super().__init__(parent)
+        self._start, self._jobs, self._settings = start, jobs, settings
+        self._next: Callable[[], None] | None = None
+        self._waiting: Opened | None = None
+        start.virtual.connect(self.try_virtual)
+        start.new.connect(self.ask_new)
+        start.browse.connect(self.ask_open)
+        start.chosen.connect(self.open)
+
+    def list_recent(self) -> None:
+        """Show the recent sessions; whether they are still there is found out in a worker."""
+        recent = self._settings.now.recent
+        self._start.show_recent(recent)
+
+        def look(_progress: object, _cancelled: object) -> set[str]:
+            return {each.folder for each in recent if not holds_session(Path(each.folder))}
+
+        self._jobs.start(
+            self.tr("Looking for recent sessions"),
+            look,
+            lambda missing: self._start.show_recent(self._settings.now.recent, missing),
+        )
+
+    # ---- what is asked for -------------------------------------------------------------------------
+
+    def try_virtual(self, folder: Path | None = None) -> None:
+        """Make a session on a virtual bench, or go on with it where there is one."""
+
+        def work(_progress: object, _cancelled: object) -> Opened:
+            place = folder or free_folder(self._settings.sessions, "virtual bench")
+            return virtual_session(place)
+
+        self._ask_for(lambda: self._begin(self.tr("Preparing the virtual bench"), work, Step.GRAVITY))
+
+    def open(self, folder: Path) -> None:
+        """Open a session."""
+        page = self._settings.page_of(folder)
+        step = Step(page) if page in set(Step) else None
+        title = self.tr("Opening {}").format(session_name(folder))
+        self._ask_for(lambda: self._begin(title, lambda _p, _c: open_session(folder), step, folder))
+
+    def new(self, folder: Path) -> None:
+        """Make a session."""
+        title = self.tr("Making {}").format(session_name(folder))
+        self._ask_for(lambda: self._begin(title, lambda _p, _c: new_session(folder), Step.DEVICES, folder))
+
+    def ask_new(self) -> None:
+        """Ask for a place and make a session."""
+        dialog = QFileDialog(self._start.window(), self.tr("Make a session in a new or empty folder"))
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+        dialog.setLabelText(QFileDialog.DialogLabel.Accept, self.tr("Make session"))
+        dialog.setDirectory(str(self._place()))
+        dialog.selectFile(free_folder(self._settings.sessions, "session").name)
+        dialog.fileSelected.connect(lambda name: self.new(Path(name)))
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def ask_open(self) -> None:
+        """Ask for a folder and open it."""
+        dialog = QFileDialog(self._start.window(), self.tr("Open the folder of a session"))
+        dialog.setFileMode(QFileDialog.FileMode.Directory)
+        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+        dialog.setDirectory(str(self._place()))
+        dialog.fileSelected.connect(lambda name: self.open(Path(name)))
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def proceed(self) -> None:
+        """Go on with what was asked for: no session is open now."""
+        following, self._next = self._next, None
+        if following is not None:
+            following()
+
+    def close(self) -> None:
+        """Give back a session that waits for an answer."""
+        waiting, self._waiting = self._waiting, None
+        if waiting is not None:
+            waiting.desk.close()
+
+    # ---- what comes of it --------------------------------------------------------------------------
+
+    def _ask_for(self, following: Callable[[], None]) -> None:
+        self._next = following
+        self.wanted.emit()
+
+    def _begin(
+        self,
+        title: str,
+        work: Callable[[object, object], Opened],
+        step: Step | None,
+        folder: Path | None = None,
+    ) -> None:
+        self.close()
+        self._start.question.clear()
+        self._start.set_busy(True)
+
+        def prepared(progress: object, cancelled: object) -> Opened:
+            for name in _NEEDED:  # VTK, scipy and more; here, so that the window answers meanwhile
+                import_module(name)
+            return work(progress, cancelled)
+
+        self._jobs.start(
+            title,
+            prepared,
+            lambda opened: self._came(opened, step),
+            lambda error: self._refused(error, folder),
+        )
+
+    def _came(self, opened: Opened, step: Step | None) -> None:
+        self._start.set_busy(False)
+        if not opened.unfinished:
+            self.opened.emit(opened, step)
+            return
+        self._waiting = opened
+        one = len(opened.unfinished) == 1
+        sentence = (
+            self.tr(
+                "The last work on {} ended abruptly, while a recording was being made. Everything up to half a"
+                " second before the end is there. Take the recording into the session?"
+            )
+            if one
+            else self.tr(
+                "The last work on {} ended abruptly, while {} recordings were being made. Everything up to half a"
+                " second before the end is there. Take the recordings into the session?"
+            )
+        ).format(session_name(opened.desk.folder), len(opened.unfinished))
+        self._start.question.ask(
+            sentence,
+            (
+                (
+                    self.tr("Take it in") if one else self.tr("Take them in"),
+                    lambda: self._adopt(opened, step),
+                ),
+                (
+                    self.tr("Leave it for later") if one else self.tr("Leave them for later"),
+                    lambda: self._go_on(opened, step),
+                ),
+                (self.tr("Choose another session"), self.close),
+            ),
+        )
+
+    def _adopt(self, opened: Opened, step: Step | None) -> None:
+        self._start.set_busy(True)
+
+        def adopted(what: tuple[tuple[str, ...], tuple[str, ...]]) -> None:
+            self._start.set_busy(False)
+            done, left = what
+            self._go_on(opened, step)
+            for sentence in done:
+                self.told.emit("good", sentence, "")
+            for sentence in left:
+                self.told.emit("warning", sentence, "")
+
+        def failed(error: BaseException) -> None:
+            self.close()
+            self._refused(error, opened.desk.folder)
+
+        self._jobs.follow(
+            self.tr("Taking the recordings in"),
+            opened.desk.do(lambda session: adopt(session)),
+            adopted,
+            failed,
+        )
+
+    def _go_on(self, opened: Opened, step: Step | None) -> None:
+        self._waiting = None
+        self.opened.emit(opened, step)
+
+    def _refused(self, error: BaseException, folder: Path | None) -> None:
+        self._start.set_busy(False)
+        problem = problem_with(error)
+        if problem is None:
+            sentence, details, _ = in_words(error)
+            problem = Problem(self.tr("The session could not be opened: {}").format(sentence), False)
+            self.told.emit("error", problem.sentence, details)
+        answers: list[tuple[str, Callable[[], None]]] = [(self.tr("Choose another session"), self.ask_open)]
+        if problem.readable and folder is not None:
+            answers.append((self.tr("Look at it without changing it"), lambda: self._look(folder)))
+        if folder is not None:
+            answers.append((self.tr("Try again"), lambda: self.open(folder)))
+        self._start.question.ask(problem.sentence, answers)
+
+    def _look(self, folder: Path) -> None:
+        def show(text: str) -> None:
+            TextDialog(session_name(folder), text, self._start.window()).open()
+
+        self._jobs.start(
+            self.tr("Reading {}").format(session_name(folder)),
+            lambda _p, _c: description(folder),
+            show,
+            lambda error: self._refused(error, None),
+        )
+
+    def _place(self) -> Path:
+        # The folder is not made before something is put into it.
+        if self._settings.sessions.is_dir():
+            return self._settings.sessions
+        return Path(QStandardPaths.writableLocation(QStandardPaths.StandardLocation.DocumentsLocation))

@@ -1,0 +1,264 @@
+"""A bundle of a session: what would be in it, what differs from the last one, and writing it."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pipeline.config.runtime import ConfigError, RuntimeConfig
+from pipeline.config.runtime.bench import export_from_session
+from pipeline.config.runtime.differ import differences
+from pipeline.config.runtime.options import ExportOptions
+from pipeline.config.runtime.pack import CONFIG
+from pipeline.errors import InputError
+from pipeline.workbench.export_checklist import CheckItem, checklist, refuse_without, results_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pipeline.config.runtime.differ import Differences
+    from pipeline.session import Session
+
+SHA256, PLACE, RESULTS = "export.sha256", "export.place", "export.results"
+_SHOWN = 60
+_MOST_DIFFERENCES = 12
+# What is another in every bundle, and says nothing by itself.
+_ALWAYS = ("provenance.", "probe.sha256", "planes.sha256")
+
+
+@dataclass(frozen=True)
+class Preview:
+    """
+    A bundle as it would be written.
+
+    Attributes
+    ----------
+    files : tuple of (name, bytes)
+    figures : tuple of (what, value)
+        For people, with units.
+    sha256 : str
+        Of contactbench.json, which holds the hashes of the others.
+    reasons : tuple of str
+        Why it is not verified; empty: it is.
+    changes : tuple of str or None
+        What differs from the bundle that was exported before, in sentences; None: there is none, or it is gone.
+    """
+
+    files: tuple[tuple[str, int], ...]
+    figures: tuple[tuple[str, str], ...]
+    sha256: str
+    reasons: tuple[str, ...]
+    changes: tuple[str, ...] | None
+
+
+@dataclass(frozen=True)
+class ExportView:
+    """
+    How an export stands.
+
+    Attributes
+    ----------
+    items : tuple of CheckItem
+    preview : Preview or None
+    problem : str
+        Why there is no preview; empty where there is one.
+    """
+
+    items: tuple[CheckItem, ...]
+    preview: Preview | None
+    problem: str = ""
+
+
+@dataclass(frozen=True)
+class Exported:
+    """
+    A bundle that was written, and loaded again.
+
+    Attributes
+    ----------
+    place : Path
+    sha256 : str
+        Of its contactbench.json.
+    verified : bool
+    sentence : str
+        What loading it found.
+    """
+
+    place: Path
+    sha256: str
+    verified: bool
+    sentence: str
+
+
+def survey(session: Session) -> ExportView:
+    """Say what a bundle of a session would be; builds it in memory."""
+    items = checklist(session.folder, session.state, session.stale())
+    try:
+        refuse_without(session.state)
+        config = built(session, unverified=True)
+        return ExportView(items, _preview(session, config))
+    except InputError as error:
+        return ExportView(items, None, str(error))
+
+
+def built(session: Session, *, unverified: bool) -> RuntimeConfig:
+    """
+    Build what ``contactbench config export SESSION`` writes, to the byte.
+
+    Raises
+    ------
+    UnverifiedError, InputError
+        As `export_from_session`.
+    """
+    options = ExportOptions.stored(session.state.settings)
+    return export_from_session(session, options.settings(), unverified=unverified)
+
+
+def export(session: Session, place: Path, *, unverified: bool = False) -> Exported:
+    """
+    Write a session's bundle, load it as a runtime does, and write that down in the session.
+
+    Parameters
+    ----------
+    session : Session
+        Open for writing.
+    place : Path
+        A zip file if it ends in .zip, else a folder.
+    unverified : bool
+        Write it even if nobody has shown that it is right; it says so then.
+
+    Raises
+    ------
+    UnverifiedError
+        Nobody has, and `unverified` is False.
+    ConfigError, InputError
+        It cannot be made or written; what was at `place` stays.
+    """
+    config = built(session, unverified=unverified)
+    config.write(place)
+    found = RuntimeConfig.load(place)
+    sha256 = _sha256(found)
+    if sha256 != _sha256(config):
+        raise ConfigError(
+            f"{place}: the bundle on the disk is not the one that was written: check the disk, then export again."
+        )
+    record(session, place, sha256, verified=found.model.verified)
+    return Exported(place, sha256, found.model.verified, _checked(found, place))
+
+
+def record(session: Session, place: Path, sha256: str, *, verified: bool) -> None:
+    """Write down that a bundle of the session's current results was exported."""
+    standing = "verified" if verified else "NOT verified"
+    session.note(f"A bundle was exported to {place}: {standing}, contactbench.json has the SHA-256 {sha256}.")
+    session.set_parameter(SHA256, sha256)
+    session.set_parameter(PLACE, str(place))
+    session.set_parameter(RESULTS, dict(results_of(session.state)))
+
+
+def files_of(config: RuntimeConfig) -> dict[str, bytes]:
+    """Return name -> bytes of a bundle's files."""
+    return config.encoded()
+
+
+def _sha256(config: RuntimeConfig) -> str:
+    return hashlib.sha256(config.encoded()[CONFIG]).hexdigest()
+
+
+def _checked(config: RuntimeConfig, place: Path) -> str:
+    count = len(config.encoded())
+    if config.model.verified:
+        return f"{place}: {count} files are as they should be. A robot's runtime takes it: it is verified."
+    return (
+        f"{place}: {count} files are as they should be, but it is NOT verified: a robot's runtime takes it only when it"
+        " is told to. For trials only."
+    )
+
+
+def _preview(session: Session, config: RuntimeConfig) -> Preview:
+    files = tuple((name, len(content)) for name, content in config.encoded().items())
+    reasons = () if config.model.verified else config.model.provenance.stale
+    changes = _changes(session.state.settings, config)
+    return Preview(files, _figures(config), _sha256(config), tuple(reasons), changes)
+
+
+def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
+    model = config.model
+    regions = sorted(set(config.probe.region[config.probe.region > 0].tolist()))
+    found = [
+        ("Sensor", f"{model.sensor.model}, serial number {model.sensor.serial}"),
+        ("Readings", f"{model.sensor.rate_Hz:g} a second"),
+        ("Payload", f"{config.gravity.mass:.3f} kg"),
+        ("Probe", f"{model.probe.name}, {model.probe.facets:,} facets, {_regions(len(regions))}"),
+        (
+            "Limits",
+            f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
+        ),
+    ]
+    part = model.verification
+    if part is None:
+        found.append(("Contact error", "not verified"))
+    else:
+        found.append(
+            (
+                "Contact error",
+                (
+                    f"{1e3 * part.mean_error_m:.2f} mm on average, {1e3 * part.max_error_m:.2f} mm at most,"
+                    f" on {part.markers} markers"
+                ),
+            )
+        )
+    found.append(("Made by", f"{model.provenance.operator}, {model.provenance.created}"))
+    return tuple(found)
+
+
+def _regions(count: int) -> str:
+    return "no regions" if not count else "1 region" if count == 1 else f"{count} regions"
+
+
+# ---- against the one before --------------------------------------------------------------------
+
+
+def _changes(settings: Mapping[str, Any], config: RuntimeConfig) -> tuple[str, ...] | None:
+    place = settings.get(PLACE)
+    if place is None or not isinstance(place.value, str):
+        return None
+    try:
+        before = RuntimeConfig.load(place.value)
+    except ConfigError:  # moved, or another took its place: nothing to compare with
+        return None
+    return told(differences(before, config))
+
+
+def told(found: Differences) -> tuple[str, ...]:
+    """Say what differs, in sentences; what is another in every bundle only where nothing else is."""
+    if found.same:
+        return ("It is the same, to the byte.",)
+    fields = [each for each in found.fields if not each.field.startswith(_ALWAYS)]
+    said = [
+        f"{each.field}: {_short(each.one)} → {_short(each.other)}"
+        + (f" ({each.meaning})." if each.meaning else ".")
+        for each in fields[:_MOST_DIFFERENCES]
+    ]
+    if len(fields) > _MOST_DIFFERENCES:
+        said.append(
+            f"And {len(fields) - _MOST_DIFFERENCES} more fields: `contactbench config diff` lists them."
+        )
+    if found.mesh is not None:
+        one, other = found.mesh["facets"]
+        said.append(
+            f"The surfaces, of {one:,} and {other:,} facets, are at most {found.mesh['hausdorff_mm']:.3g} mm apart."
+        )
+    if not said:
+        said.append("Only where it comes from and when it was made.")
+    return tuple(said)
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, list) and all(isinstance(each, int | float) for each in value) and len(value) <= 6:
+        return "[" + ", ".join(f"{each:.4g}" for each in value) + "]"
+    text = str(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"

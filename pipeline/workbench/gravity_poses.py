@@ -1,0 +1,198 @@
+"""The poses of a gravity calibration as a technician sees them: taken, left out, rejected."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import Calibration, PoseSample
+    from pipeline.calibration.stillness import Capture, Rejected
+    from pipeline.workbench.gravity_settings import GravitySettings
+
+
+class PoseState(StrEnum):
+    """Whether a pose counts."""
+
+    TAKEN = "taken"
+    LEFT_OUT = "left out"  # by the technician
+    REJECTED = "rejected"  # by what it reads, or because it was disturbed
+
+
+@dataclass(frozen=True, eq=False)
+class PoseRow:
+    """
+    A pose for a table.
+
+    Attributes
+    ----------
+    name : str
+        Such as "pose 3".
+    time : float
+        A moment within it, s on the recording's clock; NaN: of an earlier recording.
+    R_WS : (3, 3) or None
+        None: nobody knows any more.
+    words : str
+        How the sensor stood, or what happened.
+    state : PoseState
+    reason : str
+        Why it does not count, or is doubted.
+    sigmas : float
+        The larger of how far force and torque are from what the poses predict, as a normal deviate; NaN: not
+        computed.
+    force_sigmas, torque_sigmas : float
+    earlier : bool
+        It is of an interrupted recording, and cannot be left out by its time.
+    changeable : bool
+        It can be left out and taken back.
+    """
+
+    name: str
+    time: float
+    R_WS: NDArray[np.float64] | None
+    words: str
+    state: PoseState
+    reason: str = ""
+    sigmas: float = float("nan")
+    force_sigmas: float = float("nan")
+    torque_sigmas: float = float("nan")
+    earlier: bool = False
+    changeable: bool = True
+
+
+def short_description(R_WS: NDArray[np.float64]) -> str:
+    """Say in a few words how the sensor stands: the tilt of z from straight down, and which side is lowest."""
+    z_W = R_WS[:, 2]
+    tilt = float(np.degrees(np.arccos(np.clip(-z_W[2], -1, 1))))
+    down_S = -R_WS[2]
+    side = int(np.argmax(np.abs(down_S)))
+    return f"{tilt:.0f}°, {'-' if down_S[side] < 0 else '+'}{'xyz'[side]} down"
+
+
+def middle(capture: Capture) -> float:
+    """Return the moment that names a capture, s."""
+    return 0.5 * (capture.start + capture.stop)
+
+
+def calibrated_rows(
+    calibration: Calibration, left_out: tuple[float, ...] = (), earlier: int = 0
+) -> tuple[PoseRow, ...]:
+    """
+    Return the poses of a calibration, then those that were left out of it.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    left_out : tuple of float
+        Moments of those that it was not given, s.
+    earlier : int
+        How many of its poses are of an earlier recording.
+    """
+    reasons = {each.index: each.reason for each in calibration.rejected}
+    rows = [
+        _row(pose, calibration.deviates[index], reasons.get(index, ""), f"pose {index + 1}", index < earlier)
+        for index, pose in enumerate(calibration.poses)
+    ]
+    rows += [
+        PoseRow(
+            f"out {number}",
+            moment,
+            None,
+            "does not count",
+            PoseState.LEFT_OUT,
+            "You left it out.",
+        )
+        for number, moment in enumerate(left_out, 1)
+    ]
+    return tuple(rows)
+
+
+def earlier_rows(
+    poses: Sequence[PoseSample], settings: GravitySettings, fitted: Calibration | None
+) -> tuple[PoseRow, ...]:
+    """Return the poses (R_WS of the flange) of an interrupted run, which cannot be left out one by one."""
+    rows = [_live_row(pose.name, float("nan"), pose.R_WS, settings, fitted) for pose in poses]
+    return tuple(replace(row, earlier=True, changeable=False) for row in rows)
+
+
+def live_rows(
+    captures: Iterable[tuple[Capture, bool]],
+    rejected: Iterable[Rejected],
+    first: int,
+    settings: GravitySettings,
+    fitted: Calibration | None,
+    origin: float,
+) -> tuple[PoseRow, ...]:
+    """
+    Return the poses of a run that goes on, and what was disturbed, in the order in which they came.
+
+    Parameters
+    ----------
+    captures : iterable of (Capture, bool)
+        R_WS of the flange; whether it counts.
+    rejected : iterable of Rejected
+    first : int
+        Number of the first one.
+    settings : GravitySettings
+    fitted : Calibration or None
+        Of the poses that count, by their names.
+    origin : float
+        s on the samples' clock, from which people count.
+    """
+    rows: list[tuple[float, PoseRow]] = []
+    for number, (capture, counts) in enumerate(captures, first):
+        if capture.R_WS is None:
+            continue
+        row = _live_row(f"pose {number}", middle(capture), capture.R_WS, settings, fitted if counts else None)
+        if not counts:
+            reason = "It does not count. Take it back if it was good."
+            row = replace(row, state=PoseState.LEFT_OUT, reason=reason)
+        rows.append((capture.start, row))
+    for each in rejected:
+        row = PoseRow(
+            f"at {each.start - origin:.0f} s", 0.5 * (each.start + each.stop), None,
+            f"{each.state.value}: not captured", PoseState.REJECTED, each.reason, changeable=False,
+        )  # fmt: skip
+        rows.append((each.start, row))
+    return tuple(row for _, row in sorted(rows, key=lambda each: each[0]))
+
+
+def _live_row(
+    name: str,
+    moment: float,
+    R_WE: NDArray[np.float64],
+    settings: GravitySettings,
+    fitted: Calibration | None,
+) -> PoseRow:
+    R_WS = settings.sensor_orientations(R_WE)
+    row = PoseRow(name, moment, R_WS, short_description(R_WS), PoseState.TAKEN)
+    index = next((i for i, pose in enumerate(fitted.poses) if pose.name == name), None) if fitted else None
+    if fitted is None or index is None:
+        return row
+    force, torque = map(float, fitted.deviates[index])
+    reason = next((each.reason for each in fitted.rejected if each.index == index), "")
+    return replace(
+        row,
+        state=PoseState.REJECTED if reason else PoseState.TAKEN,
+        reason=reason,
+        sigmas=max(force, torque),
+        force_sigmas=force,
+        torque_sigmas=torque,
+    )
+
+
+def _row(pose: PoseSample, far: NDArray[np.float64], reason: str, name: str, earlier: bool) -> PoseRow:
+    force, torque = map(float, far)
+    moment = float("nan") if earlier or pose.time is None else pose.time
+    state = PoseState.REJECTED if reason else PoseState.TAKEN
+    return PoseRow(
+        name, moment, pose.R_WS, short_description(pose.R_WS), state, reason, max(force, torque), force, torque,
+        earlier, not earlier,
+    )  # fmt: skip

@@ -1,0 +1,257 @@
+"""What a gravity calibration leaves in its session: computed from the recording, as the commands compute it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from pipeline.calibration.files.calibration_file import load_calibration
+from pipeline.calibration.files.pose_csv import read_poses
+from pipeline.session.errors import SessionError
+from pipeline.session.files import wrong_with
+from pipeline.session.live import RECORDING
+from pipeline.session.recompute import compute
+from pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
+from pipeline.workbench.gravity_settings import (
+    CALIBRATION_FILE,
+    POSES_FILE,
+    gravity_settings,
+)
+from pipeline.workbench.gravity_solving import Finding, findings
+from pipeline.workbench.undoing import put_result
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    from pipeline.calibration import Calibration, PoseSample
+    from pipeline.session import Session, State
+    from pipeline.session.state import Input, Result
+
+_STEM, _CHECK = "gravity-", "gravity-check-"
+_PART = "poses-earlier-{}.csv"
+_DIFFERS = 0.1  # of the contact error: less is what a few samples more or less make
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """
+    A calibration that is in the session.
+
+    Attributes
+    ----------
+    calibration : Calibration
+    rows : tuple of PoseRow
+    recording : str
+        Name of the recording that it was made from; empty: from poses that were brought in.
+    leave_out : tuple of float
+        Moments of the poses that were left out, s.
+    findings : tuple of Finding
+        What is wrong, and what would mend it.
+    """
+
+    calibration: Calibration
+    rows: tuple[PoseRow, ...]
+    recording: str
+    leave_out: tuple[float, ...]
+    findings: tuple[Finding, ...] = ()
+
+    @property
+    def changeable(self) -> bool:
+        """Whether poses can be left out and taken back."""
+        return bool(self.recording)
+
+
+def next_name(state: State, folder: Path, *, check: bool = False) -> str:
+    """Return the name of the next recording of this step that neither the session nor its folder has."""
+    stem = _CHECK if check else _STEM
+    known = {each.name for each in state.inputs} | {
+        file.name.partition("unfinished-")[2] for file in (folder / "raw").glob("unfinished-*")
+    }
+    number = 1
+    while f"{stem}{number}.mcap" in known:
+        number += 1
+    return f"{stem}{number}.mcap"
+
+
+def interrupted(state: State) -> Input | None:
+    """
+    Return the newest recording of this step that no poses were taken from: its process died, or it was stopped.
+
+    None: there is none, or a calibration was made since.
+    """
+    used = {sha256 for each in state.results for sha256 in each.action.inputs.values()}
+    made = max((each.number for each in state.results if each.action.kind == "calibration"), default=0)
+    found = [
+        each
+        for each in state.current_inputs.values()
+        if each.kind == RECORDING
+        and each.name.startswith(_STEM)
+        and not each.name.startswith(_CHECK)
+        and each.content not in used
+        and each.number > made
+    ]
+    return max(found, key=lambda each: each.number, default=None)
+
+
+def take_up(session: Session, recording: str) -> tuple[str, tuple[PoseSample, ...]]:
+    """
+    Find the poses of a recording, and keep them as a result that a later one goes on from.
+
+    Poses that were left out of it stay so, and those that it went on from itself come first.
+
+    Returns
+    -------
+    name : str
+        Of the result.
+    poses : tuple of PoseSample
+        R_WS of the flange.
+
+    Raises
+    ------
+    SessionError
+        There is no still pose in it.
+    """
+    source = _recording(session.state, recording)
+    name = _PART.format(recording.removeprefix(_STEM).removesuffix(".mcap"))
+    inputs, parameters = {"recording": source.content}, {}
+    made = session.state.current_results.get(("captures", POSES_FILE))
+    if made is not None and made.action.inputs.get("recording") == source.content:
+        inputs, parameters = dict(made.action.inputs), dict(made.action.parameters)
+    compute(session, "captures", name, inputs, {**parameters, "partial": True})
+    part = session.state.current_results["captures", name]
+    return name, read_poses(session.folder / part.file.path).poses
+
+
+def finish(
+    session: Session, recording: str, leave_out: Sequence[float] = (), earlier: str | None = None
+) -> Outcome:
+    """
+    Compute poses and calibration from a recording that is in the session.
+
+    The same as ``session compute FOLDER captures poses.csv --input recording=NAME --set leave_out=[...]``, then
+    ``session compute FOLDER calibration calibration.json``.
+
+    Parameters
+    ----------
+    session : Session
+        Open for writing.
+    recording : str
+        Its name.
+    leave_out : sequence of float
+        Moments, s, of captures that do not count.
+    earlier : str, optional
+        Name of a result of `take_up` whose poses come first.
+
+    Raises
+    ------
+    SessionError
+        There are too few poses.
+    """
+    inputs = {"recording": _recording(session.state, recording).content}
+    if earlier is not None:
+        inputs["earlier"] = session.state.current_results["captures", earlier].content
+    parameters: dict[str, Any] = {"leave_out": sorted(leave_out)} if leave_out else {}
+    return _computed(session, inputs, parameters)
+
+
+def change(session: Session, leave_out: Sequence[float]) -> Outcome:
+    """Compute the same anew, with other poses left out; arguments and errors as for `finish`."""
+    made = session.state.current_results.get(("captures", POSES_FILE))
+    if made is None:
+        raise SessionError("There are no poses of a recording in this session: record some first.")
+    parameters: dict[str, Any] = {
+        key: value for key, value in made.action.parameters.items() if key != "leave_out"
+    }
+    if leave_out:
+        parameters["leave_out"] = sorted(leave_out)
+    return _computed(session, dict(made.action.inputs), parameters, again=True)
+
+
+def _computed(
+    session: Session, inputs: dict[str, str], parameters: dict[str, Any], *, again: bool = False
+) -> Outcome:
+    compute(session, "captures", POSES_FILE, inputs, parameters)
+    poses = session.state.current_results["captures", POSES_FILE]
+    given = gravity_settings(session.state).given
+    before = _same(session, {"poses": poses.content}, given) if again else None
+    if before is not None:
+        put_result(session, before)
+    else:
+        compute(session, "calibration", CALIBRATION_FILE, {"poses": poses.content}, given)
+    outcome = outcome_of(session.folder, session.state)
+    assert outcome is not None  # noqa: S101 - it was just made
+    return outcome
+
+
+def _same(session: Session, inputs: Mapping[str, str], given: Mapping[str, Any]) -> Result | None:
+    """
+    Return an earlier calibration from the same poses and parameters.
+
+    Computed anew it would have another time in it, and what rests on it, such as a verification, would be stale.
+    """
+    for each in reversed(session.state.results):
+        action = each.action
+        same = (action.kind, action.name, dict(action.inputs)) == (
+            "calibration",
+            CALIBRATION_FILE,
+            dict(inputs),
+        )
+        if same and dict(action.parameters) == dict(given) and each.mark is None:
+            return None if wrong_with(session.folder, each.file) else each
+    return None
+
+
+def outcome_of(folder: Path, state: State) -> Outcome | None:
+    """
+    Read the calibration that a session has now; None: none.
+
+    Raises
+    ------
+    InputError
+        Its file cannot be read.
+    """
+    result = state.current_results.get(("calibration", CALIBRATION_FILE))
+    if result is None or (result.mark is not None and result.mark.mark == "rejected"):
+        return None
+    fitted = load_calibration(folder / result.file.path)
+    poses = state.result_with(result.action.inputs.get("poses", ""))
+    if poses is None or poses.slot != ("captures", POSES_FILE):
+        return Outcome(fitted, calibrated_rows(fitted, earlier=len(fitted.poses)), "", ())
+    given: dict[str, Any] = dict(poses.action.parameters)
+    left = tuple(map(float, given.get("leave_out", ())))
+    used = state.input_with(poses.action.inputs.get("recording", ""))
+    rows = calibrated_rows(fitted, left, _earlier_count(folder, state, poses))
+    flange = read_poses(folder / poses.file.path).poses
+    found = () if len(flange) != len(fitted.poses) else findings(flange, fitted, gravity_settings(state))
+    return Outcome(fitted, rows, "" if used is None else used.name, left, found)
+
+
+def _earlier_count(folder: Path, state: State, poses: Result) -> int:
+    before = state.result_with(poses.action.inputs.get("earlier", ""))
+    return 0 if before is None else len(read_poses(folder / before.file.path).poses)
+
+
+def difference(live: Calibration | None, outcome: Outcome) -> str:
+    """Say how the session's calibration differs from the one that was shown while it was made; empty: it does not."""
+    made = outcome.calibration
+    if live is None:
+        return ""
+    if len(live.poses) != len(made.poses):
+        return (
+            f"Computed anew from the recording, there are {len(made.poses)} poses instead of {len(live.poses)}: a"
+            " pose was just at the limit of what counts as still. What is shown now is what counts."
+        )
+    if abs(made.contact_error - live.contact_error) > _DIFFERS * max(made.contact_error, live.contact_error):
+        return (
+            f"Computed anew from the recording, the contact error is {1e3 * made.contact_error:.2g} mm instead of"
+            f" {1e3 * live.contact_error:.2g} mm. What is shown now is what counts."
+        )
+    return ""
+
+
+def _recording(state: State, name: str) -> Input:
+    found = state.current_inputs.get((RECORDING, name))
+    if found is None:
+        raise SessionError(f"{name}: the session has no recording of this name: `session info` lists them.")
+    return found

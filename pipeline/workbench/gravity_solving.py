@@ -1,0 +1,274 @@
+"""What the poses so far amount to: a calibration, what to take next, and what is wrong, in sentences."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import Calibration, Level, PoseSample, calibrate
+from pipeline.calibration.diagnosis.diagnose import diagnose
+from pipeline.calibration.diagnosis.hypotheses import RawOrientations
+from pipeline.calibration.mounting import estimate_mount
+from pipeline.calibration.orientation import Convention
+from pipeline.calibration.reachable import by_hand, describe
+from pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
+from pipeline.errors import InputError
+from pipeline.workbench.gravity_settings import INVERSE, MOUNT
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.reachable import Reachable
+    from pipeline.workbench.gravity_settings import GravitySettings
+
+PLANNED = 6
+FEWEST = 3  # poses of which there is a calibration
+_CHECKABLE = 5  # poses from which on conventions can be told from noise
+_MOUNTABLE = 6
+_CANDIDATES = 300
+
+
+@dataclass(frozen=True)
+class Finding:
+    """
+    Something that the poses say, and what would mend it.
+
+    Attributes
+    ----------
+    key : str
+    sentence : str
+        What, and what to do.
+    settings : tuple of (str, JSON value)
+        Parameters of the session that mend it, once the technician confirms; empty: there are none.
+    leave_out : tuple of int
+        Or: indices of poses that are better left out.
+    remedy : str
+        What confirming does, in a few words; empty where nothing can be confirmed.
+    """
+
+    key: str
+    sentence: str
+    settings: tuple[tuple[str, Any], ...] = ()
+    leave_out: tuple[int, ...] = ()
+    remedy: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """
+    A pose to take next.
+
+    Attributes
+    ----------
+    R_WS : (3, 3)
+    sentence : str
+        How to hold the sensor, and what it gains.
+    error_after : float
+        Predicted share of the calibration in the contact error with it, m.
+    """
+
+    R_WS: NDArray[np.float64]
+    sentence: str
+    error_after: float
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """
+    What the taken poses amount to.
+
+    Attributes
+    ----------
+    calibration : Calibration or None
+        None: there are fewer than three.
+    proposal : Proposal or None
+    findings : tuple of Finding
+    """
+
+    calibration: Calibration | None
+    proposal: Proposal | None
+    findings: tuple[Finding, ...]
+
+    @property
+    def enough(self) -> bool:
+        """Whether the calibration is good: no more poses are needed."""
+        return self.calibration is not None and self.calibration.verdict.level is Level.GOOD
+
+
+def plan(settings: GravitySettings) -> Plan:
+    """Return the poses to begin with."""
+    reach = _reach(settings, None)
+    return plan_poses(PLANNED, reach, task=settings.task)
+
+
+def solve(
+    poses: Sequence[PoseSample],
+    settings: GravitySettings,
+    planned: Plan | None,
+    R_WS_now: NDArray[np.float64] | None,
+) -> Solved:
+    """
+    Return what poses amount to.
+
+    Parameters
+    ----------
+    poses : sequence of PoseSample
+        Those that count, R_WS of the flange as the source of poses gives it.
+    settings : GravitySettings
+    planned : Plan or None
+        For the poses before there is a calibration.
+    R_WS_now : (3, 3), optional
+        How the sensor stands.
+    """
+    read = read_poses(poses, settings)
+    if len(read) < FEWEST:
+        return Solved(None, _planned(read, planned), ())
+    calibration = _calibrated(poses, read, settings)
+    try:
+        suggestion = suggest_pose(calibration, _reach(settings, R_WS_now))
+    except InputError:
+        proposal = None
+    else:
+        words = suggestion.sentence.removeprefix("Next: ")
+        proposal = Proposal(suggestion.R_WS, _capital(words), suggestion.error_after)
+    return Solved(calibration, proposal, findings(poses, calibration, settings))
+
+
+def read_poses(poses: Sequence[PoseSample], settings: GravitySettings) -> tuple[PoseSample, ...]:
+    """Return poses of the flange as poses of the sensor."""
+    return tuple(replace(pose, R_WS=settings.sensor_orientations(pose.R_WS)) for pose in poses)
+
+
+def _calibrated(
+    poses: Sequence[PoseSample], read: tuple[PoseSample, ...], settings: GravitySettings
+) -> Calibration:
+    if settings.parameters.estimate_mount and len(poses) >= 4:
+        return estimate_mount(poses, settings.noise, task=settings.task).calibration
+    return calibrate(read, settings.noise, task=settings.task)
+
+
+def _reach(settings: GravitySettings, R_WS_now: NDArray[np.float64] | None) -> Reachable:
+    return by_hand(_CANDIDATES, max_tilt=float(np.radians(settings.max_tilt)), R_WS_now=R_WS_now)
+
+
+def _planned(read: Sequence[PoseSample], planned: Plan | None) -> Proposal | None:
+    """Return the first planned pose that nobody has taken."""
+    if planned is None:
+        return None
+    taken = [pose.R_WS[2] for pose in read]  # where up is in S: all that a weight can tell
+    for number, (R_WS, error) in enumerate(zip(planned.R_WS, planned.errors.tolist(), strict=True), 1):
+        if all(float(R_WS[2] @ up) < np.cos(np.radians(20.0)) for up in taken):
+            gain = (
+                f" After all {len(planned.R_WS)} planned poses the calibration will add about"
+                f" {1e3 * planned.error:.2g} mm to a contact point."
+                if number == 1
+                else ""
+            )
+            return Proposal(R_WS, f"{_capital(describe(R_WS))}.{gain}", error)
+    return None
+
+
+# ---- what is wrong -----------------------------------------------------------------------------
+
+
+def findings(
+    poses: Sequence[PoseSample], calibration: Calibration, settings: GravitySettings
+) -> tuple[Finding, ...]:
+    """Return what poses say of themselves and of the conventions they were read by, in sentences."""
+    found = [
+        Finding(
+            f"rejected {rejection.name}",
+            f"{_capital(rejection.name)}: {rejection.reason} It does not count. Take it again, or go on with"
+            f" {int(calibration.kept.sum())} poses.",
+            leave_out=(rejection.index,),
+            remedy="Leave it out",
+        )
+        for rejection in calibration.rejected
+    ]
+    refused = calibration.verdict.level is Level.REFUSE
+    if len(poses) < (_CHECKABLE if refused else _MOUNTABLE):
+        return tuple(found)
+    convention = _convention(poses, calibration, settings)
+    if convention is not None:
+        found.insert(0, convention)
+    return tuple(found)
+
+
+def _convention(
+    poses: Sequence[PoseSample], calibration: Calibration, settings: GravitySettings
+) -> Finding | None:
+    """Return which mistaken convention explains the poses, if one does."""
+    convention = Convention(inverse=settings.parameters.inverse)
+    quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat()
+    raw = RawOrientations(np.roll(quaternions, 1, axis=1), convention)
+    found = diagnose(calibration.poses, settings.noise, raw=raw)
+    if found.consistent:
+        return None
+    if not found.explained or (found.best.hypothesis == "as_declared"):
+        mounted = _mounted(poses, calibration, settings)
+        if mounted is not None or calibration.verdict.level is not Level.REFUSE:
+            return mounted
+        return Finding("unexplained", found.sentence)
+    return _remedied(found.best.hypothesis, found.sentence, len(poses), settings)
+
+
+def _remedied(key: str, sentence: str, count: int, settings: GravitySettings) -> Finding:
+    """Return a finding with what mends it, where a parameter can."""
+    if key == "transposed":
+        return Finding(
+            key,
+            sentence,
+            settings=((INVERSE, not settings.parameters.inverse),),
+            remedy="Read the orientations the other way round",
+        )
+    if key.startswith("yaw_"):
+        turn = Rotation.from_euler("z", float(key.removeprefix("yaw_")), degrees=True).as_matrix()
+        return _turned(key, sentence, settings.R_ES @ turn)
+    if key.startswith("rezero_before_"):
+        change = int(key.removeprefix("rezero_before_")) - 1
+        short = range(change) if change <= count - change else range(change, count)
+        return Finding(key, sentence, leave_out=tuple(short), remedy="Leave the smaller part out")
+    return Finding(key, sentence)
+
+
+def _turned(key: str, sentence: str, R_ES: NDArray[np.float64]) -> Finding:
+    degrees = [
+        round(float(angle), 3) + 0.0 for angle in Rotation.from_matrix(R_ES).as_euler("xyz", degrees=True)
+    ]
+    words = ", ".join(f"{angle:.1f}" for angle in degrees)
+    return Finding(
+        key, sentence, settings=((MOUNT, degrees),), remedy=f"Set the mount to {words}° about x, y, z"
+    )
+
+
+def _mounted(
+    poses: Sequence[PoseSample], calibration: Calibration, settings: GravitySettings
+) -> Finding | None:
+    """Return the mount that explains poses which as they are read are refused."""
+    if (
+        calibration.verdict.level is not Level.REFUSE
+        or len(poses) < _MOUNTABLE
+        or settings.parameters.estimate_mount
+    ):
+        return None
+    read = tuple(
+        replace(pose, R_WS=pose.R_WS.T if settings.parameters.inverse else pose.R_WS) for pose in poses
+    )
+    mounted = estimate_mount(read, settings.noise, task=settings.task)
+    if mounted.refused:
+        return None
+    off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
+    sentence = (
+        f"The sensor sits on the flange {off:.0f}° differently than was said: so turned, the poses agree with one"
+        f" another. {mounted.mounting} Set the mount so, or check how the sensor is screwed on."
+    )
+    return _turned("mount", " ".join(sentence.split()), mounted.R_SE.T)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]

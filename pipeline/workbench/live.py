@@ -1,0 +1,340 @@
+"""The one path of live samples: from the devices to the charts, the recording, and whoever follows them."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.devices.bursts import spread_bursts
+from pipeline.devices.sample import Status
+from pipeline.devices.url import DeviceAddress
+from pipeline.streams import open_pair
+from pipeline.workbench.live_moment import Moment, Reading
+from pipeline.workbench.live_poses import PoseTrack
+from pipeline.workbench.live_ring import Ring
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import GravityModel
+    from pipeline.contact import ContactSolver
+    from pipeline.devices.drive import Health
+    from pipeline.devices.sample import FlangeSample, WrenchSample
+    from pipeline.streams import Pair
+
+__all__ = ["Block", "Live", "Reading", "Tap"]
+
+_KEPT = 120_000  # samples: 120 s at 1 kHz, 10 minutes at 200 Hz; 20 MB
+_USUAL_HZ = 200.0
+# How long a sample waits for the pose after it, on the samples' clock: a pose of 50 Hz is there by then, and no
+# hand feels it.
+_PATIENCE_S = 0.05
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """
+    Samples that came together, each with the orientation that the sensor had; n of them.
+
+    Attributes
+    ----------
+    times : (n,)
+        s, on the samples' clock.
+    wrenches : (n, 6)
+        Raw, S, N and N·m.
+    R_WS : (n, 3, 3)
+        NaN where no pose is known.
+    saturated : (n,) bool
+    """
+
+    times: NDArray[np.float64]
+    wrenches: NDArray[np.float64]
+    R_WS: NDArray[np.float64]
+    saturated: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Tap:
+    """
+    Who gets all that the devices give, as they give it, in the streams' threads.
+
+    Attributes
+    ----------
+    wrenches, flanges : callable
+        Get samples, oldest first.
+    health : callable
+        Gets "sensor" or "robot", and the health that changed.
+    closed : callable
+        Called when the devices are closed: nothing more comes.
+    """
+
+    wrenches: Callable[[Sequence[WrenchSample]], None]
+    flanges: Callable[[Sequence[FlangeSample]], None]
+    health: Callable[[str, Health], None]
+    closed: Callable[[], None] = lambda: None
+
+
+class Live:
+    """
+    The devices of a bench, open or not.
+
+    Samples come in the streams' threads: `follow` hands them on there, `reading` and `history` may be asked for
+    in any thread, at any rate.
+
+    Attributes
+    ----------
+    pair : Pair or None
+        What is open.
+    model : GravityModel or None
+        What wrenches are compensated with; see `set_model`.
+    solver : ContactSolver or None
+        What finds contacts; see `set_solver`.
+    addresses : (str, str or None) or None
+        Of the sensor and the source of poses, as they were given.
+    R_ES : (3, 3)
+        How the sensor is mounted on the flange.
+    on_error : list of callable
+        Get what a follower raised, in the thread in which it did; the stream goes on.
+    """
+
+    def __init__(self) -> None:
+        self.pair: Pair | None = None
+        self.model: GravityModel | None = None
+        self.solver: ContactSolver | None = None
+        self.addresses: tuple[str, str | None] | None = None
+        self.R_ES: NDArray[np.float64] = np.eye(3)
+        self.on_error: list[Callable[[Exception], None]] = []
+        self._ring = Ring(_KEPT)
+        self._track, self._moment = PoseTrack(np.eye(3)), Moment(_USUAL_HZ)
+        self._waiting: list[WrenchSample] = []
+        self._given: float | None = None
+        self._followers: list[Callable[[Block], None]] = []
+        self._taps: list[Tap] = []
+        self._lock = threading.RLock()  # of what waits and who gets it: samples keep their order
+        self._opening = threading.Lock()
+
+    # ---- open and closed ---------------------------------------------------------------------------
+
+    def open(self, sensor: str, poses: str | None, R_ES: NDArray[np.float64] | None = None) -> None:
+        """
+        Open devices, and close those that were open; waits, so call it in a worker.
+
+        Parameters
+        ----------
+        sensor, poses : str
+            Addresses; None: the orientation is not known.
+        R_ES : (3, 3), optional
+            How the sensor is mounted on the flange; left out, as the flange.
+
+        Raises
+        ------
+        InputError
+            An address does not do; then nothing is open. A device that is not there is no error: it is waited for,
+            and `health` says so.
+        """
+        for address in (sensor, poses):
+            if address is not None:
+                DeviceAddress.parse(address)  # a mistyped address closes nothing
+        with self._opening:
+            self._open(sensor, poses, np.eye(3) if R_ES is None else np.array(R_ES, dtype=np.float64))
+
+    def ensure(self, sensor: str, poses: str | None, R_ES: NDArray[np.float64] | None = None) -> None:
+        """Open devices as `open` does, unless just these are open already and have not ended."""
+        mount = np.eye(3) if R_ES is None else np.array(R_ES, dtype=np.float64)
+        with self._opening:
+            same = self.addresses == (sensor, poses) and np.allclose(self.R_ES, mount)
+            if self.pair is None or not same or self.pair.finished:
+                self._open(sensor, poses, mount)
+
+    def _open(self, sensor: str, poses: str | None, mount: NDArray[np.float64]) -> None:
+        self._close()
+        pair = open_pair(
+            sensor,
+            poses,
+            self._take_wrenches,
+            self._take_flanges,
+            lambda health: self._tell("sensor", health),
+            lambda health: self._tell("robot", health),
+        )
+        with self._lock:
+            self._waiting.clear()
+            self._ring.clear()
+            self._track, self._moment = PoseTrack(mount), Moment(_rate_of(pair))
+            self.R_ES, self.addresses, self.pair = mount, (sensor, poses), pair
+        try:
+            pair.start()
+        except BaseException:
+            self._close()
+            raise
+
+    def close(self) -> None:
+        """Close them; returns when nothing more comes."""
+        with self._opening:
+            self._close()
+
+    def _close(self) -> None:
+        pair, self.pair = self.pair, None
+        if pair is None:
+            return
+        pair.stop()  # not under the lock that its threads take
+        with self._lock:
+            self._waiting.clear()
+            taps, self._taps = self._taps, []
+        for tap in taps:
+            self._guarded(tap.closed)
+
+    # ---- how they are ------------------------------------------------------------------------------
+
+    @property
+    def health(self) -> tuple[Health, Health | None] | None:
+        """Of the sensor and of the source of poses; None: nothing is open."""
+        pair = self.pair
+        if pair is None:
+            return None
+        return pair.sensor.health, None if pair.poses is None else pair.poses.health
+
+    @property
+    def opening(self) -> bool:
+        """Whether devices are just being opened, or closed."""
+        return self._opening.locked()
+
+    @property
+    def rate(self) -> float | None:
+        """Measured rate of the sensor, Hz; None: it is not known."""
+        pair = self.pair
+        return None if pair is None else pair.sensor.health.rate
+
+    @property
+    def lost(self) -> int:
+        """Samples of the sensor that are known to be lost since it was opened."""
+        pair = self.pair
+        return 0 if pair is None else pair.sensor.health.counters.lost
+
+    @property
+    def samples(self) -> int:
+        """Samples that came since the devices were opened, as far as they were handed on."""
+        return self._ring.count
+
+    # ---- who gets what comes -----------------------------------------------------------------------
+
+    def follow(self, follower: Callable[[Block], None]) -> Callable[[], None]:
+        """Have blocks given to `follower`, in the streams' thread; returns what ends that."""
+        with self._lock:
+            self._followers.append(follower)
+        return lambda: self._drop(self._followers, follower)
+
+    def tap(self, tap: Tap) -> Callable[[], None]:
+        """Have all that the devices give handed to `tap`, until they are closed; returns what ends that before."""
+        with self._lock:
+            self._taps.append(tap)
+            pair = self.pair
+        if pair is not None:  # how they are now: only changes are told later
+            tap.health("sensor", pair.sensor.health)
+            if pair.poses is not None:
+                tap.health("robot", pair.poses.health)
+        return lambda: self._drop(self._taps, tap)
+
+    def _drop(self, those: list[Any], one: object) -> None:
+        with self._lock:
+            if one in those:
+                those.remove(one)
+
+    # ---- what is known -----------------------------------------------------------------------------
+
+    def set_model(self, model: GravityModel | None) -> None:
+        """Compensate with another calibration from now on, and all that is in memory; None: with none."""
+        with self._lock:
+            self.model = model
+        self._ring.compensate(model)
+
+    def set_solver(self, solver: ContactSolver | None) -> None:
+        """Find contacts with another solver from now on; None: with none."""
+        self.solver = solver
+
+    def reading(self) -> Reading | None:
+        """Return the newest moment; None: no sample came yet."""
+        return self._moment.reading(self.model, self.solver)
+
+    def history(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return times (n,), raw (n, 6) and compensated (n, 6) of the last seconds; every sample, not filtered."""
+        return self._ring.last(seconds)
+
+    def contacts(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return times (n,) and points (n, 3), S, m, of what `reading` found; NaN where nothing touched."""
+        return self._moment.contacts(seconds)
+
+    # ---- in the streams' threads -------------------------------------------------------------------
+
+    def _take_wrenches(self, samples: Sequence[WrenchSample]) -> None:
+        with self._lock:
+            for tap in tuple(self._taps):
+                self._guarded(tap.wrenches, samples)
+            self._waiting.extend(samples)
+            self._guarded(self._hand_on)
+
+    def _take_flanges(self, samples: Sequence[FlangeSample]) -> None:
+        with self._lock:
+            for tap in tuple(self._taps):
+                self._guarded(tap.flanges, samples)
+            self._guarded(self._track.add, samples)
+            self._guarded(self._hand_on)
+
+    def _tell(self, device: str, health: Health) -> None:
+        with self._lock:
+            taps = tuple(self._taps)
+        for tap in taps:
+            self._guarded(tap.health, device, health)
+
+    def _hand_on(self) -> None:
+        """Hand on what need not wait for another pose."""
+        waiting = self._waiting
+        if not waiting:
+            return
+        count = len(waiting)
+        pair = self.pair
+        if pair is not None and pair.poses is not None:
+            newest = waiting[-1].time
+            # Where the poses are late, or have stopped, samples do not wait for ever.
+            until = max(self._track.newest, newest - _PATIENCE_S)
+            count = sum(sample.time <= until for sample in waiting)
+        if count:
+            self._waiting = waiting[count:]
+            self._give(_block(waiting[:count], self._track, self._given))
+            self._given = waiting[count - 1].time
+
+    def _give(self, block: Block) -> None:
+        model = self.model
+        if model is None:
+            compensated = np.full_like(block.wrenches, np.nan)
+        else:
+            compensated = model.compensate(block.R_WS, block.wrenches)
+        self._ring.add(block.times, block.wrenches, compensated, block.R_WS)
+        self._moment.add(block.times, block.wrenches, block.R_WS)
+        for follower in tuple(self._followers):
+            self._guarded(follower, block)
+
+    def _guarded(self, call: Callable[..., None], *given: object) -> None:
+        try:
+            call(*given)
+        except Exception as error:  # noqa: BLE001 - whatever goes wrong with a block, the devices go on
+            for listener in tuple(self.on_error):
+                listener(error)
+
+
+def _block(samples: Sequence[WrenchSample], track: PoseTrack, before: float | None) -> Block:
+    times = spread_bursts(np.array([sample.time for sample in samples], dtype=np.float64), before)
+    wrenches = np.array([(*sample.force, *sample.torque) for sample in samples], dtype=np.float64)
+    saturated = np.array([bool(sample.status & Status.OVERRANGE) for sample in samples])
+    return Block(times, wrenches, track.at(times), saturated)
+
+
+def _rate_of(pair: Pair) -> float:
+    """Return the rate that the filter is made for, Hz: what the device was asked for, or recorded with."""
+    known = None if pair.player is None else pair.player.devices.get("wrench")
+    rate = pair.sensor.address.rate if known is None else known.rate
+    return rate or _USUAL_HZ

@@ -1,0 +1,130 @@
+"""What can be chosen as a sensor and as a source of its orientation, and the addresses that this makes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
+
+from pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from pipeline.session.making import mount_rotation
+from pipeline.workbench.statuses import MOUNT, POSES, SENSOR, SERIAL
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pipeline.session import State
+
+SERIAL_PROTOCOLS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ)
+_SENSORS = frozenset({*SERIAL_PROTOCOLS, Protocol.RDT, Protocol.REPLAY, Protocol.VIRTUAL})
+_POSES = frozenset(
+    {Protocol.ELFIN, Protocol.UR, Protocol.STILL, Protocol.POSES, Protocol.REPLAY, Protocol.VIRTUAL}
+)
+# They give both: whoever has one of them for a sensor needs no other source.
+_BOTH = frozenset({Protocol.REPLAY, Protocol.VIRTUAL})
+
+
+@dataclass(frozen=True)
+class Devices:
+    """
+    The devices of a session, as its settings say.
+
+    Attributes
+    ----------
+    sensor : str
+        Address; empty: none is chosen.
+    poses : str or None
+        Address; None: nothing tells the orientation.
+    mount : (float, float, float)
+        Angles of R_ES about the fixed axes x, y, z, degrees.
+    serial : str
+        Serial number of the sensor; empty: nobody said.
+    """
+
+    sensor: str = ""
+    poses: str | None = None
+    mount: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    serial: str = ""
+
+    @classmethod
+    def of(cls, state: State) -> Devices:
+        """Return what a session's settings say; what makes no sense counts as not set."""
+
+        def value(key: str) -> Any:
+            return None if key not in state.settings else state.settings[key].value
+
+        sensor, poses, serial = value(SENSOR), value(POSES), value(SERIAL)
+        return cls(
+            sensor if isinstance(sensor, str) else "",
+            poses if isinstance(poses, str) and poses else None,
+            _angles(value(MOUNT)),
+            serial if isinstance(serial, str) else "",
+        )
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """The session's settings that say the same."""
+        mount = list(self.mount) if any(self.mount) else None
+        return {SENSOR: self.sensor, POSES: self.poses, SERIAL: self.serial or None, MOUNT: mount}
+
+    @property
+    def R_ES(self) -> NDArray[np.float64] | None:
+        """How the sensor is mounted on the flange, (3, 3); None: as the flange."""
+        return mount_rotation(self.mount) if any(self.mount) else None
+
+
+def _angles(value: Any) -> tuple[float, float, float]:
+    if isinstance(value, list | tuple) and len(value) == 3 and all(isinstance(x, int | float) for x in value):
+        return float(value[0]), float(value[1]), float(value[2])
+    return 0.0, 0.0, 0.0
+
+
+def virtual_address(probe: str) -> str:
+    """Return the address of a virtual bench with one of the bundled probes."""
+    return f"virtual://bench?probe={quote(probe)}&sensor=paper"
+
+
+def serial_address(protocol: Protocol, path: str) -> str:
+    """Return the address of a sensor at a serial port."""
+    return f"{protocol}+serial://{path}"
+
+
+def replay_address(file: Path) -> str:
+    """Return the address of a recording that is played back at its own pace."""
+    return f"replay://{quote(str(file.absolute()))}"
+
+
+def poses_address(file: Path) -> str:
+    """Return the address of a file of poses."""
+    return f"poses://{quote(str(file.absolute()))}"
+
+
+def still_address(roll: float, pitch: float, yaw: float) -> str:
+    """Return the address of a flange that stands still, turned about the fixed axes x, y, z; degrees."""
+    return f"still://?rpy={roll:g},{pitch:g},{yaw:g}"
+
+
+def problem_of(address: str, *, poses: bool = False) -> str:
+    """Say why an address is none of a sensor, or of a source of poses; empty: it is one."""
+    if not address.strip():
+        what = "of the robot, such as ur+tcp://192.168.0.10" if poses else "of the sensor"
+        return f"Give the address {what}."
+    try:
+        parsed = DeviceAddress.parse(address.strip())
+    except AddressError as error:
+        return str(error)
+    if parsed.protocol not in (_POSES if poses else _SENSORS):
+        return (
+            f"{parsed.protocol} gives no poses: give the address of a robot, such as ur+tcp://192.168.0.10."
+            if poses
+            else f"{parsed.protocol} is no force/torque sensor: give the address of one, such as sri+tcp://192.168.0.108."
+        )
+    return ""
+
+
+def gives_poses(address: str) -> bool:
+    """Whether a sensor's address also gives its orientation, as a virtual bench and most recordings do."""
+    return not problem_of(address) and DeviceAddress.parse(address.strip()).protocol in _BOTH

@@ -1,0 +1,147 @@
+"""How good the devices are that are open: rate, gaps, noise and margin, measured from what came last."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.devices.drive import State
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.devices.drive import Health
+    from pipeline.workbench.live import Live
+
+_LOOK_S = 5.0
+_FEWEST = 50  # readings before a noise is told
+_GAP = 2.5  # times the usual interval
+_CLOSE = 0.8  # of the range
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """
+    What is measured of open devices.
+
+    Attributes
+    ----------
+    state : State
+        Of the sensor.
+    rate : float or None
+        Of the sensor, Hz.
+    pose_rate : float or None
+        Hz; None: there are no poses, or not yet.
+    samples : int
+        Since they were opened.
+    lost : int
+        Samples that the sensor counted and that never came.
+    gaps : int
+        Silences in the last five seconds.
+    longest_gap : float
+        s; 0 without one.
+    noise : (6,)
+        Noise floor: standard deviation of one reading, N and N·m, of what is quicker than a hand; NaN: not yet known.
+    largest : (6,)
+        Largest reading of either sign, N and N·m.
+    range_used : (6,) or None
+        Share of the sensor's range that `largest` is; None: the range is not known.
+    sentences : tuple of str
+        What is wrong, and what to do; empty when nothing is.
+    """
+
+    state: State
+    rate: float | None
+    pose_rate: float | None
+    samples: int
+    lost: int
+    gaps: int
+    longest_gap: float
+    noise: NDArray[np.float64]
+    largest: NDArray[np.float64]
+    range_used: NDArray[np.float64] | None
+    sentences: tuple[str, ...]
+
+    @property
+    def well(self) -> bool:
+        """Whether samples come and nothing is wrong."""
+        return self.state is State.STREAMING and not self.sentences
+
+
+def trial_of(live: Live) -> Trial | None:
+    """Measure the devices that are open; None: none is."""
+    health, pair = live.health, live.pair
+    if health is None or pair is None:
+        return None
+    sensor, poses = health
+    times, raw, _ = live.history(_LOOK_S)
+    gaps, longest = _gaps(times)
+    noise, largest = np.full(6, np.nan), np.full(6, np.nan)
+    if len(raw) >= _FEWEST:
+        # Differences of neighbours: what a hand does in between is slow, and drops out.
+        noise = np.diff(raw, axis=0).std(axis=0) / np.sqrt(2)
+    if len(raw):
+        largest = np.abs(raw).max(axis=0)
+    bench = pair.bench
+    limits = None if bench is None else bench.sensor.settings.limit
+    used = None if limits is None else largest / limits
+    return Trial(
+        sensor.state,
+        sensor.rate,
+        None if poses is None else poses.rate,
+        sensor.samples,
+        sensor.counters.lost,
+        gaps,
+        longest,
+        noise,
+        largest,
+        used,
+        tuple(dict.fromkeys((*_states(sensor, poses, pair.finished), *_measured(noise, used)))),
+    )
+
+
+def _gaps(times: NDArray[np.float64]) -> tuple[int, float]:
+    if len(times) < 3:
+        return 0, 0.0
+    steps = np.diff(times)
+    long = steps[steps > max(_GAP * float(np.median(steps)), 0.02)]
+    return len(long), float(long.max()) if len(long) else 0.0
+
+
+def _states(sensor: Health, poses: Health | None, finished: bool) -> list[str]:
+    said = []
+    if finished:
+        said.append("The recording is at its end: choose it again to play it once more.")
+    elif sensor.state is State.CONNECTING:
+        said.append("The sensor does not answer yet: check that it has power and that its cable is in.")
+    elif sensor.state is State.SILENT:
+        said.append(
+            "The sensor is silent: nothing more comes. Check its cable and power; it goes on by itself."
+        )
+    elif sensor.state is State.LOST:
+        said.append("The sensor is gone: plug it in again. It goes on by itself as soon as it is back.")
+    said += [*sensor.findings, *sensor.suspicions]
+    if poses is not None and not finished:
+        if poses.state in {State.CONNECTING, State.SILENT, State.LOST}:
+            said.append(
+                "No poses come, so the orientation is not known: check the robot's address and cable."
+                " They go on by themselves."
+            )
+        said += [*poses.findings, *poses.suspicions]
+    return said
+
+
+def _measured(noise: NDArray[np.float64], used: NDArray[np.float64] | None) -> list[str]:
+    said = []
+    if used is not None and np.nanmax(used, initial=0.0) >= _CLOSE:
+        said.append(
+            f"A channel is at {100 * np.nanmax(used):.0f} % of its range: beyond 100 % it is cut off. Take load off the"
+            " sensor, or set its zero again."
+        )
+    if np.isfinite(noise).all() and (noise == 0).all():
+        said.append(
+            "All readings are the same, to the last digit: the sensor may be frozen. Touch it and look."
+        )
+    return said

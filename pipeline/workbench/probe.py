@@ -1,0 +1,320 @@
+"""The work on a probe's mesh: what is chosen, and what comes of it before anything ends in the session."""
+
+from __future__ import annotations
+
+import hashlib
+import shutil
+import tempfile
+from dataclasses import dataclass, fields
+from functools import partial
+from itertools import count
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.errors import InputError
+from pipeline.kernel import SurfaceIndex
+from pipeline.mesh.engines import Cancelled
+from pipeline.mesh.inspect import inspect
+from pipeline.preparation.alignment import from_angles, from_json
+from pipeline.preparation.ladder import ExpectedTouches, measure_ladder
+from pipeline.preparation.painted import put_on
+from pipeline.preparation.prepare import place
+from pipeline.preparation.steps import import_mesh
+from pipeline.session.companions import companions_of
+from pipeline.session.make_probe import ProbeParameters, dense_of, prepared
+from pipeline.session.making import PREFIX, read_parameters
+from pipeline.session.recompute import lay_out
+from pipeline.workbench.probe_shell import PROBE_FILE, REGIONS, recipe_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from numpy.typing import NDArray
+
+    from pipeline.mesh.inspect import Inspection
+    from pipeline.mesh.sidecar import ProbeFile
+    from pipeline.preparation.alignment import Alignment
+    from pipeline.preparation.ladder import Ladder
+    from pipeline.preparation.prepare import Dense, Preparation
+    from pipeline.workbench.desk import Desk
+
+    Progress = Callable[[float], None] | None
+    Cancel = Callable[[], bool] | None
+
+_PORTION = 2**20
+# Of the time that taking a mesh needs: copying it, and looking at it.
+_COPIED = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """
+    A mesh file that was taken: a copy of it, so that nobody changes it under the work.
+
+    Attributes
+    ----------
+    file : Path
+        The copy, under its own name, with what belongs to it beside it.
+    companions : mapping
+        Name -> file beside it.
+    inspection : Inspection
+    original : ProbeFile
+        As the file has it, m.
+    sha256 : str
+        Of the file.
+    """
+
+    file: Path
+    companions: Mapping[str, Path]
+    inspection: Inspection
+    original: ProbeFile
+    sha256: str
+
+    @property
+    def unit_asked(self) -> bool:
+        """Whether a person has to say what the numbers are."""
+        guess = self.inspection.unit
+        return guess is not None and not guess.certain
+
+
+@dataclass(frozen=True)
+class Plan:
+    """
+    What is chosen: as the options of ``contactbench probe prepare``, lengths in mm.
+
+    Attributes
+    ----------
+    units : str
+    close : tuple of str
+        How openings are closed, the largest first; empty: as it seems best.
+    alpha, gap : float or None
+        Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe.
+    alignment : Alignment or None
+        None: the mesh stays in its own frame.
+    facets, max_deviation, max_contact_error
+        The target: one of them, or none.
+    engine : str
+    region_ratio : float
+        Facets per area in the regions over that outside.
+    painted : bool
+        Whether the session's regions go on it.
+    """
+
+    units: str = "auto"
+    close: tuple[str, ...] = ()
+    alpha: float | None = None
+    gap: float | None = None
+    alignment: Alignment | None = None
+    facets: int | None = None
+    max_deviation: float | None = None
+    max_contact_error: float | None = None
+    engine: str = "auto"
+    region_ratio: float = 1.0
+    painted: bool = True
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """What a session's computation is told: everything that is not as usual."""
+        usual = Plan()
+        told = (each.name for each in fields(self) if each.name not in {"alignment", "painted"})
+        return {
+            name: list(value) if isinstance(value := getattr(self, name), tuple) else value
+            for name in told
+            if getattr(self, name) != getattr(usual, name)
+        }
+
+    @property
+    def given(self) -> ProbeParameters:
+        """The same, checked. SessionError: something is not as it should be."""
+        return read_parameters(ProbeParameters, {**self.parameters, "name": PROBE_FILE})
+
+
+@dataclass(frozen=True, eq=False)
+class Preview:
+    """
+    What a plan gives.
+
+    Attributes
+    ----------
+    plan : Plan
+    mesh : Mesh
+    placed : ProbeFile
+        The outer surface with all its facets, where it will be.
+    done : Preparation
+        The probe, and what was done.
+    regions : str
+        Content of the session's regions that are on it; empty: none.
+    deviation : (n,) float64
+        Distance of each vertex of `placed` from the probe, m.
+    """
+
+    plan: Plan
+    mesh: Mesh
+    placed: ProbeFile
+    done: Preparation
+    regions: str
+    deviation: NDArray[np.float64]
+
+
+class ProbeWork:
+    """
+    The way from a mesh file to a probe. Everything that takes long may be called in any thread, one at a time.
+
+    Parameters
+    ----------
+    desk : Desk
+    """
+
+    def __init__(self, desk: Desk) -> None:
+        self.desk = desk
+        self._scratch = tempfile.TemporaryDirectory(prefix=PREFIX)
+        self._number = count()
+
+    def close(self) -> None:
+        """Remove the copies."""
+        self._scratch.cleanup()
+
+    def _place(self) -> Path:
+        folder = Path(self._scratch.name) / str(next(self._number))
+        folder.mkdir()
+        return folder
+
+    # ---- the mesh --------------------------------------------------------------------------------
+
+    def take(
+        self, file: Path, units: str = "auto", progress: Progress = None, cancelled: Cancel = None
+    ) -> Mesh:
+        """
+        Copy a mesh file and find out all about it; as ``contactbench probe inspect``.
+
+        Raises
+        ------
+        InputError
+            It is no mesh that can be used; the sentence says why.
+        Cancelled
+        """
+        beside = companions_of(file) if file.is_file() else {}
+        found = _inspected(file, units, _part(progress, _COPIED, 1.0), cancelled)
+        folder = self._place()
+        for each in (file, *beside.values()):
+            _copy(each, folder / each.name, cancelled)
+        copy = folder / file.name
+        return Mesh(
+            copy,
+            {name: folder / name for name in beside},
+            found,
+            import_mesh(copy, _units(units)),
+            hashlib.sha256(copy.read_bytes()).hexdigest(),
+        )
+
+    def again(self, mesh: Mesh, units: str, progress: Progress = None, cancelled: Cancel = None) -> Mesh:
+        """Look at a mesh once more, with the unit that a person said."""
+        found = _inspected(mesh.file, units, progress, cancelled)
+        return Mesh(mesh.file, mesh.companions, found, import_mesh(mesh.file, _units(units)), mesh.sha256)
+
+    def restore(self, progress: Progress = None, cancelled: Cancel = None) -> tuple[Mesh, Plan] | None:
+        """Return the mesh and the plan of the session's probe; None: there is no mesh yet."""
+        state = self.desk.state
+        recipe = recipe_of(state)
+        if recipe is None or "mesh" not in recipe.inputs:  # a probe that came from elsewhere says not how
+            return None
+        wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
+        files = lay_out(self.desk.folder, state, wanted, self._place())
+        given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
+        known = {each.name for each in fields(Plan)} & set(ProbeParameters.model_fields)
+        alignment = None
+        if "alignment" in files:
+            alignment = from_json(files["alignment"].read_bytes(), "alignment")
+        elif given.mount is not None:
+            alignment = from_angles(list(given.mount[:3]), list(given.mount[3:]))
+        plan = Plan(alignment=alignment, **{name: getattr(given, name) for name in known})
+        return self.take(files["mesh"], plan.units, progress, cancelled), plan
+
+    @property
+    def has_regions(self) -> bool:
+        """Whether somebody painted regions in this session."""
+        return any(each.kind == REGIONS for each in self.desk.state.inputs)
+
+    # ---- what comes of it ------------------------------------------------------------------------
+
+    def shell(self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None) -> Dense:
+        """Make the outer surface, or give the one that was made before; as ``contactbench probe shell``."""
+        return dense_of(mesh.file, plan.given, remember=True, progress=progress, cancelled=cancelled)
+
+    def placed(
+        self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None
+    ) -> ProbeFile:
+        """Return the outer surface where the plan puts it, with the session's regions; see `shell`."""
+        dense = self.shell(mesh, plan, progress, cancelled)
+        files, _ = self._regions(plan)
+        return place(dense, plan.alignment, partial(put_on, file=files[REGIONS]) if files else None)
+
+    def ladder(self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None) -> Ladder:
+        """Measure what fewer facets cost and save; as ``contactbench probe ladder``."""
+        placed = self.placed(mesh, plan, _part(progress, 0.0, 0.5), cancelled)
+        given = plan.given
+        return measure_ladder(
+            placed.probe,
+            ExpectedTouches(force=given.forces),
+            engine=given.engine,  # type: ignore[arg-type]  # it was checked with the plan
+            region_ratio=given.region_ratio,
+            progress=_part(progress, 0.5, 1.0),
+            cancelled=cancelled,
+        )
+
+    def preview(self, mesh: Mesh, plan: Plan, progress: Progress = None, cancelled: Cancel = None) -> Preview:
+        """Prepare the probe as the session will, and measure how far it is from the outer surface."""
+        inputs, regions = self._regions(plan)
+        inputs["mesh"] = mesh.file
+        if plan.alignment is not None:
+            inputs["alignment"] = self._place() / "alignment.json"
+            inputs["alignment"].write_text(plan.alignment.to_json(), encoding="utf-8")
+        done = prepared(inputs, plan.given, remember=True, progress=progress, cancelled=cancelled)
+        placed = self.placed(mesh, plan)
+        probe = done.content.probe
+        distance, _, _ = SurfaceIndex(probe.vertices, probe.faces).closest(placed.probe.vertices)
+        return Preview(plan, mesh, placed, done, regions, distance)
+
+    def _regions(self, plan: Plan) -> tuple[dict[str, Path], str]:
+        """Return the session's regions as a file, and their content; neither where there are none."""
+        state = self.desk.state
+        given = [each for each in state.current_inputs.values() if each.kind == REGIONS]
+        if not given or not plan.painted:
+            return {}, ""
+        content = max(given, key=lambda each: each.number).content
+        return lay_out(self.desk.folder, state, {REGIONS: content}, self._place()), content
+
+
+def _inspected(file: Path, units: str, progress: Progress, cancelled: Cancel) -> Inspection:
+    try:
+        return inspect(file, _units(units), progress=progress, cancelled=cancelled)
+    except MemoryError as error:
+        raise InputError(
+            f"{file}: there is not enough memory for it: export the part with fewer facets."
+        ) from error
+
+
+def _copy(file: Path, target: Path, cancelled: Cancel) -> None:
+    try:
+        with file.open("rb") as source, target.open("wb") as copy:
+            while chunk := source.read(_PORTION):
+                if cancelled is not None and cancelled():
+                    raise Cancelled("reading the mesh was cancelled: nothing was changed.")
+                copy.write(chunk)
+    except OSError as error:
+        shutil.rmtree(target.parent, ignore_errors=True)
+        raise InputError(
+            f"{file}: it cannot be copied ({error}): check it and the space on the disk."
+        ) from error
+
+
+def _units(units: str) -> Any:
+    return units  # `inspect` and `import_mesh` refuse one that they do not know
+
+
+def _part(progress: Progress, low: float, high: float) -> Progress:
+    if progress is None:
+        return None
+    return lambda share: progress(low + share * (high - low))

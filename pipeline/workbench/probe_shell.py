@@ -1,0 +1,200 @@
+"""The dense, aligned outer surface of a session's probe: what regions are painted on, and what holds them."""
+
+from __future__ import annotations
+
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pipeline.errors import InputError
+from pipeline.mesh.regions import RegionSet
+from pipeline.mesh.regions.exchange import encode_json
+from pipeline.mesh.sidecar import load_probe_file, save_probe_file, sidecar_of
+from pipeline.preparation.alignment import from_angles, from_json
+from pipeline.preparation.painted import painted_regions
+from pipeline.preparation.prepare import place
+from pipeline.session.make_probe import ProbeParameters, dense_of
+from pipeline.session.making import read_parameters
+from pipeline.session.recompute import lay_out, newest_inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from pipeline.mesh import Probe
+    from pipeline.mesh.regions import RegionReport
+    from pipeline.mesh.sidecar import ProbeFile
+    from pipeline.session import Session, State
+    from pipeline.session.actions import Record
+    from pipeline.session.state import Result
+    from pipeline.workbench.desk import Desk
+
+PROBE, PROBE_FILE = "probe", "probe.ply"
+REGIONS, REGIONS_FILE = "regions", "regions.json"
+# The surface that regions were painted on lies beside them under this name.
+_PAINTED = "painted.ply"
+
+
+@dataclass(frozen=True, eq=False)
+class Recipe:
+    """
+    How the session's probe is made.
+
+    Attributes
+    ----------
+    inputs : mapping
+        Role -> hash.
+    parameters : mapping
+        As `ProbeParameters`, without the name.
+    result : Result or None
+        The probe that was made so; None: it is only planned.
+    """
+
+    inputs: Mapping[str, str]
+    parameters: Mapping[str, Any]
+    result: Result | None = None
+
+
+def recipe_of(state: State) -> Recipe | None:
+    """
+    Return how the session's newest probe was made, or else how it would be; None without a mesh.
+
+    What was set since in the session's parameters of the kind ``probe`` counts.
+    """
+    made = [
+        each
+        for each in state.current_results.values()
+        if each.action.kind == PROBE and (each.mark is None or each.mark.mark != "rejected")
+    ]
+    settings = {
+        key.partition(".")[2]: setting
+        for key, setting in state.settings.items()
+        if key.startswith(f"{PROBE}.") and key.partition(".")[2] in ProbeParameters.model_fields
+    }
+    if made:
+        newest = max(made, key=lambda each: each.number)
+        since = {key: each.value for key, each in settings.items() if each.number > newest.number}
+        return Recipe(newest.action.inputs, {**newest.action.parameters, **since}, newest)
+    if state.mesh is None:
+        return None
+    given = {key: each.value for key, each in settings.items()}
+    return Recipe(newest_inputs(state, PROBE), given)
+
+
+def shell_of(
+    desk: Desk,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Probe:
+    """
+    Return the surface that regions are painted on: closed, in S, with all its facets.
+
+    It takes seconds the first time, so call it in a worker; the same mesh and parameters give the same one at once.
+
+    Parameters
+    ----------
+    desk : Desk
+    progress, cancelled : callable, optional
+        The share that is done, 0 to 1, and whether to stop.
+
+    Raises
+    ------
+    InputError
+        There is no mesh, or it cannot be prepared.
+    Cancelled
+        `cancelled` answered True.
+    """
+    return shell_file_of(desk, progress, cancelled).probe
+
+
+def shell_file_of(
+    desk: Desk,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> ProbeFile:
+    """Return what `shell_of` does, with its history; for `regions_on` and `keep_regions`."""
+    state = desk.state
+    recipe = recipe_of(state)
+    if recipe is None:
+        raise InputError("There is no probe yet, so there is nothing to paint on: prepare the probe first.")
+    if "mesh" not in recipe.inputs:
+        raise InputError(
+            "This probe came from elsewhere, and the session does not have the mesh behind it: choose the mesh in step"
+            " 3, Probe, to paint on it."
+        )
+    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
+        wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
+        files = lay_out(desk.folder, state, wanted, Path(scratch))
+        given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
+        dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
+        if "alignment" in files:
+            return place(dense, from_json(files["alignment"].read_bytes(), "alignment"))
+        if given.mount is not None:
+            return place(dense, from_angles(list(given.mount[:3]), list(given.mount[3:])))
+        return place(dense, None)
+
+
+def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionReport, ...]]:
+    """
+    Return the session's regions on a shell: as they were painted, or carried over from an older one.
+
+    Parameters
+    ----------
+    desk : Desk
+    shell : ProbeFile
+        From `shell_file_of`.
+
+    Returns
+    -------
+    regions : RegionSet
+        Those of the mesh file where nobody painted any.
+    carried : tuple of RegionReport
+        What carrying over did to each; empty where they are as they were painted.
+
+    Raises
+    ------
+    InputError
+        They do not belong to this surface.
+    """
+    state = desk.state
+    given = [each for each in state.current_inputs.values() if each.kind == REGIONS]
+    if not given:
+        return shell.regions, ()
+    newest = max(given, key=lambda each: each.number)
+    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
+        files = lay_out(desk.folder, state, {REGIONS: newest.content}, Path(scratch))
+        return painted_regions(shell, files[REGIONS])
+
+
+def keep_regions(session: Session, regions: RegionSet, shell: ProbeFile) -> Record:
+    """
+    Put regions into a session, with the surface that they were painted on, so that they outlive changes of it.
+
+    As ``contactbench session add SESSION regions.json --kind regions --companion painted.ply`` does.
+
+    Parameters
+    ----------
+    session : Session
+        Open for writing; for `Desk.do`.
+    regions : RegionSet
+        On the shell.
+    shell : ProbeFile
+        From `shell_file_of`.
+    """
+    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
+        folder = Path(scratch)
+        surface, file = folder / _PAINTED, folder / REGIONS_FILE
+        save_probe_file(shell, surface)
+        file.write_bytes(encode_json(regions, shell.probe))
+        beside = {each.name: each for each in (surface, sidecar_of(surface))}
+        return session.add_input(file, REGIONS, name=REGIONS_FILE, companions=beside)
+
+
+def used_probe(desk: Desk) -> Probe | None:
+    """Return the session's probe as it is used; None: there is none."""
+    recipe = recipe_of(desk.state)
+    if recipe is None or recipe.result is None:
+        return None
+    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
+        files = lay_out(desk.folder, desk.state, {PROBE: recipe.result.content}, Path(scratch))
+        return load_probe_file(files[PROBE]).probe

@@ -1,0 +1,184 @@
+"""Regions in a session: kept while they are painted, found again, and taken into the probe."""
+
+from __future__ import annotations
+
+import hashlib
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from pipeline.errors import InputError
+from pipeline.mesh.regions.exchange import encode_json
+from pipeline.session.recompute import recomputed
+from pipeline.workbench.probe_shell import (
+    PROBE,
+    REGIONS,
+    REGIONS_FILE,
+    keep_regions,
+    recipe_of,
+    regions_on,
+    shell_file_of,
+)
+from pipeline.workbench.regions import RegionsWork
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pipeline.mesh.regions import RegionSet
+    from pipeline.mesh.sidecar import ProbeFile
+    from pipeline.session import Session, State
+    from pipeline.session.actions import Record
+    from pipeline.session.state import Input
+    from pipeline.workbench.desk import Desk
+
+# What changes the number of facets, and not the surface that is painted on.
+_AFTER_PAINTING = frozenset(
+    {"facets", "max_deviation", "max_contact_error", "forces", "engine", "region_ratio"}
+)
+# Of the work of opening: the surface.
+_SURFACE = 0.8
+
+
+class Standing(StrEnum):
+    """How the regions that are kept relate to the probe."""
+
+    NONE = "none"  # nothing is kept
+    PLANNED = "planned"  # kept; there is no probe yet, it takes them along when it is made
+    WAITING = "waiting"  # kept, but the probe does not have them yet
+    APPLIED = "applied"
+
+
+def stored(state: State) -> Input | None:
+    """Return the regions that the session keeps."""
+    kept = [each for each in state.current_inputs.values() if each.kind == REGIONS]
+    return max(kept, key=lambda each: each.number, default=None)
+
+
+def standing(state: State) -> Standing:
+    """Say whether the newest probe has the regions that the session keeps."""
+    kept, recipe = stored(state), recipe_of(state)
+    if kept is None:
+        return Standing.NONE
+    if recipe is None or recipe.result is None:
+        return Standing.PLANNED
+    return Standing.APPLIED if recipe.inputs.get(REGIONS) == kept.content else Standing.WAITING
+
+
+def surface_key(state: State) -> object:
+    """Return what is equal as long as the surface that regions are painted on is the same; None: there is none."""
+    recipe = recipe_of(state)
+    if recipe is None:
+        return None
+    inputs = {role: sha for role, sha in recipe.inputs.items() if role != REGIONS}
+    parameters = {key: each for key, each in recipe.parameters.items() if key not in _AFTER_PAINTING}
+    return (inputs, parameters)
+
+
+def open_work(
+    desk: Desk,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> RegionsWork:
+    """
+    Make the session's surface and put its regions on it; takes seconds, so call it in a worker.
+
+    Regions that cannot be put on this surface are left out, and its notes say why: they stay in the session.
+
+    Raises
+    ------
+    InputError
+        There is no mesh, or it cannot be prepared.
+    Cancelled
+        `cancelled` answered True.
+    """
+    shell = shell_file_of(
+        desk, None if progress is None else lambda share: progress(_SURFACE * share), cancelled
+    )
+    notes: list[str] = []
+    try:
+        regions, carried = regions_on(desk, shell)
+        if carried:
+            notes.append("The probe has changed since the regions were painted: they were carried over.")
+            notes += [each.sentence for each in carried if each.vanished]
+    except InputError as error:
+        regions = shell.regions
+        notes.append(f"The regions that were painted before are not shown: {error}")
+    work = RegionsWork(shell, regions, tuple(notes))
+    work.warm_up()
+    if progress is not None:
+        progress(1.0)
+    return work
+
+
+def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | None:
+    """
+    Add the regions to a session, unless it has the very same already: ``session add S regions.json --kind regions``.
+
+    Parameters
+    ----------
+    session : Session
+        Open for writing.
+    regions : RegionSet
+    shell : ProbeFile
+        What they are painted on.
+
+    Returns
+    -------
+    Record or None
+        None: nothing was to be added; also where there are no regions and never were any.
+    """
+    kept = stored(session.state)
+    if kept is None and not regions.regions:
+        return None
+    digest = hashlib.sha256(encode_json(regions, shell.probe)).hexdigest()
+    if kept is not None and kept.name == REGIONS_FILE and kept.file.sha256 == digest:
+        return None
+    return keep_regions(session, regions, shell)
+
+
+def apply(
+    desk: Desk,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Callable[[Session], Record]:
+    """
+    Compute the newest probe again with the regions that are kept: ``session compute S probe NAME``.
+
+    It takes long, so call it in a worker; the session is only read.
+
+    Parameters
+    ----------
+    desk : Desk
+    progress, cancelled : callable, optional
+        The share that is done, and whether to stop.
+
+    Returns
+    -------
+    callable
+        Records the result: for `Desk.do`.
+
+    Raises
+    ------
+    InputError
+        There is no probe yet, or the computation refuses.
+    Cancelled
+        `cancelled` answered True; nothing was recorded.
+    """
+    state = desk.state
+    recipe, kept = recipe_of(state), stored(state)
+    if recipe is None or recipe.result is None:
+        raise InputError("There is no probe yet: prepare it in the step Probe; it takes the regions along.")
+    name, parameters = recipe.result.action.name, dict(recipe.parameters)
+    inputs = {role: sha for role, sha in recipe.inputs.items() if role != REGIONS}
+    if kept is not None:
+        inputs[REGIONS] = kept.content
+    files = recomputed(
+        desk.folder,
+        state,
+        PROBE,
+        inputs,
+        {**parameters, "name": name},
+        None,
+        progress=progress,
+        cancelled=cancelled,
+    )
+    return lambda session: session.add_result(PROBE, name, files, inputs, parameters)

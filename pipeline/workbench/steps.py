@@ -1,0 +1,44 @@
+"""The steps of the work, in their order, and how each of them stands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+
+class Step(StrEnum):
+    """What is done, in this order."""
+
+    DEVICES = "devices"
+    GRAVITY = "gravity"
+    PROBE = "probe"
+    REGIONS = "regions"
+    VERIFY = "verify"
+    EXPORT = "export"
+
+
+class StepState(StrEnum):
+    """How a step stands; the same words, icons and colours everywhere."""
+
+    LOCKED = "locked"
+    READY = "ready"
+    RUNNING = "running"
+    DONE = "done"
+    FAILED = "failed"
+    STALE = "stale"
+
+
+@dataclass(frozen=True)
+class StepStatus:
+    """
+    How a step stands, and why.
+
+    Attributes
+    ----------
+    state : StepState
+    sentence : str
+        For people: what is missing, what came of it, or why it no longer holds.
+    """
+
+    state: StepState
+    sentence: str

@@ -1,0 +1,370 @@
+"""Touches as they happen: the protocol on live samples, and what it has found so far."""
+
+from __future__ import annotations
+
+import threading
+from collections import Counter, deque
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.verification.locating import Placing, memory, sample_noise
+from pipeline.verification.protocol import State, Touch, TouchEvent, TouchProtocol
+from pipeline.workbench.verify_settings import Turns
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import GravityModel
+    from pipeline.contact import WrenchNoise
+    from pipeline.mesh import Probe
+    from pipeline.verification.markers import MarkerSet
+    from pipeline.verification.verify import VerifySettings
+    from pipeline.workbench.live import Block
+
+_SMOOTH = 10  # samples that the shown force is the mean of
+_RECENT_S = 1.0
+_FEWEST = 40  # samples that noise is told from
+
+
+@dataclass(frozen=True)
+class TouchOf:
+    """
+    A press that was decided, as it is shown.
+
+    Attributes
+    ----------
+    marker : str or None
+        None: unknown.
+    why : str
+        Why it was rejected; empty: it was accepted.
+    force : float
+        N.
+    error_mm : (3,) tuple or None
+        Contact minus marker, S.
+    size_mm, sigma_mm : float or None
+        Length of that, and what noise and calibration explain (1 sigma).
+    """
+
+    marker: str | None
+    why: str
+    force: float
+    error_mm: tuple[float, float, float] | None = None
+    size_mm: float | None = None
+    sigma_mm: float | None = None
+
+    @property
+    def ratio(self) -> float | None:
+        """The error over what noise and calibration explain."""
+        return self.size_mm / self.sigma_mm if self.size_mm is not None and self.sigma_mm else None
+
+
+@dataclass(frozen=True)
+class MarkerRow:
+    """
+    What is known of a marker; errors in mm; `state` is open, done, failed or skipped.
+
+    `wanted` is the number of accepted touches that it needs, `window` the force window (N) of the next of them.
+    """
+
+    name: str
+    touches: int
+    wanted: int
+    mean_mm: float | None
+    max_mm: float | None
+    state: str
+    window: tuple[float, float] | None
+
+
+@dataclass(frozen=True, eq=False)
+class TouchView:
+    """
+    All that there is to see now.
+
+    Attributes
+    ----------
+    state : State
+    force : float
+        |F|, N, compensated; NaN: not known.
+    rows : tuple of MarkerRow
+    next_one : int or None
+        Place of the marker that should be touched next; None: all are done.
+    window : (low, high)
+        With what force, N.
+    last : TouchOf or None
+    errors_mm : tuple of float
+        Of the accepted touches, oldest first.
+    mean_mm, sd_mm, max_mm : float or None
+    accepted, wanted : int
+    notice : str
+        What is in the way; empty: nothing.
+    contacts : tuple of (start, end)
+        Places of markers and where they were found, m, for the accepted touches.
+    """
+
+    state: State
+    force: float
+    rows: tuple[MarkerRow, ...]
+    next_one: int | None
+    window: tuple[float, float]
+    last: TouchOf | None
+    errors_mm: tuple[float, ...]
+    mean_mm: float | None
+    sd_mm: float | None
+    max_mm: float | None
+    accepted: int
+    wanted: int
+    notice: str
+    contacts: tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...] = field(default=())
+
+
+def live_noise(wrenches: NDArray[np.float64]) -> tuple[WrenchNoise, float] | None:
+    """
+    Return the noise of a sample, such that a mean of n has 1/n of its variance, and the correlation of neighbours.
+
+    Parameters
+    ----------
+    wrenches : (n, 6)
+        Samples in a row, N and N·m; raw ones will do.
+    """
+    from pipeline.contact import WrenchNoise
+
+    run = wrenches[np.isfinite(wrenches).all(axis=1)]
+    if len(run) < _FEWEST:
+        return None
+    tau, neighbours = memory([run]) or (1.0, 0.0)
+    correlation = max(tau / (1 - min(neighbours, 0.999)), 1.0)
+    base, root = sample_noise([run]), np.sqrt(correlation)
+    return WrenchNoise(np.asarray(base.force) * root, np.asarray(base.torque) * root), correlation
+
+
+class LiveTouches:
+    """
+    Follow live samples; `feed` is called in their thread, everything else in any.
+
+    Parameters
+    ----------
+    probe : Probe
+        S.
+    model : GravityModel
+    markers : MarkerSet
+        With normals.
+    settings : VerifySettings
+    noise : (WrenchNoise, correlation)
+        See `live_noise`.
+    """
+
+    def __init__(
+        self,
+        probe: Probe,
+        model: GravityModel,
+        markers: MarkerSet,
+        settings: VerifySettings,
+        noise: tuple[WrenchNoise, float],
+    ) -> None:
+        self.markers, self.settings = markers, settings
+        self._model, protocol = model, settings.protocol
+        self._turns: Turns | None = None
+        if protocol.order:
+            self._turns = Turns.of(protocol.order, protocol.repeats, len(protocol.windows))
+            protocol = replace(protocol, order=tuple(self._turns.names))
+        placing = Placing(probe, markers, model, noise[0], protocol.samples, noise[1])
+        self._protocol = TouchProtocol(placing, protocol)
+        self._lock = threading.Lock()
+        self._touches: dict[float, Touch] = {}
+        self._events: deque[TouchEvent] = deque(maxlen=200)
+        self._forces: deque[float] = deque(maxlen=_SMOOTH)
+        self._poses: deque[tuple[float, bool]] = deque()
+        self._first: list[float] = []
+        self._skipped: set[str] = set()
+        self._again: list[str] = []
+        self._extra: Counter[str] = Counter()
+        self._last: Touch | None = None
+
+    # ---- samples -----------------------------------------------------------------------------
+
+    def feed(self, block: Block) -> None:
+        """Take samples."""
+        wrenches = self._model.compensate(block.R_WS, block.wrenches)
+        with self._lock:
+            self._watch(block.times, wrenches)
+            for event in self._protocol.feed(block.times, wrenches, block.R_WS, block.saturated):
+                self._heard(event)
+
+    def _watch(self, times: NDArray[np.float64], wrenches: NDArray[np.float64]) -> None:
+        known = np.isfinite(wrenches).all(axis=1)
+        sizes = np.linalg.norm(wrenches[known, :3], axis=1).tolist()
+        self._forces.extend(sizes)
+        if len(self._first) < _FEWEST:
+            self._first.extend(sizes[: _FEWEST - len(self._first)])
+        if len(times):
+            self._poses.append((float(times[-1]), bool(known.any())))
+            while self._poses[0][0] < times[-1] - _RECENT_S:
+                self._poses.popleft()
+
+    def _heard(self, event: TouchEvent) -> None:
+        self._events.append(event)
+        touch = event.touch
+        if touch is None:
+            return
+        self._touches[touch.start] = self._last = touch
+        if touch.why is None and touch.placed is not None:
+            name = self.markers[touch.placed.marker].name
+            if name in self._again:
+                self._again.remove(name)
+
+    def end(self) -> None:
+        """Take no more samples: a press that goes on has ended."""
+        with self._lock:
+            for event in self._protocol.finish():
+                self._heard(event)
+
+    # ---- wishes ------------------------------------------------------------------------------
+
+    def skip(self) -> str | None:
+        """Leave out the next marker; returns its name. A verification says of it that it is missing."""
+        with self._lock:
+            rows = self._rows()
+            place = self._next(rows)
+            if place is None:
+                return None
+            name = self.markers[place].name
+            if self._turns is not None:
+                if not self._turns.skip(self._accepted_count()):
+                    return None
+                self._reorder()
+            if name in self._again:
+                self._again.remove(name)
+            self._skipped.add(name)
+            return name
+
+    def repeat(self, name: str) -> None:
+        """Have a marker touched next, once more; all its touches count."""
+        with self._lock:
+            self._skipped.discard(name)
+            if name in self._again:
+                return
+            if self._turns is not None:
+                self._turns.repeat(self._accepted_count(), name)
+                self._reorder()
+            self._extra[name] += 1
+            self._again.insert(0, name)
+
+    def _reorder(self) -> None:
+        assert self._turns is not None  # noqa: S101  (for the type checker; both callers asked)
+        self._protocol.settings = replace(self._protocol.settings, order=tuple(self._turns.names))
+
+    @property
+    def order(self) -> tuple[str, ...]:
+        """In which markers were asked for, touch by touch; empty: any order. What the same recording is judged by."""
+        return tuple(self._turns.names) if self._turns is not None else ()
+
+    # ---- what is seen ------------------------------------------------------------------------
+
+    def take_events(self) -> list[TouchEvent]:
+        """Return what happened since the last call."""
+        with self._lock:
+            events = list(self._events)
+            self._events.clear()
+            return events
+
+    def view(self) -> TouchView:
+        """Return all that there is to see now."""
+        with self._lock:
+            rows = self._rows()
+            place = self._next(rows)
+            shown = [self._shown(touch) for touch in self._accepted()]
+            sizes = [each.size_mm for each in shown if each.size_mm is not None]
+            window = self.settings.protocol.windows[0]
+            if place is not None and rows[place].window is not None:
+                window = rows[place].window or window
+            return TouchView(
+                state=self._protocol.state,
+                force=float(np.mean(self._forces)) if self._forces else float("nan"),
+                rows=rows,
+                next_one=place,
+                window=window,
+                last=None if self._last is None else self._shown(self._last),
+                errors_mm=tuple(sizes),
+                mean_mm=float(np.mean(sizes)) if sizes else None,
+                sd_mm=float(np.std(sizes, ddof=1)) if len(sizes) > 1 else None,
+                max_mm=max(sizes) if sizes else None,
+                accepted=len(shown),
+                wanted=sum(row.wanted for row in rows if row.state != "skipped"),
+                notice=self._notice(),
+                contacts=tuple(
+                    (self.markers[touch.placed.marker].point_S, touch.located.point)
+                    for touch in self._accepted()
+                    if touch.placed is not None and touch.located is not None
+                ),
+            )
+
+    def _accepted(self) -> list[Touch]:
+        return [touch for touch in self._touches.values() if touch.why is None and touch.placed is not None]
+
+    def _accepted_count(self) -> int:
+        return len(self._accepted())
+
+    def _shown(self, touch: Touch) -> TouchOf:
+        known = touch.placed is not None and not (touch.placed.far and touch.why is not None)
+        marker = self.markers[touch.placed.marker] if known and touch.placed is not None else None
+        if marker is None or touch.located is None:
+            return TouchOf(None if marker is None else marker.name, str(touch.why or ""), touch.force)
+        x, y, z = (1e3 * (touch.located.point - marker.point_S)).tolist()
+        return TouchOf(
+            marker.name,
+            str(touch.why or ""),
+            touch.force,
+            (x, y, z),
+            float(np.linalg.norm((x, y, z))),
+            float(1e3 * np.sqrt(np.trace(touch.located.covariance))),
+        )
+
+    def _rows(self) -> tuple[MarkerRow, ...]:
+        errors: dict[str, list[float]] = {}
+        windows: Counter[tuple[str, tuple[float, float]]] = Counter()
+        for touch in self._accepted():
+            shown = self._shown(touch)
+            if shown.marker is not None and touch.window is not None:
+                errors.setdefault(shown.marker, []).append(shown.size_mm or 0.0)
+                windows[shown.marker, touch.window] += 1
+        return tuple(self._row(name, errors.get(name, []), windows) for name in self.markers.names)
+
+    def _row(
+        self, name: str, errors: list[float], windows: Counter[tuple[str, tuple[float, float]]]
+    ) -> MarkerRow:
+        protocol = self.settings.protocol
+        left = [each for each in protocol.windows if windows[name, each] < protocol.repeats]
+        wanted = protocol.repeats * len(protocol.windows) + self._extra[name]
+        worst = max(errors) if errors else None
+        state = "open"
+        if name in self._skipped:
+            state = "skipped"
+        elif not left and name not in self._again:
+            state = "failed" if worst is not None and worst > 1e3 * self.settings.limits.max_m else "done"
+        mean = float(np.mean(errors)) if errors else None
+        return MarkerRow(name, len(errors), wanted, mean, worst, state, left[0] if left else None)
+
+    def _next(self, rows: tuple[MarkerRow, ...]) -> int | None:
+        names = self.markers.names
+        if self._turns is not None:
+            accepted = self._accepted_count()
+            return names.index(self._turns.names[accepted]) if accepted < len(self._turns.names) else None
+        if self._again:
+            return names.index(self._again[0])
+        return next((place for place, row in enumerate(rows) if row.state == "open"), None)
+
+    def _notice(self) -> str:
+        if self._poses and not any(known for _, known in self._poses):
+            return (
+                "No pose comes with the samples: without it the weight cannot be taken off. Check the robot's"
+                " connection; touches count again when it is back."
+            )
+        release = self.settings.protocol.release_N
+        if len(self._first) >= _FEWEST and not self._touches and np.median(self._first) > release:
+            return (
+                f"The sensor reads {float(np.median(self._first)):.1f} N, and nothing should touch it yet: take the"
+                " probe off whatever it rests on. If nothing touches it, calibrate again."
+            )
+        return ""

@@ -1,0 +1,82 @@
+"""Windows for tests: with settings, logs and sessions of their own, and closed at the end."""
+
+from __future__ import annotations
+
+import pytest
+from PySide6.QtWidgets import QApplication
+from shiboken6 import isValid
+
+from app.page import Page
+from app.settings import Settings
+from app.window import MainWindow
+from pipeline.workbench.steps import Step
+
+
+@pytest.fixture(autouse=True)
+def _own_home(tmp_path, monkeypatch):
+    monkeypatch.setenv("CONTACTBENCH_HOME", str(tmp_path / "home"))
+
+
+class PlainPage(Page):
+    """A page that writes down what the window does with it."""
+
+    def __init__(self, bench, parent=None):
+        super().__init__(bench, parent)
+        self.calls, self.ticks = [], 0
+
+    def enter(self):
+        self.calls.append("enter")
+
+    def leave(self):
+        self.calls.append("leave")
+
+    def show_state(self, status):
+        self.status = status
+
+    def tick(self):
+        self.ticks += 1
+
+    def close_page(self):
+        self.calls.append("close")
+
+
+@pytest.fixture
+def plain_pages(monkeypatch):
+    """Pages without content, by step."""
+    classes = {step: type(f"Plain{step}", (PlainPage,), {"step": step}) for step in Step}
+    monkeypatch.setattr("app.window_pages.page_class", classes.__getitem__)
+    return classes
+
+
+@pytest.fixture
+def make_window(qtbot):
+    """Make windows that are closed, with their session, when the test ends."""
+    made = []
+
+    def make(**options):
+        window = MainWindow(options.pop("settings", None) or Settings(), **options)
+        made.append(window)
+        window.show()
+        qtbot.waitExposed(window)
+        return window
+
+    yield make
+    for window in made:
+        if isValid(window):
+            if window.isVisible():
+                close(qtbot, window)
+            window.deleteLater()
+    QApplication.processEvents()
+
+
+def close(qtbot, window):
+    """Close a window, and wait until it is."""
+    window.close()
+    qtbot.waitUntil(lambda: not window.isVisible(), timeout=30_000)
+
+
+def shown(qtbot, window, begin):
+    """Begin to open a session, and wait until it is shown."""
+    with qtbot.waitSignal(window.shown, timeout=60_000):
+        begin()
+    return window.bench

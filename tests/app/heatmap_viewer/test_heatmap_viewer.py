@@ -1,0 +1,260 @@
+"""The heatmap viewer in a real window."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtWidgets import QFileDialog
+from typer.testing import CliRunner
+from weighing_files import weighed
+
+from app.heatmap_viewer import HeatmapViewer
+from app.heatmap_viewer.side import number_with_unit
+from assets import make
+from pipeline.calibration import calibrate
+from pipeline.calibration.files.calibration_file import save_calibration
+from pipeline.cli import app as commands
+from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.mesh import Probe, save_probe
+from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from pipeline.session import Session
+from widgets.scene import Pick
+
+N = 400
+LONG = 20_000  # ms
+
+
+def record(file, probe, model, along, hardest):
+    """Write a stroke over the head, ever harder, with the weight in it."""
+    centroids = probe.vertices[probe.faces].mean(axis=1)
+    top = np.flatnonzero((probe.normals[:, 2] > 0.9) & (centroids[:, 2] > 0.1))
+    order = top[np.argsort(centroids[top, along])]
+    chosen = order[np.arange(N) * len(order) // N]
+    force = -np.linspace(1, hardest, N)[:, None] * probe.normals[chosen]
+    raw = np.hstack([force, np.cross(centroids[chosen], force)]) + model.predict(np.eye(3))
+    devices = (
+        DeviceInfo("wrench", "/wrench", "sri://x", "M", "1", 100.0),
+        DeviceInfo("flange", "/flange", "elfin://y"),
+    )
+    with RecordingWriter(file, RecordingInfo(0, 100.0, devices)) as writer:
+        for t, w in zip((100 + 0.01 * np.arange(N)).tolist(), raw.tolist(), strict=True):
+            writer.wrench(WrenchSample(t, tuple(w[:3]), tuple(w[3:])))
+            writer.flange(FlangeSample(t, np.eye(3), np.zeros(3)))
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("viewer")
+    probe = Probe.from_arrays(*make("linear", 1_500), name="linear")
+    save_probe(probe, folder / "p.ply")
+    calibration = calibrate(weighed().poses)
+    save_calibration(calibration, folder / "c.json")
+    record(folder / "one.mcap", probe, calibration.model, 0, 8.0)
+    record(folder / "two.mcap", probe, calibration.model, 1, 5.0)
+    return folder
+
+
+@pytest.fixture
+def viewer(qtbot):
+    viewer = HeatmapViewer()
+    viewer.resize(1280, 800)
+    viewer.show()
+    qtbot.waitExposed(viewer)
+    yield viewer
+    viewer.close()
+    qtbot.waitUntil(lambda: not viewer.jobs.running, timeout=LONG)
+    viewer.deleteLater()
+
+
+def opened(qtbot, viewer, files, *names):
+    viewer.open([files / name for name in names])
+    qtbot.waitUntil(lambda: settled(viewer), timeout=LONG)
+    return viewer
+
+
+def settled(viewer):
+    sides = viewer.sides[: viewer.visible_sides()]
+    quiet = not viewer.jobs.running and not viewer._redraw.isActive()
+    return quiet and all(side.playback is not None for side in sides)
+
+
+def test_a_recording_is_shown_and_narrowed(qtbot, viewer, files):
+    assert not viewer.time.isEnabled()
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    side = viewer.sides[0]
+    qtbot.waitUntil(lambda: side.frame is not None, timeout=LONG)
+    assert side.frame.contacts == N
+    assert f"Samples: {N} of {N}" in side.words.text()
+    viewer.time.slider.setFocus()
+    qtbot.keyClick(viewer.time.slider, Qt.Key.Key_Space)  # the upper handle
+    for _ in range(100):
+        qtbot.keyClick(viewer.time.slider, Qt.Key.Key_Left)
+    qtbot.waitUntil(lambda: side.frame.contacts == pytest.approx(N / 2, abs=3), timeout=LONG)
+    low, high = viewer.time.slider.values()
+    assert (low, high) == (0.0, pytest.approx(2.0, abs=0.01))
+    viewer.controls.force.setFocus()
+    qtbot.keyClick(viewer.controls.force, Qt.Key.Key_End)  # the lower handle: nothing is that hard
+    qtbot.waitUntil(lambda: side.frame.contacts == 0, timeout=LONG)
+    assert "No contact in this time window" in side.words.text()
+
+
+def test_a_quantity_that_is_not_there_is_said(qtbot, viewer, files):
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    viewer.controls.quantity.setCurrentIndex(viewer.controls.quantity.findData("error"))
+    qtbot.waitUntil(lambda: "points that were touched" in viewer.sides[0].words.text(), timeout=LONG)
+    viewer.controls.quantity.setCurrentIndex(viewer.controls.quantity.findData("peak"))
+    qtbot.waitUntil(lambda: viewer.sides[0].frame is not None, timeout=LONG)
+    assert np.nanmax(viewer.sides[0].frame.values) == pytest.approx(8.0, abs=0.1)
+
+
+def test_it_plays_to_the_end_of_the_window(qtbot, viewer, files):
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    time, side = viewer.time, viewer.sides[0]
+    time.speed.setCurrentIndex(time.speed.findData(10.0))
+    time.last.setCurrentIndex(time.last.findData(0.5))
+    seen = []
+    time.changed.connect(lambda: seen.append(time.chosen()))
+    qtbot.mouseClick(time.play, Qt.MouseButton.LeftButton)
+    assert time.playing()
+    assert time.play.text() == "Pause"
+    qtbot.waitUntil(lambda: not time.playing(), timeout=LONG)
+    assert seen[-1] == (pytest.approx(3.5, abs=0.02), pytest.approx(4.0, abs=0.02))
+    assert len({end for _, end in seen}) > 3
+    qtbot.waitUntil(lambda: side.frame.contacts == pytest.approx(50, abs=3), timeout=LONG)
+    qtbot.mouseClick(time.whole, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: side.frame.contacts == N, timeout=LONG)
+
+
+def test_two_have_one_camera_and_one_scale(qtbot, viewer, files):
+    opened(qtbot, viewer, files, "one.mcap", "two.mcap", "p.ply", "c.json")
+    viewer.controls.quantity.setCurrentIndex(viewer.controls.quantity.findData("peak"))
+    viewer.controls.compare.setChecked(True)
+    qtbot.waitUntil(lambda: settled(viewer) and viewer.sides[1].frame is not None, timeout=LONG)
+    first, second = viewer.sides
+    assert (first.source.currentText(), second.source.currentText()) == ("one.mcap", "two.mcap")
+    tops = []
+    for side in (first, second):
+        side.show_selection = lambda selection, top, old=side.show_selection: (
+            tops.append(top),
+            old(selection, top),
+        )
+    viewer._show()
+    assert tops == [pytest.approx(8.0, abs=0.4)] * 2
+    second.scene.look("top")
+    assert np.allclose(np.concatenate(first.scene.camera()), np.concatenate(second.scene.camera()))
+    before = first.scene.camera()
+    first.scene.look("side")
+    assert first.scene.camera() != before
+    probe = first.playback.probe
+    face = int(np.argmax(np.nan_to_num(first.frame.values)[probe.faces].min(axis=1)))
+    first.scene.hovered.emit(Pick(face, probe.vertices[probe.faces[face]].mean(axis=0)))
+    assert "mm" in first.place.text() == second.place.text()
+    assert first.value.text() != second.value.text()
+    assert np.allclose(np.concatenate(first.scene.camera()), np.concatenate(second.scene.camera()))
+
+
+def test_a_place_under_the_cursor_is_read(qtbot, viewer, files):
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    viewer.controls.quantity.setCurrentIndex(viewer.controls.quantity.findData("force"))
+    side = viewer.sides[0]
+    qtbot.waitUntil(lambda: side.frame is not None and side.frame.unit == "N", timeout=LONG)
+    probe = side.playback.probe
+    face = int(np.argmax(np.nan_to_num(side.frame.values)[probe.faces].min(axis=1)))
+    side.scene.hovered.emit(Pick(face, probe.vertices[probe.faces[face]].mean(axis=0)))
+    assert " ± " in side.value.text()
+    assert side.value.text().endswith(" N")
+    assert "mm" in side.place.text()
+    side.scene.hovered.emit(None)
+    assert side.value.text() == ""
+
+
+@pytest.mark.parametrize("suffix", ["png", "ply", "glb", "gif"])
+def test_what_is_saved_is_what_the_command_writes(qtbot, viewer, files, tmp_path, suffix, monkeypatch):
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    controls = viewer.controls
+    controls.quantity.setCurrentIndex(controls.quantity.findData("force"))
+    controls.bandwidth.setValue(3.0)
+    controls.force.set_values(2.5, controls.force.limits()[1])
+    viewer.time.slider.set_values(0.5, 3.25)
+    viewer.time.speed.setCurrentIndex(viewer.time.speed.findData(20.0))
+    mine, theirs = tmp_path / f"mine.{suffix}", tmp_path / f"theirs.{suffix}"
+    what = {"png": "picture", "gif": "film"}.get(suffix, "mesh")
+    chosen = (str(mine.with_suffix("") if suffix == "png" else mine), "Picture (*.png)")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: chosen)
+    controls.asked_save.emit(what)
+    qtbot.waitUntil(lambda: "Saved" in controls.message.text(), timeout=LONG)
+    arguments = [files / "one.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json"]
+    arguments += ["--quantity", "force", "--bandwidth", 3, "--from", 0.5, "--to", 3.25, "--force-from", 2.5]
+    arguments += ["--speed", 20, "--out", theirs]
+    done = CliRunner().invoke(commands, ["heatmap", *map(str, arguments)])
+    assert done.exit_code == 0, done.output
+    assert mine.read_bytes() == theirs.read_bytes()
+
+
+def test_dropped_files_and_what_is_missing(qtbot, viewer, files):
+    def drop(*names):
+        data = QMimeData()
+        data.setUrls([QUrl.fromLocalFile(str(files / name)) for name in names])
+        buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+        viewer.dropEvent(QDropEvent(QPointF(QPoint(9, 9)), Qt.DropAction.CopyAction, data, buttons, keys))
+
+    message = viewer.controls.message
+    drop("one.mcap")
+    qtbot.waitUntil(lambda: "give the probe that was touched" in message.text(), timeout=LONG)
+    drop("p.ply")
+    qtbot.waitUntil(lambda: "give its calibration.json" in message.text(), timeout=LONG)
+    drop("c.json")
+    qtbot.waitUntil(lambda: settled(viewer), timeout=LONG)
+    assert [source.name for source in viewer.sources] == ["one.mcap"]
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("x.txt", b"hello", "nothing that can be shown"),
+        ("x.json", b"{", "not JSON"),
+        ("none.csv", None, "cannot be read"),
+        ("x.csv", b"t,x,y,z,k,face,reason,candidates,sigma_max_mm\n", "probe"),
+    ],
+)
+def test_a_bad_file_is_said(qtbot, viewer, tmp_path, name, content, words):
+    if content is not None:
+        (tmp_path / name).write_bytes(content)
+    viewer.open([tmp_path / name])
+    qtbot.waitUntil(lambda: words in viewer.controls.message.text(), timeout=LONG)
+    assert viewer.sources == []
+
+
+def test_a_session_is_opened(qtbot, viewer, files, tmp_path):
+    with Session.create(tmp_path / "s", by="ada") as session:
+        for kind, name in (("recording", "one.mcap"), ("probe", "p.ply"), ("calibration", "c.json")):
+            session.add_input(files / name, kind)
+    viewer.open([tmp_path / "s"])
+    qtbot.waitUntil(lambda: settled(viewer), timeout=LONG)
+    assert [source.name for source in viewer.sources] == ["s: one.mcap"]
+
+
+def test_work_is_shown_and_can_be_stopped(qtbot, viewer, files, tmp_path, monkeypatch):
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    viewer.time.speed.setCurrentIndex(viewer.time.speed.findData(0.1))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "a.gif"), ""))
+    viewer.controls.asked_save.emit("film")
+    assert viewer.controls.bar.isVisible()
+    qtbot.mouseClick(viewer.controls.stop, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: "Stopped" in viewer.controls.message.text(), timeout=LONG)
+    qtbot.waitUntil(lambda: not viewer.controls.bar.isVisible(), timeout=LONG)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("value", "sigma", "text"),
+    [
+        (0.7312345, 0.123, "0.73 ± 0.12 N"),
+        (12.3456, 2.3, "12.3 ± 2.3 N"),
+        (1234.5, 30.0, "1234 ± 30 N"),
+        (2.345678, float("nan"), "2.35 N"),
+        (1.0, 0.0, "1 N"),
+    ],
+)
+def test_numbers_have_no_more_digits_than_they_are_sure(value, sigma, text):
+    assert number_with_unit(value, sigma, "N") == text

@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+import pytest
+
+from app.bench import Bench, Weight
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.steps import Step
+
+
+@pytest.fixture
+def bench(qapp, tmp_path):  # noqa: ARG001 - for what it does
+    made = Bench(Desk(Session.create(tmp_path / "s")), None)
+    yield made
+    made.close()
+
+
+def test_what_is_done_with_the_session_is_told(qtbot, bench):
+    with qtbot.waitSignal(bench.changed, timeout=10_000):
+        bench.do("Writing", lambda session: session.set_parameter("devices.serial", "7"))
+    assert bench.desk.state.settings["devices.serial"].value == "7"
+
+
+def test_order_is_kept(qtbot, bench):
+    done = []
+    for number in range(20):
+        bench.do(
+            "Writing", lambda session, number=number: session.note(str(number)), lambda _: done.append(1)
+        )
+    qtbot.waitUntil(lambda: len(done) == 20, timeout=15_000)
+    assert [note.text for note in bench.desk.state.notes] == [str(number) for number in range(20)]
+
+
+def test_running_and_failed_steps(qtbot, bench):
+    with qtbot.waitSignal(bench.changed):
+        bench.set_running(Step.GRAVITY, going_on=True)
+    with qtbot.assertNotEmitted(bench.changed):
+        bench.set_running(Step.GRAVITY, going_on=True)
+    with qtbot.waitSignal(bench.changed):
+        bench.set_failed(Step.PROBE, "The mesh is open.")
+    assert bench.failed == {Step.PROBE: "The mesh is open."}
+    bench.set_failed(Step.PROBE, "")
+    assert bench.failed == {}
+
+
+def test_messages(qtbot, bench):
+    with qtbot.waitSignal(bench.told) as told:
+        bench.tell(Weight.GOOD, "Done.", "details")
+    assert (told.args[0].weight, told.args[0].text) == ("good", "Done.")
+
+
+def test_closing_stops_work_and_frees_the_session(bench, tmp_path):
+    job = bench.jobs.start("Work", lambda _p, cancelled: _until(cancelled))
+    bench.close()
+    assert job.cancelled()
+    with Session.open(tmp_path / "s"):
+        pass
+
+
+def _until(cancelled):
+    import time
+
+    while not cancelled():
+        time.sleep(0.005)

@@ -1,0 +1,84 @@
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from app import cli
+from pipeline.errors import InputError
+from pipeline.session import Session
+
+
+def run(*arguments, **environment):
+    env = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    env.pop("QT_QPA_PLATFORM", None)
+    command = [sys.executable, "-m", "app.cli", *arguments]
+    return subprocess.run(
+        command, env=env | environment, capture_output=True, text=True, timeout=60, check=False
+    )
+
+
+def test_help_names_the_window_and_imports_no_qt():
+    result = run("--help")
+    assert result.returncode == 0
+    assert all(name in result.stdout for name in ("gui", "heatmap-viewer", "screenshots", "locate"))
+    code = "import sys, app.cli; sys.exit(any(name in sys.modules for name in ('PySide6', 'vtkmodules', 'numpy')))"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("arguments", [(), ("gui",), ("heatmap-viewer",), ("screenshots", "x")])
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only there is a screen a variable")
+def test_without_a_screen_there_is_a_sentence(arguments):
+    result = run(*arguments)
+    assert result.returncode == 2
+    assert "no screen" in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_without_qt_there_is_a_sentence(monkeypatch):
+    monkeypatch.setattr(cli, "find_spec", lambda name: None if name == "PySide6" else object())
+    with pytest.raises(InputError, match=r"PySide6.*pip install 'contactbench\[gui\]'"):
+        cli.check_screen()
+
+
+def test_the_window_opens_and_ends(tmp_path):
+    if not os.environ.get("DISPLAY"):
+        pytest.skip("needs a screen")
+    code = (
+        "import sys; from PySide6.QtCore import QTimer; from PySide6.QtWidgets import QApplication\n"
+        "from app import application\n"
+        "made = application.prepared()\n"
+        "QTimer.singleShot(500, lambda: [w.close() for w in QApplication.topLevelWidgets()])\n"
+        "sys.exit(application.run(language='en'))"
+    )
+    home = tmp_path / "home"
+    env = os.environ | {"CONTACTBENCH_HOME": str(home)}
+    result = subprocess.run(
+        [sys.executable, "-c", code], env=env, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert result.returncode == 0, result.stderr
+    assert (home / "config" / "window.json").exists()
+    assert (home / "log" / "contactbench.log").exists()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="signals as there")
+def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
+    if not os.environ.get("DISPLAY"):
+        pytest.skip("needs a screen")
+    env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
+    command = [sys.executable, "-m", "app.cli", "gui", "--virtual", "--session", str(tmp_path / "s")]
+    with subprocess.Popen(command, env=env, stderr=subprocess.PIPE, text=True) as window:
+        deadline = time.monotonic() + 60
+        recent = tmp_path / "home" / "config" / "window.json"
+        while time.monotonic() < deadline and not recent.exists():
+            time.sleep(0.1)
+        assert recent.exists()  # the session is shown
+        window.send_signal(signal.SIGINT)
+        _, said = window.communicate(timeout=60)
+    assert window.returncode == 0, said
+    with Session.open(tmp_path / "s") as session:
+        assert session.state.settings["devices.sensor"].value.startswith("virtual://")

@@ -1,0 +1,231 @@
+import time
+
+import pytest
+from PySide6.QtCore import Qt
+
+from app.bench import Bench
+from app.pages.devices import DevicesPage
+from app.undo import SessionCommand, SetParameter
+from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from pipeline.devices.transport.ports import SerialPort
+from pipeline.devices.url import Protocol
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.live_devices import Devices
+from pipeline.workbench.steps import Step
+
+PATIENCE_MS = 30_000
+BENCH = "virtual://bench?probe=convex&sensor=paper"
+
+
+@pytest.fixture
+def bench(tmp_path, qapp):  # noqa: ARG001 - a window needs one
+    found = Bench(Desk(Session.create(tmp_path / "session")), None)
+    yield found
+    found.let_go()
+    found.end()
+
+
+@pytest.fixture
+def page(bench, qtbot):
+    found = DevicesPage(bench)
+    qtbot.addWidget(found)
+    found.resize(380, 720)
+    found.show()
+    qtbot.waitExposed(found)
+    yield found
+    found.close_page()
+
+
+def settings(bench):
+    return {key: setting.value for key, setting in bench.desk.state.settings.items()}
+
+
+def settle(bench):
+    bench.desk.do(lambda _session: None).result(30)
+
+
+def click(qtbot, button):
+    assert button.isEnabled()
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def tick_until(qtbot, page, condition):
+    def ticked():
+        page._trial_at = 0.0
+        page.tick()
+        return condition()
+
+    qtbot.waitUntil(ticked, timeout=PATIENCE_MS)
+
+
+def choose(source, name):
+    source.kind.setCurrentIndex(source.kind.findText(name))
+
+
+def test_using_the_virtual_bench_writes_settings_opens_it_and_can_be_undone(page, bench, qtbot):
+    page.sensor.probe.setCurrentIndex(page.sensor.probe.findData("convex"))
+    click(qtbot, page.use_button)
+    tick_until(qtbot, page, lambda: "Connected" in page.trial.words and "200 Hz" in page.trial.words)
+    assert settings(bench)["devices.sensor"] == settings(bench)["devices.poses"] == BENCH
+    assert bench.live.addresses == (BENCH, BENCH)
+    assert bench.undo.undoText() == "choose devices"
+    bench.undo.undo()
+    qtbot.waitUntil(lambda: bench.live.pair is None, timeout=PATIENCE_MS)
+    assert Devices.of(bench.desk.state) == Devices()
+    bench.undo.redo()
+    qtbot.waitUntil(lambda: settings(bench)["devices.sensor"] == BENCH, timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: page.devices().sensor == BENCH, timeout=PATIENCE_MS)
+
+
+def test_testing_a_connection_changes_nothing_in_the_session(page, bench, qtbot):
+    click(qtbot, page.try_button)
+    tick_until(qtbot, page, lambda: "Connected" in page.trial.words)
+    assert not settings(bench)
+    assert "0 lost" in page.trial.words
+    assert not bench.undo.canUndo()
+
+
+def test_noise_and_margin_of_each_channel_are_shown(page, qtbot):
+    click(qtbot, page.try_button)
+    cells = page.channels._cells
+    tick_until(qtbot, page, lambda: cells[0][0].text() != "–")
+    assert float(cells[0][0].text().split()[0]) == pytest.approx(0.05, rel=0.5)
+    assert cells[5][0].text().endswith("N·m")
+    assert cells[0][2].text().endswith("%")
+
+
+def test_a_wrong_address_is_told_beside_it_and_nothing_can_be_used(page):
+    choose(page.sensor, "Address typed in")
+    page.sensor.address.setText("ur+tcp://1.2.3.4")
+    assert "no force/torque sensor" in page.sensor.problem
+    assert not page.use_button.isEnabled()
+    page.sensor.address.setText("sri+tcp://1.2.3.4")
+    assert not page.sensor.problem
+    assert "choose the robot" in page.poses.problem
+    choose(page.poses, "Robot")
+    page.poses.address.setText("ur+tcp://1.2.3.5")
+    assert page.use_button.isEnabled()
+    assert page.devices().poses == "ur+tcp://1.2.3.5"
+    choose(page.poses, "Nothing tells it")
+    assert page.devices().poses is None
+
+
+def test_a_recording_that_is_not_there_is_told_in_words(page, bench, qtbot, tmp_path):
+    told = []
+    bench.told.connect(told.append)
+    choose(page.sensor, "Replay a recording")
+    assert not page.use_button.isEnabled()  # none is named yet
+    page.sensor.recording.edit.setText(str(tmp_path / "none.mcap"))
+    click(qtbot, page.try_button)
+    qtbot.waitUntil(lambda: bool(told), timeout=PATIENCE_MS)
+    assert "could not be opened" in told[0].text
+    assert "none.mcap" in page.sensor.problem
+    assert Step.DEVICES in bench.failed
+    assert page.try_button.isEnabled()
+
+
+def test_ports_come_and_go_while_one_is_chosen(page):
+    ports = (
+        SerialPort("/dev/ttyUSB0", "Bota Systems", None, Protocol.BOTA),
+        SerialPort("/dev/ttyUSB1", "FT232R", None, None),
+    )
+    page.sensor.set_ports(ports)
+    page.sensor.kind.setCurrentIndex(0)
+    assert page.sensor.kind.currentText() == "BOTA sensor at /dev/ttyUSB0"
+    assert page.devices().sensor == "bota+serial:///dev/ttyUSB0"
+    page.sensor.kind.setCurrentIndex(1)
+    page.sensor.protocol.setCurrentIndex(page.sensor.protocol.findData(Protocol.ROBOTIQ))
+    assert page.devices().sensor == "robotiq+serial:///dev/ttyUSB1"
+    page.sensor.set_ports(ports[:1])
+    assert "not plugged in" in page.sensor.kind.currentText()
+    assert page.devices().sensor == "robotiq+serial:///dev/ttyUSB1"
+    page.sensor.set_ports(ports)
+    assert "not plugged in" not in page.sensor.kind.currentText()
+
+
+def test_ports_are_looked_for_beside_the_window(page, qtbot, monkeypatch):
+    found = [SerialPort("/dev/ttyACM7", "SRI M8128", None, Protocol.SRI)]
+    monkeypatch.setattr("app.pages.devices.list_ports", lambda: found)
+    page.enter()
+    tick_until(qtbot, page, lambda: page.sensor.kind.findText("SRI sensor at /dev/ttyACM7") >= 0)
+
+
+def test_what_the_session_says_is_shown(bench, qtbot):
+    chosen = Devices("sri+tcp://1.2.3.4?rate=500", "still://?rpy=0,90,0", (0.0, 0.0, 90.0), "SN 3")
+    for key, value in chosen.settings.items():
+        bench.desk.do(lambda session, key=key, value=value: session.set_parameter(key, value)).result(30)
+    page = DevicesPage(bench)
+    qtbot.addWidget(page)
+    assert page.devices() == chosen
+    page.close_page()
+
+
+def test_an_unplugged_sensor_and_its_return_are_told(page, bench, qtbot):
+    told = []
+    bench.told.connect(lambda message: told.append(message.text))
+    with emulator(
+        "sri", "tcp", script=Script([FaultEvent(1.0, Fault.RECONNECT, 1.5)]), signal=sine((5, 5, 5, 1, 1, 1))
+    ) as device:
+        choose(page.sensor, "Address typed in")
+        choose(page.poses, "Nothing tells it")
+        page.sensor.address.setText(device.url)
+        click(qtbot, page.use_button)
+        tick_until(qtbot, page, lambda: any("plug it in again" in text for text in told))
+        assert "Lost" in page.trial.words or "Connected" in page.trial.words
+        tick_until(qtbot, page, lambda: any("is back" in text for text in told))
+
+
+def test_devices_cannot_be_changed_while_a_recording_is_made(page, bench):
+    assert page.use_button.isEnabled()
+    bench.set_running(Step.GRAVITY, True)
+    assert not page.use_button.isEnabled()
+    assert "recording" in page._note.text()
+    bench.set_running(Step.GRAVITY, False)
+    assert page.use_button.isEnabled()
+
+
+def test_nothing_is_wider_than_the_page(page):
+    page.resize(340, 700)
+    area = page.findChild(type(page.sensor)).parentWidget()
+    assert area.width() <= 340
+    assert page.sensor.minimumSizeHint().width() <= 330
+
+
+# ---- undo of what is done with the session -------------------------------------------------------
+
+
+def test_a_command_that_failed_is_told_and_leaves_nothing_to_undo(bench, qtbot):
+    failures = []
+    bench.undo.push(
+        SessionCommand(
+            bench, "try", lambda session: session.set_parameter("NONSENSE", 1), None, failures.append
+        )
+    )
+    qtbot.waitUntil(lambda: bool(failures), timeout=PATIENCE_MS)
+    count = bench.desk.state.count
+    bench.undo.undo()
+    settle(bench)
+    assert bench.desk.state.count == count
+
+
+def test_undone_before_it_is_over(bench):
+    def slow(session):
+        time.sleep(0.2)
+        session.set_parameter("calibration.inverse", True)
+
+    bench.undo.push(SessionCommand(bench, "turn round", slow))
+    bench.undo.undo()
+    settle(bench)
+    assert settings(bench)["calibration.inverse"] is False
+    bench.undo.redo()
+    settle(bench)
+    assert settings(bench)["calibration.inverse"] is True
+
+
+def test_one_parameter(bench):
+    bench.undo.push(SetParameter(bench, "devices.serial", "SN 1", "set the serial number"))
+    bench.undo.push(SetParameter(bench, "devices.serial", "SN 2", "set the serial number"))
+    bench.undo.undo()
+    settle(bench)
+    assert settings(bench)["devices.serial"] == "SN 1"

@@ -1,0 +1,126 @@
+"""The Export page in a real window: what it says, and the bytes that it writes."""
+
+import shutil
+
+import pytest
+from typer.testing import CliRunner
+from workbench.touch_session import make_session, verify
+
+from app.bench import Bench, Weight
+from app.pages.export import ExportPage
+from pipeline import cli
+from pipeline.config.runtime import RuntimeConfig
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.scene import Scene
+
+LONG = 30_000
+
+
+class Window:
+    """The page alone; the scene is not shown."""
+
+    def __init__(self, qtbot, folder):
+        self.qtbot, self.told = qtbot, []
+        self.desk, self.scene = Desk(Session.open(folder, by="ada")), Scene()
+        qtbot.addWidget(self.scene)
+        self.bench = Bench(self.desk, self.scene)
+        self.bench.told.connect(self.told.append)
+        self.page = ExportPage(self.bench)
+        qtbot.addWidget(self.page)
+        self.page.resize(360, 640)
+        self.page.show()
+        qtbot.waitExposed(self.page)
+        self.bench.changed.connect(lambda: self.page.show_state(StepStatus(StepState.READY, "")))
+        self.page.enter()
+        self.wait(lambda: self.page.view is not None)
+
+    def wait(self, condition):
+        self.qtbot.waitUntil(condition, timeout=LONG)
+
+    def close(self):
+        self.page.leave()
+        self.page.close_page()
+        self.bench.close()
+        self.scene.close_scene()
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Make two sessions once: one that is calibrated, one that is verified, too."""
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "files").mkdir()
+    make_session(folder / "calibrated", folder / "files")
+    verify(shutil.copytree(folder / "calibrated", folder / "verified"))
+    return folder
+
+
+@pytest.fixture
+def window(qtbot, made, tmp_path, request):
+    name = getattr(request, "param", "verified")
+    opened = Window(qtbot, shutil.copytree(made / name, tmp_path / "s"))
+    yield opened
+    opened.close()
+
+
+def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_path):
+    page = window.page
+    assert "ready" in page.standing.text()
+    assert page.zip.isEnabled()
+    assert not page.unverified.isVisible()
+    assert "probe.ply" in page.files.text()
+    page.settings.operator.setText("Ada Lovelace")
+    page.settings.operator.editingFinished.emit()
+    page.settings.force.setValue(20.0)
+    window.wait(lambda: "Ada Lovelace" in page.figures.text() and "20 N" in page.figures.text())
+    page.write(tmp_path / "window.zip")
+    window.wait(lambda: page.exported is not None)
+    assert page.exported.verified
+    assert "verified" in page.result.text()
+    assert window.told[-1].weight is Weight.GOOD
+    window.wait(lambda: "exported as it is" in page.standing.text())
+    assert page.show_folder.isVisible()
+    folder = window.desk.folder
+    done = CliRunner().invoke(
+        cli.app, ["config", "export", str(folder), "--out", str(tmp_path / "command.zip")]
+    )
+    assert done.exit_code == 0, done.stderr
+    assert (tmp_path / "window.zip").read_bytes() == (tmp_path / "command.zip").read_bytes()
+    window.bench.undo.undo()
+    window.wait(lambda: "limits.max_force_N: 20 → 30" in page.changes.text())
+
+
+@pytest.mark.parametrize("window", ["calibrated"], indirect=True)
+def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
+    page, went = window.page, []
+    window.bench.go_to.connect(went.append)
+    page.checklist.wanted.emit(Step.VERIFY)
+    assert went == [Step.VERIFY]
+    page.settings.rate.setValue(200.0)
+    window.wait(lambda: "Not verified" in page.standing.text())
+    assert not page.zip.isEnabled()
+    page.unverified.setChecked(True)
+    assert page.zip.isEnabled()
+    page.write(tmp_path / "b")
+    window.wait(lambda: page.exported is not None)
+    assert not RuntimeConfig.load(tmp_path / "b").model.verified
+    assert "NOT verified" in page.result.text()
+
+
+def test_a_place_that_does_not_do_is_said_in_words(window, tmp_path):
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "mine.txt").write_text("x")
+    page = window.page
+    page.write(tmp_path / "b")
+    window.wait(lambda: bool(page.result.text()))
+    assert window.told[-1].weight is Weight.ERROR
+    assert page.exported is None
+    window.wait(lambda: page.zip.isEnabled())
+
+
+def test_nothing_is_wider_than_the_page(window):
+    from PySide6.QtWidgets import QScrollArea
+
+    area = window.page.findChild(QScrollArea)
+    window.wait(lambda: area.widget().width() <= area.viewport().width())  # once the scroll bar has its room

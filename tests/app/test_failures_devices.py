@@ -1,0 +1,190 @@
+"""Devices that are not there, are pulled out, or give nonsense: said in words, and gone on from."""
+
+from __future__ import annotations
+
+import shutil
+
+import pytest
+from PySide6.QtCore import Qt
+from workbench.gravity_bench import batches, record
+
+from app.pages.gravity_run import Phase
+from pipeline.devices.emulate import emulator
+from pipeline.session import Session
+from pipeline.session.check import check
+from pipeline.workbench.steps import Step
+
+from .failures import prepared, whole
+
+STILL = "still://?rpy=180,0,0"
+
+
+@pytest.fixture
+def made(qtbot, tmp_path):
+    with whole(qtbot, tmp_path) as window:
+        yield window
+
+
+@pytest.fixture(scope="module")
+def ready(tmp_path_factory):
+    return prepared(tmp_path_factory.mktemp("made"))
+
+
+def equipped(folder, sensor, poses=STILL):
+    """Make a session that names devices."""
+    with Session.create(folder) as session:
+        session.set_parameter("devices.sensor", sensor)
+        session.set_parameter("devices.poses", poses)
+    return folder
+
+
+def port_of(url):
+    return int(url.partition("127.0.0.1:")[2].partition("?")[0].strip("/"))
+
+
+def click(made, button):
+    made.wait(button.isEnabled)
+    made.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def typed(page, address, poses="Nothing tells it"):
+    page.sensor.kind.setCurrentIndex(page.sensor.kind.findText("Address typed in"))
+    page.poses.kind.setCurrentIndex(page.poses.kind.findText(poses))
+    page.sensor.address.setText(address)
+
+
+def test_unplugged_while_weighing_and_back(made, tmp_path):
+    folder = tmp_path / "s"
+    with emulator("sri", "tcp", rate=200.0) as sensor:
+        port = port_of(sensor.url)
+        made.open(equipped(folder, sensor.url))
+        made.wait(lambda: made.window.live.connected)
+        page = made.page(Step.GRAVITY)
+        click(made, page.primary)
+        made.wait(lambda: page.run.phase is Phase.CAPTURING)
+        made.wait(lambda: page.run.work.view().state is not None and made.window.bench.live.samples > 100)
+    made.wait_said("sensor", "goes on when it is back")
+    assert made.alive()
+    made.page(Step.DEVICES)
+    made.wait_said("the sensor is gone")  # and what to do, on the page of devices
+    made.wait_said("plug it in again")
+    made.page(Step.GRAVITY)
+    with emulator("sri", "tcp", port=port, rate=200.0):
+        made.wait_said("samples again")
+        click(made, page.second)
+        made.wait(lambda: page.run.phase is Phase.IDLE)
+    assert ("recording", "gravity-1.mcap") in made.window.bench.desk.state.current_inputs
+    assert not made.unexpected
+
+
+def test_a_cut_serial_line_while_weighing_keeps_what_was_recorded(made, tmp_path):
+    folder = tmp_path / "s"
+    with emulator("sri", "serial", rate=200.0) as sensor:
+        made.open(equipped(folder, sensor.url))
+        made.wait(lambda: made.window.live.connected)
+        page = made.page(Step.GRAVITY)
+        click(made, page.primary)
+        made.wait(lambda: page.run.phase is Phase.CAPTURING)
+        before = made.window.bench.live.samples  # the line was read before the recording began
+        made.wait(lambda: made.window.bench.live.samples > before + 150)
+    made.wait_said("sensor", "goes on when it is back")
+    click(made, page.second)  # nobody has to wait for it
+    made.wait(lambda: page.run.phase is Phase.IDLE)
+    (kept,) = [each for each in made.window.bench.desk.state.inputs if each.name == "gravity-1.mcap"]
+    assert kept.about["streams"]["sensor"]["samples"] > 100
+    assert not made.unexpected
+
+
+def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
+    folder = shutil.copytree(ready, tmp_path / "s")
+    with emulator("sri", "tcp", rate=200.0) as sensor:
+        with Session.open(folder) as session:
+            session.set_parameter("devices.sensor", sensor.url)
+            session.set_parameter("devices.poses", STILL)
+        made.open(folder)
+        made.wait(lambda: made.window.live.connected)
+        page = made.page(Step.VERIFY)
+        made.wait(lambda: page.tool is not None)
+        page.panel_markers.count.setValue(2)
+        click(made, page.panel_markers.spread)
+        made.wait(lambda: len(page.markers) == 2 and not page._editing.pending)
+        page.tabs.setCurrentIndex(2)
+        click(made, page.panel_touch.start)
+        made.wait(lambda: page.work.going_on)
+    made.wait_said("sensor", "goes on when it is back")
+    assert "goes on when it is back" in page.panel_touch.notice.text()
+    assert made.alive()
+    click(made, page.panel_touch.finish)  # nothing was touched: there is no verdict, and it is said why
+    made.wait(lambda: not page.work.going_on)
+    made.idle()
+    made.wait(lambda: page.panel_touch.notice.text() == made.window.messages.texts()[0])
+    assert any(words in made.window.messages.texts()[0] for words in ("touch", "verify-1.mcap"))
+    assert ("recording", "verify-1.mcap") in made.window.bench.desk.state.current_inputs
+    assert not made.unexpected
+    assert ("calibration", "calibration.json") in made.window.bench.desk.state.current_results
+
+
+@pytest.mark.parametrize(
+    ("address", "words"),
+    [
+        ("sri+tcp:/127.0.0.1", "://"),
+        ("nonsense", "://"),
+        ("sri+tcp://127.0.0.1:99999", "port"),
+        ("ur+tcp://1.2.3.4", "no force/torque sensor"),
+    ],
+)
+def test_a_wrong_address_cannot_be_used_and_says_why(made, tmp_path, address, words):
+    made.new(tmp_path / "s")
+    page = made.page(Step.DEVICES)
+    typed(page, address)
+    assert words in page.sensor.problem
+    assert not page.use_button.isEnabled()
+
+
+@pytest.mark.parametrize("way", ["nobody", "serial"])
+def test_nobody_there_is_waited_for_in_words(made, tmp_path, way):
+    made.new(tmp_path / "s")
+    page = made.page(Step.DEVICES)
+    typed(page, "sri+tcp://127.0.0.1:1" if way == "nobody" else f"sri+serial://{tmp_path}/ttyNone")
+    click(made, page.use_button)
+    made.wait(lambda: any(words in page.trial._findings.text() for words in ("does not answer", "is gone")))
+    assert made.alive()
+    made.page(Step.GRAVITY)
+    assert not made.unexpected
+
+
+@pytest.mark.parametrize("damage", ["missing", "truncated", "text", "empty"])
+def test_a_replay_that_cannot_be_played(made, tmp_path, damage):
+    with Session.create(tmp_path / "source") as session:
+        record(session, "gravity-1.mcap", batches(1))
+        whole_file = session.folder / session.state.inputs[0].file.path
+    file = tmp_path / "r.mcap"
+    content = whole_file.read_bytes()
+    bytes_of = {"truncated": content[:200], "text": b"Dear Sir or Madam", "empty": b""}
+    if damage != "missing":
+        file.write_bytes(bytes_of[damage])
+    made.new(tmp_path / "s")
+    page = made.page(Step.DEVICES)
+    page.sensor.kind.setCurrentIndex(page.sensor.kind.findText("Replay a recording"))
+    page.sensor.recording.edit.setText(str(file))
+    click(made, page.use_button)
+    made.wait_said("could not be opened", "r.mcap")
+    assert page.sensor.problem
+    assert page.use_button.isEnabled()  # to be tried again
+    assert made.alive()
+    assert not made.unexpected
+    made.window.close()
+    made.wait(lambda: not made.window.isVisible())
+    assert not check(tmp_path / "s").problems
+
+
+def test_a_session_whose_replay_is_gone_opens_all_the_same(made, tmp_path):
+    made.open(equipped(tmp_path / "s", f"replay://{tmp_path}/gone.mcap", f"replay://{tmp_path}/gone.mcap"))
+    made.wait_said("could not be opened", "gone.mcap", "step 1")
+    page = made.page(Step.GRAVITY)
+    made.idle()
+    if page.primary.isEnabled():
+        click(made, page.primary)
+        made.wait_said("no device is open")
+    assert made.alive()
+    assert not made.unexpected

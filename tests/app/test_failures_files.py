@@ -1,0 +1,364 @@
+"""Files that are bad and disks that are full: said in words, and nothing that was there is lost."""
+
+from __future__ import annotations
+
+import errno
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from PySide6.QtCore import Qt
+from workbench.gravity_bench import batches, record
+from workbench.probe_files import bad_meshes
+
+from app.pages.gravity_run import Phase
+from pipeline.session import Session
+from pipeline.session.check import check
+from pipeline.workbench.steps import Step
+
+from .conftest import shown
+from .failures import LONG, prepared, whole
+
+
+@pytest.fixture
+def made(qtbot, tmp_path):
+    with whole(qtbot, tmp_path) as window:
+        yield window
+
+
+@pytest.fixture(scope="module")
+def ready(tmp_path_factory):
+    return prepared(tmp_path_factory.mktemp("made"))
+
+
+@pytest.fixture
+def full(monkeypatch):
+    """Fill the disk, and free it."""
+
+    class Disk:
+        def fill(self):
+            def refuses(*_, **__):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+            for name in ("write", "fsync", "replace", "link"):
+                monkeypatch.setattr(os, name, refuses)
+
+        def free(self):
+            monkeypatch.undo()
+
+    return Disk()
+
+
+def results(folder):
+    with Session.open(folder, write=False) as session:
+        return {slot: result.number for slot, result in session.state.current_results.items()}
+
+
+def click(made, button):
+    made.wait(button.isEnabled)
+    made.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def close(made):
+    made.window.close()
+    made.wait(lambda: not made.window.isVisible())
+
+
+# ---- meshes --------------------------------------------------------------------------------------
+
+
+def test_bad_meshes_are_refused_one_after_the_other_and_the_probe_stays(made, ready, tmp_path):
+    folder = shutil.copytree(ready, tmp_path / "s")
+    before = results(folder)
+    bench = made.open(folder)
+    page = made.page(Step.PROBE)
+    made.idle()
+    for file, words in bad_meshes(tmp_path).items():
+        bench.scene.dropped.emit(file)
+        made.wait_said(words)
+        made.wait(lambda: not page.stages.worker.busy)
+        assert made.alive()
+    made.idle()
+    assert not made.unexpected
+    assert page.stages.view.used is not None
+    close(made)
+    assert results(folder) == before
+    assert not check(folder).problems
+
+
+# ---- a full disk ---------------------------------------------------------------------------------
+
+
+def use_devices(made, _tmp_path):
+    page = made.page(Step.DEVICES)
+    page.serial.setText("another")
+    click(made, page.use_button)
+
+
+def begin_gravity(made, _tmp_path):
+    page = made.page(Step.GRAVITY)
+    click(
+        made, page.second if page.second.isVisible() and "new" in page.second.text().lower() else page.primary
+    )
+
+
+def place_markers(made, _tmp_path):
+    page = made.page(Step.VERIFY)
+    click(made, page.panel_markers.spread)
+
+
+def export(made, tmp_path):
+    page = made.page(Step.EXPORT)
+    made.wait(lambda: page.view is not None)
+    page.unverified.setChecked(True)
+    page.write(tmp_path / "out.zip")
+
+
+@pytest.mark.parametrize("what", [use_devices, begin_gravity, place_markers, export])
+def test_a_disk_that_is_full_and_free_again(made, ready, tmp_path, full, what):
+    folder = shutil.copytree(ready, tmp_path / "s")
+    with Session.open(folder) as session:
+        session.set_parameter("config.rate", 200.0)
+    before = results(folder)
+    made.open(folder)
+    made.wait(lambda: made.window.live.connected)
+    made.page(Step.VERIFY)
+    made.wait(lambda: made.window.pages.current.tool is not None)
+    made.page(Step.EXPORT)
+    made.page(Step.DEVICES)
+    made.idle()
+    full.fill()
+    what(made, tmp_path)
+    made.wait_said("no space left")
+    made.wait(lambda: made.said("free space") or made.said("no space left", "choose"))
+    made.idle()
+    assert made.alive()
+    assert made.window.bench.running == set()
+    full.free()
+    shown(made.qtbot, made.window, made.window.menus.open_again)
+    made.wait(lambda: made.window.live.connected)
+    made.window.bench.desk.do(lambda session: session.note("goes on")).result(10)
+    assert not made.unexpected
+    close(made)
+    assert results(folder) == before
+    assert not check(folder).problems
+
+
+def test_a_disk_that_fills_while_it_is_recorded(made, tmp_path, full):
+    folder = tmp_path / "s"
+    shown(made.qtbot, made.window, lambda: made.window.sessions.try_virtual(folder))
+    made.wait(lambda: made.window.live.connected)
+    page = made.page(Step.GRAVITY)
+    click(made, page.primary)
+    made.wait(lambda: page.run.phase is Phase.CAPTURING and page.run._tape.seconds > 1.5)
+    full.fill()
+    made.wait_said("no space left")
+    assert made.alive()
+    click(made, page.second)
+    made.wait(lambda: page.run.phase is Phase.IDLE)
+    full.free()
+    made.idle()
+    assert not made.unexpected
+    close(made)
+    assert not check(folder).problems
+    with Session.open(folder) as session:  # what was written before is there, in the session or to be adopted
+        kept = [each.name for each in session.state.inputs] + [
+            each.name for each in (folder / "raw").iterdir()
+        ]
+    assert any("gravity-1.mcap" in name for name in kept)
+
+
+def mounted(folder, size):
+    folder.mkdir()
+    command = ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", str(folder)]
+    try:
+        subprocess.run(command, check=True, capture_output=True)
+    except (OSError, subprocess.CalledProcessError):
+        pytest.skip("this computer mounts no small disk for a test")
+    return folder
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="mounts a small disk as Linux does")
+def test_on_a_disk_that_really_is_small(made, tmp_path):
+    disk = mounted(tmp_path / "disk", "600k")
+    try:
+        made.new(disk / "s")
+        filling = os.open(disk / "filling", os.O_WRONLY | os.O_CREAT)
+        try:
+            while os.write(filling, b"x" * 4096):
+                pass
+        except OSError:
+            os.close(filling)
+        page = made.page(Step.DEVICES)
+        click(made, page.use_button)
+        for number in range(200):
+            made.window.bench.do(
+                "Noting", lambda session, number=number: session.note(f"{number} " + "n" * 1000)
+            )
+        made.wait_said("no space left", "free space")
+        made.idle()
+        assert made.alive()
+        (disk / "filling").unlink()
+        shown(made.qtbot, made.window, made.window.menus.open_again)
+        made.window.bench.desk.do(lambda session: session.note("goes on")).result(10)
+        close(made)
+        assert not check(disk / "s").problems
+    finally:
+        close(made)
+        subprocess.run(["umount", "-l", str(disk)], check=False)
+
+
+def test_a_home_that_cannot_be_written_is_no_reason_to_stop(made, tmp_path, full):
+    made.new(tmp_path / "s")
+    full.fill()
+    made.page(Step.PROBE)  # remembered for the next start, if that goes
+    made.idle()
+    full.free()
+    assert made.alive()
+    assert not made.unexpected
+
+
+# ---- sessions ------------------------------------------------------------------------------------
+
+
+def damaged(ready, folder, damage):
+    shutil.copytree(ready, folder)
+    journal = folder / "journal"
+    content = bytearray(journal.read_bytes())
+    if damage == "flipped":
+        content[len(content) // 3] ^= 0x10
+        journal.write_bytes(content)
+    elif damage == "empty":
+        journal.write_bytes(b"")
+    elif damage == "no journal":
+        journal.unlink()
+    elif damage == "result is gone":
+        for file in (folder / "results").iterdir():
+            file.unlink()
+    elif damage == "result is changed":
+        for file in (folder / "results").iterdir():
+            file.chmod(0o644)
+            changed = bytearray(file.read_bytes())
+            changed[len(changed) // 2] ^= 0x01
+            file.write_bytes(changed)
+    return folder
+
+
+@pytest.mark.parametrize("damage", ["flipped", "empty", "no journal"])
+def test_a_damaged_journal_is_said_and_left_as_it_is(made, ready, tmp_path, damage):
+    folder = damaged(ready, tmp_path / "s", damage)
+    before = {file.name: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+    made.window.sessions.open(folder)
+    made.wait(lambda: made.window.start.question.sentence != "")
+    sentence = made.window.start.question.sentence
+    assert str(folder) in sentence
+    assert "Traceback" not in sentence
+    assert any(word in sentence for word in ("backup", "repair", "check the path"))
+    assert made.window.bench is None
+    after = {file.name: file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+    assert before == after
+    made.new(tmp_path / "another")  # and the window goes on
+    assert not made.unexpected
+
+
+@pytest.mark.parametrize("damage", ["result is gone", "result is changed"])
+def test_results_that_are_damaged_are_said_and_every_page_still_opens(made, ready, tmp_path, damage):
+    made.open(damaged(ready, tmp_path / "s", damage))
+    for step in Step:
+        made.page(step)
+        made.idle()
+    made.wait_said("not as they were written", "session verify")
+    assert made.alive()
+    assert not made.unexpected
+
+
+def test_a_session_that_vanishes_while_it_is_open(made, ready, tmp_path):
+    folder = shutil.copytree(ready, tmp_path / "s")
+    made.open(folder)
+    made.idle()
+    shutil.move(folder, tmp_path / "elsewhere")
+    for step in Step:
+        made.page(step)
+    made.idle()
+    made.window.bench.do("Noting", lambda session: session.note("n"))
+    made.wait_said("open the session again")
+    assert made.alive()
+    assert not made.unexpected
+    close(made)
+    assert not check(tmp_path / "elsewhere").problems
+
+
+# ---- killed --------------------------------------------------------------------------------------
+
+_KILLED = """
+import sys
+from pathlib import Path
+from app import application
+from app.window import MainWindow
+from pipeline.workbench.steps import Step
+from PySide6.QtCore import QTimer
+
+class Window(MainWindow):
+    def look(self):
+        page = self.pages.current
+        if self.bench is None or self.pages.step is not Step.GRAVITY or not self.live.connected:
+            return
+        if page.run.phase == "idle":
+            page.primary.click()
+        elif page.run.phase == "capturing" and page.run._tape.seconds > 2.0:
+            print("recording", flush=True)
+
+    def show(self):
+        super().show()
+        self.timer = QTimer(self, interval=200)
+        self.timer.timeout.connect(self.look)
+        self.timer.start()
+
+application.MainWindow = Window
+application.run(Path(sys.argv[1]), virtual=True)
+"""
+
+
+def test_killed_while_it_records_the_next_start_asks_and_adopts(made, tmp_path):
+    folder = tmp_path / "s"
+    other = subprocess.Popen([sys.executable, "-c", _KILLED, str(folder)], stdout=subprocess.PIPE, text=True)
+    try:
+        assert other.stdout.readline().strip() == "recording"
+        time.sleep(0.6)  # half a second may be lost
+    finally:
+        other.send_signal(signal.SIGKILL)
+        other.wait()
+        other.stdout.close()
+    made.window.sessions.open(folder)
+    made.wait(lambda: made.window.start.question.sentence != "")
+    sentence = made.window.start.question.sentence
+    assert "ended abruptly" in sentence
+    assert sentence.endswith("?")
+    yes = made.window.start.question.answers()[0]
+    with made.qtbot.waitSignal(made.window.shown, timeout=LONG):
+        made.qtbot.mouseClick(yes, Qt.MouseButton.LeftButton)
+    made.wait_said("gravity-1.mcap", "adopted")
+    assert made.window.pages.step is Step.GRAVITY
+    page = made.window.pages.current
+    made.wait(lambda: page.primary.text() == "Go on with gravity-1.mcap")
+    (kept,) = [each for each in made.window.bench.desk.state.inputs if each.name == "gravity-1.mcap"]
+    assert kept.about["wrenches"] > 200
+    assert not made.unexpected
+    close(made)
+    assert not check(folder).problems
+
+
+def test_a_recording_is_adopted_after_an_ordinary_day_too(made, tmp_path):
+    with Session.create(tmp_path / "s") as session:
+        record(session, "gravity-1.mcap", batches(1), abruptly=True)
+    made.window.sessions.open(tmp_path / "s")
+    made.wait(lambda: made.window.start.question.sentence != "")
+    later = made.window.start.question.answers()[1]
+    with made.qtbot.waitSignal(made.window.shown, timeout=LONG):
+        made.qtbot.mouseClick(later, Qt.MouseButton.LeftButton)
+    assert list((tmp_path / "s" / "raw").glob("unfinished-*"))
+    assert made.alive()

@@ -1,0 +1,199 @@
+"""Somebody who presses everything in any order, for a minute: nothing is raised, nothing hangs, nothing is lost."""
+
+from __future__ import annotations
+
+import os
+import random
+
+import pytest
+from PySide6.QtCore import QModelIndex, QObject, Qt, QTimer
+from PySide6.QtGui import QAction, QColor, QDesktopServices
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractItemView,
+    QAbstractSpinBox,
+    QApplication,
+    QColorDialog,
+    QComboBox,
+    QFileDialog,
+    QLineEdit,
+    QMenu,
+    QSlider,
+    QTabBar,
+    QWidget,
+)
+
+from pipeline.session import Session
+from pipeline.session.check import check
+from pipeline.workbench.steps import Step
+
+from .failures import prepared, whole
+
+SECONDS = float(os.environ.get("CONTACTBENCH_MONKEY_S", "60"))
+SEED = int(os.environ.get("CONTACTBENCH_MONKEY_SEED", "8"))
+HANGS_S = 20.0  # a machine full of other work makes seconds out of nothing
+PRESSED = (
+    QAbstractButton,
+    QComboBox,
+    QAbstractSpinBox,
+    QTabBar,
+    QAbstractItemView,
+    QSlider,
+    QLineEdit,
+)
+KEYS = (
+    Qt.Key.Key_Space,
+    Qt.Key.Key_Return,
+    Qt.Key.Key_Delete,
+    Qt.Key.Key_Escape,
+    Qt.Key.Key_BracketLeft,
+    Qt.Key.Key_BracketRight,
+    Qt.Key.Key_Tab,
+    Qt.Key.Key_E,
+)
+
+
+class Monkey(QObject):
+    """Does something at random each time its timer says so; a timer, because a real event loop must serve it."""
+
+    def __init__(self, window, folder, seed):
+        super().__init__(window)
+        self.window, self.folder = window, folder
+        self.random = random.Random(seed)  # noqa: S311 - no secret
+        self.did = []
+        self.timer = QTimer(self, singleShot=True)
+        self.timer.timeout.connect(self._go)
+        self.timer.start(100)
+
+    def _go(self):
+        # Before it: a menu that pops up has an event loop of its own, in which this must go on.
+        self.timer.start(self.random.choice((0, 10, 40, 120, 300)))
+        try:
+            self.did.append(self._something())
+        except RuntimeError as error:  # what was chosen is gone by now
+            if "already deleted" not in str(error):
+                raise
+
+    def _something(self):
+        window, chance = self.window, self.random.random()
+        top = QApplication.activePopupWidget() or QApplication.activeModalWidget() or window
+        if isinstance(top, (QFileDialog, QMenu)) or (top is not window and chance < 0.4):
+            top.close()
+            return f"close {type(top).__name__}"
+        if window.bench is None and not window._running():
+            window.sessions.open(self.folder)
+            return "open"
+        if chance < 0.1:
+            step = self.random.choice(list(Step))
+            window.show_step(step)
+            return f"step {step}"
+        if chance < 0.2:
+            action = self.random.choice((window.menus.undo, window.menus.redo))
+            words = action.text()
+            action.trigger()
+            return words
+        if chance < 0.25:
+            return self._menu()
+        if chance < 0.255:
+            window.close_session()
+            return "close session"
+        if chance < 0.3:
+            key = self.random.choice(KEYS)
+            QTest.keyClick(QApplication.focusWidget() or window, key)
+            return f"key {key.name}"
+        return self._press(top)
+
+    def _menu(self):
+        menus = self.window.menuBar().findChildren(QMenu)
+        actions = [each for menu in menus for each in menu.actions() if self._harmless(each)]
+        action = self.random.choice(actions)
+        words = action.text()
+        action.trigger()
+        return f"menu {words}"
+
+    def _harmless(self, action: QAction):
+        words = action.text().replace("&", "")
+        far = words in {"Quit", "Full screen", "Close session"} or "diagnostics" in words
+        return action.isEnabled() and not action.menu() and not action.isSeparator() and not far
+
+    def _press(self, top):
+        page = self.window.pages.current if self.window.bench is not None else None
+        # What matters most is on the page.
+        inside = page if top is self.window and page is not None and self.random.random() < 0.75 else top
+        there = [each for each in inside.findChildren(QWidget) if isinstance(each, PRESSED)]
+        there = [each for each in there if each.isVisible() and each.isEnabled()]
+        if not there:
+            return "nothing"
+        widget = self.random.choice(there)
+        words = f"{type(widget).__name__} {widget.accessibleName() or getattr(widget, 'text', str)()}"
+        self._use(widget)
+        return f"{words} on {self.window.pages.step}"
+
+    def _use(self, widget):
+        pick = self.random
+        if isinstance(widget, QAbstractSpinBox):
+            widget.stepBy(pick.choice((-3, -1, 1, 5)))
+        elif isinstance(widget, QComboBox):
+            index = pick.randrange(max(widget.count(), 1))
+            widget.setCurrentIndex(index)
+            widget.activated.emit(index)
+        elif isinstance(widget, QTabBar):
+            widget.setCurrentIndex(pick.randrange(max(widget.count(), 1)))
+        elif isinstance(widget, QLineEdit):
+            widget.setFocus()
+            QTest.keyClicks(widget, pick.choice(("x", "12", "/no/where", "-")))
+        elif isinstance(widget, QSlider):
+            widget.setValue(pick.randint(widget.minimum(), widget.maximum()))
+        elif isinstance(widget, QAbstractItemView):
+            model = widget.model()
+            if model is not None and model.rowCount(QModelIndex()):
+                index = model.index(pick.randrange(model.rowCount(QModelIndex())), 0)
+                at = widget.visualRect(index).center()
+                if widget.viewport().rect().contains(at):
+                    QTest.mouseClick(
+                        widget.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at
+                    )
+        else:
+            QTest.mouseClick(widget, Qt.MouseButton.LeftButton)
+
+
+@pytest.fixture
+def harmless(monkeypatch):
+    """Let nothing be asked for by the computer, opened in another program, or said to a real sensor."""
+    nothing = {"getOpenFileName": ("", ""), "getSaveFileName": ("", ""), "getOpenFileNames": ([], "")}
+    for name, answer in nothing.items():
+        monkeypatch.setattr(QFileDialog, name, lambda *_, answer=answer, **__: answer)
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_, **__: "")
+    monkeypatch.setattr(QColorDialog, "getColor", lambda *_, **__: QColor())
+    monkeypatch.setattr(QDesktopServices, "openUrl", lambda *_: True)
+    monkeypatch.setattr("app.pages.devices.list_ports", list)
+
+
+@pytest.mark.window
+@pytest.mark.usefixtures("harmless")
+@pytest.mark.qt_no_exception_capture
+def test_everything_in_any_order(qtbot, tmp_path):
+    folder = prepared(tmp_path / "made")
+    with Session.open(folder) as session:
+        known = [record.hash for record in session.records]
+    with whole(qtbot, tmp_path) as made:
+        made.open(folder)
+        longest = []
+        made.window.heartbeat.stalled.connect(longest.append)
+        monkey = Monkey(made.window, folder, SEED)
+        qtbot.wait(round(SECONDS * 1000))
+        monkey.timer.stop()
+        monkey.timer.timeout.disconnect()
+        assert not made.unexpected, (made.unexpected, monkey.did[-15:])
+        odd = [text for text in made.window.messages.texts() if "unexpected" in text or "Error:" in text]
+        assert not odd, (odd, monkey.did[-40:])
+        assert len(monkey.did) > 2 * SECONDS / 3
+        assert max(longest, default=0.0) < HANGS_S
+        while (dialog := QApplication.activeModalWidget() or QApplication.activePopupWidget()) is not None:
+            dialog.close()
+    assert not check(folder).problems
+    with Session.open(folder) as session:
+        assert [record.hash for record in session.records][: len(known)] == known
+        for slot in (("calibration", "calibration.json"), ("probe", "probe.ply")):
+            assert slot in session.state.current_results

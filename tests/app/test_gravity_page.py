@@ -1,0 +1,309 @@
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+from workbench.gravity_bench import batches, record
+
+from app.bench import Bench
+from app.pages.gravity import GravityPage
+from app.pages.gravity_run import Phase
+from pipeline.calibration import Level
+from pipeline.devices.emulate import emulator
+from pipeline.session import Session
+from pipeline.session.unfinished import adopt_unfinished
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.gravity_poses import PoseState
+from pipeline.workbench.steps import StepState, StepStatus
+
+STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
+READY = StepStatus(StepState.READY, "Take poses.")
+
+
+class QuietScene(QWidget):
+    """Takes what the page shows in 3D, and draws nothing."""
+
+    def __init__(self):
+        super().__init__()
+        self.R_WS = self.ghost = None
+
+    def look(self, view):
+        pass
+
+    def show_orientation(self, R_WS):
+        self.R_WS = R_WS
+
+    def show_ghost(self, R_WS):
+        self.ghost = R_WS
+
+
+class Window:
+    """The page beside its scene, on a bench whose clock goes when it is told."""
+
+    def __init__(self, qtbot, folder, prepare=None):
+        self.qtbot = qtbot
+        session = Session.create(folder)
+        if prepare is not None:
+            prepare(session)
+        self.scene = QuietScene()
+        self.bench = Bench(Desk(session), self.scene)
+        self.told = []
+        self.bench.told.connect(self.told.append)
+        self.widget = QWidget()
+        qtbot.addWidget(self.widget)
+        self.widget.resize(1280, 800)
+        box = QHBoxLayout(self.widget)
+        self.page = GravityPage(self.bench)
+        self.page.setFixedWidth(360)
+        box.addWidget(self.scene, 1)
+        box.addWidget(self.page)
+        self.bench.changed.connect(lambda: self.page.show_state(READY))
+        self.widget.show()
+        self.page.enter()
+
+    def open(self, sensor=STEPWISE, poses=STEPWISE):
+        self.bench.live.open(sensor, poses)
+
+    def until(self, condition, steps=250):
+        """Let the bench's clock go until something is so."""
+
+        def look():
+            pair = self.bench.live.pair
+            if pair is not None and pair.stepwise:
+                pair.step(steps)
+            self.page.tick()
+            assert condition()
+
+        self.qtbot.waitUntil(look, timeout=30_000)
+
+    def press(self, button):
+        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    def start(self):
+        self.press(self.page.primary)
+        self.until(lambda: self.page.run.phase is Phase.CAPTURING, steps=0)
+
+    def take(self, count):
+        """Let the wrist go from proposed pose to proposed pose."""
+        for _ in range(count):
+            before = len(self.page.panel.table.rows)
+            self.until(self.page.panel.turn.isVisible, steps=25)
+            self.press(self.page.panel.turn)
+            self.until(lambda before=before: len(self.page.panel.table.rows) > before)
+            self.until(lambda: not self.page.run.work.view().busy, steps=0)
+            self.page.tick()
+
+    def finish(self):
+        self.until(self.page.primary.isEnabled, steps=0)
+        self.press(self.page.primary)
+        self.until(lambda: self.page.run.phase is Phase.IDLE, steps=0)
+
+    def said(self):
+        return [message.text for message in self.told]
+
+    def close(self):
+        self.page.leave()
+        self.page.close_page()
+        self.bench.close()
+
+
+@pytest.fixture
+def window(qtbot, tmp_path):
+    made = []
+
+    def make(prepare=None):
+        made.append(Window(qtbot, tmp_path / "s", prepare))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+def test_from_start_to_a_checked_calibration_by_clicks(window):
+    w = window()
+    w.open()
+    page, panel = w.page, w.page.panel
+    assert page.primary.text() == "Start"
+    w.start()
+    assert not page.primary.isEnabled()  # there are no three poses
+    w.until(lambda: w.scene.ghost is not None, steps=0)
+    w.take(5)
+    assert w.scene.R_WS is not None
+    assert panel.figures.error.text().endswith(" mm")
+    assert panel.figures.count.text() == "5 poses: enough"
+    assert [row.state for row in panel.table.rows] == [PoseState.TAKEN] * 5
+    w.finish()
+    assert page.run.outcome.calibration.verdict.level is Level.GOOD
+    w.until(lambda: w.bench.live.model is not None, steps=0)
+    assert ("calibration", "calibration.json") in w.bench.desk.state.current_results
+    assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
+    assert panel.verdict.text.startswith("Good")
+
+    w.press(page.primary)  # check one more pose
+    w.until(lambda: page.run.phase is Phase.CHECKING, steps=0)
+    assert not page.primary.isEnabled()
+    w.press(panel.turn)
+    w.until(lambda: page.run.checked is not None)
+    assert page.run.checked.passed
+    assert panel.checked.isVisible()
+    assert any("had not seen (gravity-check-1.mcap)" in note.text for note in w.bench.desk.state.notes)
+    assert ("recording", "gravity-check-1.mcap") in w.bench.desk.state.current_inputs
+
+
+def test_poses_are_left_out_by_key_and_undone(window):
+    w = window(lambda session: record(session, "gravity-1.mcap", batches()))
+    table = w.page.panel.table
+    w.until(lambda: w.page.primary.text().startswith("Go on with gravity-1"))
+    w.bench.do("compute", lambda session: _computed(session))
+    w.until(lambda: w.page.run.outcome is not None)
+    assert len(table.rows) == 6
+    table.setFocus()
+    table.selectRow(1)
+    w.qtbot.keyClick(table, Qt.Key.Key_Delete)
+    w.until(lambda: w.page.run.phase is Phase.IDLE and len(w.page.run.outcome.leave_out) == 1)
+    assert table.rows[-1].state is PoseState.LEFT_OUT
+    assert "leave out pose 2" in w.bench.undo.undoText()
+    w.bench.undo.undo()
+    w.until(lambda: w.page.run.phase is Phase.IDLE and not w.page.run.outcome.leave_out)
+    assert [row.state for row in table.rows] == [PoseState.TAKEN] * 6
+
+
+def _computed(session):
+    from pipeline.workbench.gravity_results import finish
+
+    return finish(session, "gravity-1.mcap")
+
+
+def test_by_key_the_space_bar_takes_poses(window):
+    w = window()
+    w.open()
+    w.press(w.page.panel.automatic)
+    w.start()
+    w.take(1)
+    w.until(lambda: w.page.panel.state.word == "still: SPACE", steps=50)
+    assert {row.state for row in w.page.panel.table.rows} == {PoseState.LEFT_OUT}
+    w.widget.activateWindow()
+    w.qtbot.waitUntil(w.widget.isActiveWindow, timeout=20_000)
+    w.qtbot.keyClick(w.widget, Qt.Key.Key_Space)
+    w.until(lambda: w.page.panel.table.rows[-1].state is PoseState.TAKEN, steps=50)
+    w.until(lambda: w.page.panel.state.word == "captured", steps=0)
+    assert w.page.run.work.view().count == 1
+    w.page.leave()
+    assert not w.page.space.isEnabled()
+    w.page.enter()
+    assert w.page.space.isEnabled()
+
+
+def test_a_bump_is_shown_and_costs_nothing(window):
+    w = window()
+    w.open()
+    w.start()
+    w.take(1)
+    w.press(w.page.panel.turn)
+    w.until(lambda: w.page.panel.state.word == "still", steps=20)
+    w.press(w.page.panel.bump)
+    w.until(lambda: w.page.panel.state.word == "bumped", steps=5)
+    w.until(lambda: sum(row.state is PoseState.TAKEN for row in w.page.panel.table.rows) >= 2)
+    assert any(row.state is PoseState.REJECTED and row.reason for row in w.page.panel.table.rows)
+
+
+def test_a_refused_calibration_says_why_and_its_remedy_mends_it(window):
+    def wrong(session):
+        session.set_parameter("devices.mount", [0.0, 0.0, 90.0])
+        record(session, "gravity-1.mcap", batches())
+
+    w = window(wrong)
+    w.bench.do("compute", lambda session: _computed(session))
+    w.until(lambda: w.page.run.outcome is not None)
+    panel = w.page.panel
+    assert panel.verdict.level == "refuse"
+    assert w.page.primary.text() == "Add poses"
+    (button, *_) = panel.findings.buttons
+    assert "mount" in button.accessibleName()
+    w.press(button)
+    w.until(lambda: w.page.run.outcome.calibration.verdict.level is Level.GOOD)
+    assert np.abs(w.bench.desk.state.settings["devices.mount"].value).max() < 0.01
+    w.bench.undo.undo()
+    w.until(lambda: w.page.run.outcome.calibration.verdict.level is Level.REFUSE)
+
+
+def test_too_few_poses_are_kept_and_gone_on_from(window):
+    def interrupted(session):
+        record(session, "gravity-1.mcap", batches(2), abruptly=True)
+        adopt_unfinished(session)
+
+    w = window(interrupted)
+    w.open()
+    w.until(lambda: w.page.primary.text() == "Go on with gravity-1.mcap", steps=0)
+    w.start()
+    w.until(lambda: len(w.page.panel.table.rows) == 2)
+    w.take(2)
+    w.finish()
+    assert len(w.page.run.outcome.calibration.poses) == 4
+    assert w.page.run.outcome.recording == "gravity-2.mcap"
+
+
+def test_stopping_keeps_the_recording(window):
+    w = window()
+    w.open()
+    w.start()
+    w.until(lambda: w.page.run.work.view().R_WS is not None)
+    w.press(w.page.second)
+    w.until(lambda: w.page.run.phase is Phase.IDLE, steps=0)
+    assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
+    w.until(lambda: w.page.primary.text() == "Go on with gravity-1.mcap", steps=0)
+    w.press(w.page.primary)  # there is no still pose in it
+    w.until(lambda: bool(w.page.run.problem), steps=0)
+    assert "hold more of them still" in w.page.panel.problem.text
+
+
+def test_without_devices_or_poses_it_says_what_to_choose(window):
+    w = window()
+    w.press(w.page.primary)
+    assert "choose and open a sensor" in w.page.panel.problem.text
+    w.open("virtual://bench?probe=convex&speed=step", None)
+    w.press(w.page.primary)
+    assert "no source of poses" in w.page.panel.problem.text
+    assert w.page.run.phase is Phase.IDLE
+    w.page.show_state(StepStatus(StepState.LOCKED, "Choose devices first."))
+    assert w.page.primary.text() == "Go to Devices"
+    assert "Choose devices first." in w.page.panel.problem.text
+
+
+def test_unplugging_is_said_and_captures_go_on(window):
+    w = window()
+    with emulator("sri", "tcp", rate=200.0) as sensor:
+        port = int(sensor.url.partition("127.0.0.1:")[2].partition("?")[0].strip("/"))
+        w.open(sensor.url, "still://?rpy=180,0,0")
+        w.start()
+        assert w.page.panel.state.word == "no samples"
+        w.until(lambda: w.page.panel.state.word != "no samples")
+    w.until(lambda: w.page.panel.state.word == "no samples")
+    w.until(lambda: any("goes on when it is back" in words for words in w.said()))
+    with emulator("sri", "tcp", port=port, rate=200.0):
+        w.until(lambda: w.page.panel.state.word != "no samples")
+        w.until(lambda: any("samples again" in words for words in w.said()))
+        w.press(w.page.second)
+        w.until(lambda: w.page.run.phase is Phase.IDLE)
+    assert ("recording", "gravity-1.mcap") in w.bench.desk.state.current_inputs
+
+
+def test_nothing_is_cut_in_the_narrow_panel(window):
+    w = window()
+    w.open()
+    w.start()
+    w.take(4)
+    panel = w.page.panel
+    assert panel.widget().minimumSizeHint().width() <= panel.viewport().width()
+    for button in (w.page.primary, w.page.second, panel.turn, panel.bump, panel.out, panel.back):
+        assert button.height() >= 36
+        assert button.fontMetrics().horizontalAdvance(button.text()) < button.width()
+
+
+def test_the_largest_tilt_is_a_parameter_of_the_session(window):
+    w = window()
+    w.page.panel.tilt.setValue(90)
+    w.until(lambda: "devices.max_tilt" in w.bench.desk.state.settings)
+    assert w.bench.desk.state.settings["devices.max_tilt"].value == 90.0
+    w.bench.undo.undo()
+    w.until(lambda: w.page.panel.tilt.value() == 180)

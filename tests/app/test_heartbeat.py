@@ -1,0 +1,21 @@
+from __future__ import annotations
+
+import time
+
+from app.heartbeat import Heartbeat
+
+
+def test_a_stall_is_measured_and_told(qtbot):
+    heart = Heartbeat()
+    heart.start()
+    qtbot.waitUntil(lambda: heart.stalls().beats > 3, timeout=10_000)
+    heart.restart()
+    with qtbot.waitSignal(heart.stalled, timeout=10_000) as stalled:
+        time.sleep(0.25)
+    assert stalled.args[0] >= 0.2
+    assert heart.stalls().longest >= 0.2
+    heart.stop()
+
+
+def test_nothing_measured_is_no_stall(qapp):  # noqa: ARG001
+    assert Heartbeat().stalls().longest == 0.0

@@ -1,0 +1,284 @@
+import numpy as np
+import pytest
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtWidgets import QWidget
+from workbench.probe_files import bad_meshes, egg
+
+from app.bench import Bench
+from app.pages.probe import ProbePage
+from pipeline.mesh.sidecar import save_probe_file
+from pipeline.preparation.alignment import from_angles
+from pipeline.preparation.steps import align_step, import_mesh
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.scene import Scene
+from widgets.scene.scene import Pick
+
+PATIENCE = 60_000
+VIRTUAL = "virtual://bench?probe=t-shape&sensor=paper"
+
+
+class PaperScene(QWidget):
+    """A scene that only remembers what it was told."""
+
+    picked, dropped = Scene.picked, Scene.dropped
+
+    def __init__(self):
+        super().__init__()
+        self.probe = self.overlay = self.field = self.tool = None
+
+    def show_probe(self, probe):
+        self.probe = probe
+
+    def show_overlay(self, probe):
+        self.overlay = probe
+
+    def show_field(self, values, _title=""):
+        self.field = values
+
+    def look(self, view):
+        pass
+
+    def set_tool(self, tool):
+        self.tool = tool
+
+    def close_scene(self):
+        pass
+
+
+@pytest.fixture
+def bench(tmp_path):
+    session = Session.create(tmp_path / "s", by="ada")
+    bench = Bench(Desk(session), PaperScene())
+    bench.messages = []
+    bench.told.connect(bench.messages.append)
+    yield bench
+    bench.close()
+    bench.scene.deleteLater()
+
+
+@pytest.fixture
+def page(qtbot, bench):
+    page = open_page(qtbot, bench)
+    yield page
+    page.close_page()
+
+
+def open_page(qtbot, bench):
+    page = ProbePage(bench)
+    qtbot.addWidget(page)
+    page.resize(360, 760)
+    page.show()
+    qtbot.waitExposed(page)
+    bench.changed.connect(lambda: page.show_state(StepStatus(StepState.READY, "")))
+    page.enter()
+    settled(qtbot, page)
+    return page
+
+
+def settled(qtbot, page):
+    qtbot.waitUntil(lambda: not page.stages.worker.busy and not page.stages.using, timeout=PATIENCE)
+
+
+def press(qtbot, button):
+    assert button.isVisible()
+    assert button.isEnabled()
+    qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def prepared(qtbot, page, file):
+    page.stages.take(file)
+    qtbot.waitUntil(lambda: page.stages.dense is not None, timeout=PATIENCE)
+    page.stages.put(from_angles([0, 0, 35], [0, 0, 0]))
+    qtbot.waitUntil(lambda: page.stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+
+
+def test_from_a_dropped_file_to_a_probe_in_use_and_back(qtbot, bench, page, tmp_path):
+    stages, next_one = page.stages, page.next_bar.next
+    assert next_one.text() == "Choose a mesh..."
+    bench.scene.dropped.emit(egg(tmp_path))
+    qtbot.waitUntil(lambda: stages.dense is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert next_one.text() == "Say where it lies (3)"
+    assert bench.scene.probe is stages.dense.content.probe
+
+    page.place.panel.numbers[2].setValue(35.0)
+    page.area.ensureWidgetVisible(page.place.panel.place_numbers)
+    press(qtbot, page.place.panel.place_numbers)
+    qtbot.waitUntil(lambda: stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    advised = stages.trade.advised
+    assert stages.plan.facets == advised
+    assert bench.scene.probe.bounds[0, 2] == pytest.approx(0.0, abs=3e-4)
+    assert page.facets.chart.facets == len(stages.preview.done.content.probe.faces)
+
+    page.facets.deviation.setChecked(True)
+    assert bench.scene.field.shape == (len(bench.scene.probe.vertices),)
+    page.facets.deviation.setChecked(False)
+    page.facets.overlay.setChecked(True)
+    assert bench.scene.field is None
+    assert len(bench.scene.overlay.faces) == 1280
+
+    fewer = stages.trade.points[0].facets
+    page.facets.chart.setFocus()
+    while page.facets.chart.facets > fewer:
+        qtbot.keyClick(page.facets.chart, Qt.Key.Key_Left)
+    assert stages.preview is None
+    qtbot.waitUntil(lambda: stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    press(qtbot, next_one)
+    settled(qtbot, page)
+    assert next_one.text() == "In use. Go on: Regions"
+    result = bench.desk.state.current_results["probe", "probe.ply"]
+    assert result.action.parameters == {"facets": fewer}
+    assert next_one.isEnabled()
+
+    bench.undo.undo()
+    qtbot.waitUntil(lambda: stages.view.used is None and not stages.in_use, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert bench.desk.state.current_results["probe", "probe.ply"].mark.mark == "rejected"
+    bench.undo.redo()
+    qtbot.waitUntil(lambda: stages.in_use, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert bench.desk.state.current_results["probe", "probe.ply"].outcome == result.outcome
+    assert len(bench.scene.probe.faces) == fewer
+
+
+def test_a_session_with_a_probe_opens_as_it_was_left(qtbot, bench, page, tmp_path):
+    prepared(qtbot, page, egg(tmp_path))
+    page.stages.use()
+    settled(qtbot, page)
+    other = open_page(qtbot, bench)
+    try:
+        assert other.stages.in_use
+        assert other.stages.mesh.file.name == "egg.stl"
+        assert other.stages.plan.parameters == page.stages.plan.parameters
+        assert other.place.panel.numbers[2].value() == 35.0
+        assert f"{len(bench.scene.probe.faces):,} facets" in other.facets.number.text()
+        assert other.next_bar.next.isEnabled()
+    finally:
+        other.close_page()
+
+
+def test_a_bad_mesh_is_told_and_what_was_there_stays(qtbot, bench, page, tmp_path):
+    prepared(qtbot, page, egg(tmp_path))
+    preview = page.stages.preview
+    for file, words in bad_meshes(tmp_path).items():
+        page.stages.take(file)
+        settled(qtbot, page)
+        assert words in page.next_bar.words.text()
+        assert words in bench.messages[-1].text
+        assert Step.PROBE in bench.failed
+        assert page.stages.preview is preview
+        assert page.next_bar.next.text() == "Use this probe"
+    assert bench.desk.state.count == 1
+
+
+def test_the_unit_is_a_question_with_lengths(qtbot, page, tmp_path):
+    page.stages.take(egg(tmp_path, "small.stl", scale=0.2))
+    qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert page.next_bar.next.text() == "Say how long the probe is (1)"
+    assert page.stages.dense is None
+    buttons = page.mesh_section.unit_buttons
+    assert {"mm", "cm", "in"} <= set(buttons)
+    assert buttons["cm"].text().startswith("140 mm long")
+    qtbot.waitUntil(buttons["cm"].isVisible, timeout=PATIENCE)  # once it is laid out
+    press(qtbot, buttons["cm"])
+    qtbot.waitUntil(lambda: page.stages.dense is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert page.stages.plan.units == "cm"
+    assert page.stages.dense.content.probe.size == pytest.approx(0.14, rel=1e-2)
+    assert not page.mesh_section.unit_buttons
+
+
+def test_work_can_be_stopped_and_begun_again(qtbot, bench, page, tmp_path):
+    page.stages.take(egg(tmp_path, "stop.stl"))
+    qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
+    assert bench.running == {Step.PROBE}
+    press(qtbot, page.next_bar.cancel)
+    settled(qtbot, page)
+    assert bench.running == set()
+    assert page.next_bar.words.text().startswith("Stopped")
+    assert page.stages.dense is None
+    assert page.next_bar.next.text() == "Make the outer surface"
+    press(qtbot, page.next_bar.next)
+    qtbot.waitUntil(lambda: page.stages.dense is not None, timeout=PATIENCE)
+
+
+def test_places_on_the_mesh_are_matched(qtbot, bench, page, tmp_path):
+    prepared(qtbot, page, egg(tmp_path))
+    before = page.stages.plan.alignment
+    mount = from_angles([2, 1, 40], [0, 0, 30])
+    panel = page.place.panel
+    assert bench.scene.tool == "turn"
+    panel.way.setCurrentIndex(1)
+    assert bench.scene.tool == "pick"
+    shown = page.stages.view.shown.dense
+    for row, vertex in enumerate((0, 100, 300)):
+        point_S = shown.vertices[vertex]
+        bench.scene.picked.emit(Pick(0, point_S))
+        point_P = (point_S - before.p_SP_S) @ before.R_SP
+        panel.points.type_in(row, tuple(1e3 * (mount.R_SP @ point_P + mount.p_SP_S)))
+    assert not page.stages.worker.busy
+    panel.place_points.click()
+    assert np.allclose(page.stages.plan.alignment.T_SP, mount.T_SP, atol=1e-6)
+    page.leave()
+    assert bench.scene.tool == "turn"
+
+
+def test_the_virtual_bench_offers_its_housing(qtbot, bench, page):
+    assert not page.mesh_section.housing.isVisible()
+    with qtbot.waitSignal(bench.changed, timeout=PATIENCE):
+        bench.do("set", lambda session: session.set_parameter("devices.sensor", VIRTUAL))
+    qtbot.waitUntil(page.mesh_section.housing.isVisible, timeout=PATIENCE)
+    settled(qtbot, page)
+    press(qtbot, page.mesh_section.housing)
+    qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
+    assert page.stages.mesh.file.name == "t-shape-housing.stl"
+    placed = page.stages.plan.alignment.place(page.stages.mesh.original.probe)
+    assert placed.bounds[:, 2] == pytest.approx([0.003, 0.128], abs=4e-3)
+    page.stages.worker.stop()  # the surface takes its time
+
+
+def test_a_mesh_that_lies_in_the_sensor_frame_is_not_placed_again(qtbot, bench, page, tmp_path):
+    content = import_mesh(egg(tmp_path))
+    file = tmp_path / "ready.ply"
+    save_probe_file(align_step(content, from_angles([0, 0, 35], [0, 0, 0])), file)
+    page.stages.take(file)
+    qtbot.waitUntil(lambda: page.stages.preview is not None, timeout=PATIENCE)
+    settled(qtbot, page)
+    assert not page.place.isVisible()
+    press(qtbot, page.next_bar.next)
+    settled(qtbot, page)
+    mesh = bench.desk.state.mesh
+    assert (mesh.name, set(mesh.companions)) == ("ready.ply", {"ready.json"})
+    assert bench.desk.state.results[0].action.inputs == {"mesh": mesh.content}
+    assert bench.desk.stale["probe", "probe.ply"] == ()
+
+
+def test_a_file_can_be_dropped_on_the_page(qtbot, page, tmp_path):
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(egg(tmp_path)))])
+    drop = QDropEvent(
+        QPointF(5, 5),
+        Qt.DropAction.CopyAction,
+        data,
+        Qt.MouseButton.LeftButton,
+        Qt.KeyboardModifier.NoModifier,
+    )
+    page.dropEvent(drop)
+    qtbot.waitUntil(lambda: page.stages.mesh is not None, timeout=PATIENCE)
+    assert page.stages.mesh.file.name == "egg.stl"
+
+
+def test_nothing_is_cut_in_a_narrow_panel(qtbot, page, tmp_path):
+    prepared(qtbot, page, egg(tmp_path))
+    page.resize(340, 700)
+    qtbot.wait(50)
+    room = page.area.viewport().width()
+    assert page.area.widget().minimumSizeHint().width() <= room
+    assert page.area.widget().width() <= room

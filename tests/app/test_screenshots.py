@@ -1,0 +1,48 @@
+import pytest
+from PySide6.QtGui import QImage
+
+from app.cli import size_of
+from app.screenshots import PAGES, run
+from pipeline.errors import InputError
+
+pytestmark = pytest.mark.usefixtures("qapp")
+
+
+def test_the_first_page_in_both_themes_as_large_as_asked(tmp_path):
+    assert run(tmp_path, ("light", "dark"), (1100, 720), ("start",)) == 0
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["start-dark.png", "start.png"]
+    light, dark = (QImage(str(tmp_path / name)) for name in ("start.png", "start-dark.png"))
+    assert light.size().toTuple() == dark.size().toTuple() == (1100, 720)
+    assert light.pixelColor(20, 400).lightness() > 200 > 80 > dark.pixelColor(20, 400).lightness()
+
+
+@pytest.mark.window
+@pytest.mark.timeout(400)
+def test_a_page_with_its_scene(tmp_path):
+    run(tmp_path, pages=("verify", "heatmap"))
+    for name in ("verify.png", "heatmap.png"):
+        picture = QImage(str(tmp_path / name))
+        row = [picture.pixelColor(x, 250).rgb() for x in range(200, 860)]
+        assert len(set(row)) > 20, f"{name}: the probe is shaded"
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"pages": ("start", "end")}, "no page 'end': choose of start, devices"),
+        ({"themes": ("blue",)}, "no theme 'blue'"),
+        ({"size": (100_000, 800)}, "does not fit on this screen"),
+    ],
+)
+def test_what_cannot_be_is_refused(tmp_path, given, said):
+    with pytest.raises(InputError, match=said):
+        run(tmp_path / "out", **given)
+    assert not (tmp_path / "out").exists()
+
+
+def test_sizes_are_read():
+    assert size_of("1280x800") == (1280, 800)
+    for text in ("1280", "ax8", "-1x5", ""):
+        with pytest.raises(InputError, match="such as 1280x800"):
+            size_of(text)
+    assert PAGES[0] == "start"

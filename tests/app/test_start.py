@@ -1,0 +1,198 @@
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtWidgets import QApplication, QListWidget
+
+from app.opening import VIRTUAL_BENCH, free_folder
+from app.settings import Recent, Settings
+from app.start import Question, StartPage
+from pipeline.devices.url import DeviceAddress
+from pipeline.session import Session
+from pipeline.workbench.steps import Step
+
+from .conftest import shown
+
+
+@pytest.fixture
+def window(make_window, plain_pages):  # noqa: ARG001 - for what it does
+    return make_window()
+
+
+def asked(window):
+    return window.start.question.sentence
+
+
+def test_the_virtual_bench_is_one_click_away(qtbot, window):
+    start = window.start.virtual_button
+    bench = shown(qtbot, window, lambda: qtbot.mouseClick(start, Qt.MouseButton.LeftButton))
+    settings = bench.desk.state.settings
+    assert settings["devices.sensor"].value == settings["devices.poses"].value == VIRTUAL_BENCH
+    assert DeviceAddress.parse(VIRTUAL_BENCH).gives_wrenches
+    assert bench.desk.folder.parent == window.settings.sessions
+    assert window.pages.step is Step.GRAVITY
+    qtbot.waitUntil(lambda: window.live.connected, timeout=30_000)
+    qtbot.waitUntil(lambda: "Hz" in window.live.rates(), timeout=10_000)
+    assert window.header.device_line(bench).startswith("virtual bench")
+
+
+def test_a_virtual_session_is_gone_on_with(qtbot, window, tmp_path):
+    shown(qtbot, window, lambda: window.sessions.try_virtual(tmp_path / "v"))
+    count = window.bench.desk.state.count
+    shown(qtbot, window, lambda: window.sessions.try_virtual(tmp_path / "v"))
+    assert window.bench.desk.state.count == count
+
+
+def test_a_folder_of_something_else_is_refused_in_words(qtbot, window, tmp_path):
+    (tmp_path / "photos").mkdir()
+    (tmp_path / "photos" / "a.jpg").write_text("x")
+    window.sessions.new(tmp_path / "photos")
+    qtbot.waitUntil(lambda: asked(window) != "", timeout=10_000)
+    assert "photos" in asked(window)
+    assert window.bench is None
+    window.sessions.open(tmp_path / "photos")
+    qtbot.waitUntil(lambda: "session" in asked(window), timeout=10_000)
+    assert window.start.virtual_button.isEnabled()
+
+
+def test_a_session_that_is_open_elsewhere_can_be_looked_at(qtbot, window, tmp_path):
+    code = (
+        "import sys; from pathlib import Path; from pipeline.session import Session\n"
+        "s = Session.create(Path(sys.argv[1])); s.note('a note of theirs'); print('ready', flush=True); input()"
+    )
+    folder = tmp_path / "taken"
+    other = subprocess.Popen(
+        [sys.executable, "-c", code, str(folder)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    )
+    with other:
+        assert other.stdout.readline().strip() == "ready"
+        window.sessions.open(folder)
+        qtbot.waitUntil(lambda: "another process" in asked(window), timeout=20_000)
+        look = next(button for button in window.start.question.answers() if "Look" in button.text())
+        qtbot.mouseClick(look, Qt.MouseButton.LeftButton)
+        qtbot.waitUntil(lambda: QApplication.activeModalWidget() is not None, timeout=10_000)
+        dialog = QApplication.activeModalWidget()
+        assert "a note of theirs" in dialog.view.toPlainText()
+        dialog.close()
+        other.communicate("\n")
+
+
+@pytest.mark.parametrize("damage", ["corrupt", "newer"])
+def test_a_damaged_or_newer_session_is_refused_in_words(qtbot, window, tmp_path, damage):
+    folder = tmp_path / "s"
+    with Session.create(folder) as session:
+        for number in range(5):
+            session.note(f"note {number}")
+    journal = folder / "journal"
+    content = bytearray(journal.read_bytes())
+    if damage == "corrupt":
+        content[len(content) // 2] ^= 0xFF
+    else:
+        content[:16] = b"a newer format!!"
+    journal.write_bytes(content)
+    window.sessions.open(folder)
+    qtbot.waitUntil(lambda: asked(window) != "", timeout=10_000)
+    assert "Traceback" not in asked(window)
+    assert window.bench is None
+    assert window.messages.texts() == ()  # an expected error is asked about, and is no fault
+
+
+def _cut_short(folder):
+    """Leave a session as a process does that is killed while it records."""
+    code = (
+        "import os, sys, time; from pathlib import Path; import numpy as np\n"
+        "from pipeline.session import Session\n"
+        "s = Session.create(Path(sys.argv[1]))\n"
+        "(s.folder / 'raw' / 'unfinished-gravity-1.mcap').write_bytes(b'')\n"
+        "os._exit(9)"
+    )
+    subprocess.run([sys.executable, "-c", code, str(folder)], check=False)
+
+
+@pytest.mark.parametrize(("answer", "left"), [("Take it in", 0), ("Leave it", 1)])
+def test_after_a_crash_the_recordings_are_asked_for(qtbot, window, tmp_path, answer, left):
+    folder = tmp_path / "s"
+    _cut_short(folder)
+    window.sessions.open(folder)
+    qtbot.waitUntil(lambda: "ended abruptly" in asked(window), timeout=10_000)
+    button = next(each for each in window.start.question.answers() if each.text().startswith(answer))
+    shown(qtbot, window, lambda: qtbot.mouseClick(button, Qt.MouseButton.LeftButton))
+    assert len(list((folder / "raw").glob("unfinished-*"))) == left
+    assert any("gravity-1" in text for text in window.messages.texts())
+
+
+def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path):
+    folder = tmp_path / "s"
+    shown(qtbot, window, lambda: window.sessions.new(folder))
+    window.show_step(Step.VERIFY)
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)  # as a kill at this moment leaves it
+    qtbot.waitUntil(lambda: Settings().page_of(folder) == "verify", timeout=10_000)
+    settings = json.loads(Settings().file.read_text())
+    assert settings["recent"][0] | {"opened": ""} == {
+        "folder": str(folder),
+        "opened": "",
+        "page": "verify",
+        "done": "begun",
+    }
+    with Session.open(copy) as session:
+        assert session.state.count == window.bench.desk.state.count
+
+
+def test_dropped_folders_are_opened(qtbot, window, tmp_path):
+    with Session.create(tmp_path / "s"):
+        pass
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(tmp_path / "s"))])
+    event = QDropEvent(
+        QPointF(10, 10),
+        Qt.DropAction.CopyAction,
+        data,
+        Qt.MouseButton.LeftButton,
+        Qt.KeyboardModifier.NoModifier,
+    )
+    shown(qtbot, window, lambda: window.start.dropEvent(event))
+    assert window.bench.desk.folder == tmp_path / "s"
+
+
+def test_recent_sessions_say_when_and_how_far_and_missing_ones_are_grey(qtbot):
+    page = StartPage()
+    qtbot.addWidget(page)
+    rows = (Recent("/a/there", "2026-01-02T03:04:05+00:00", "gravity", "done: Devices"), Recent("/a/gone"))
+    page.show_recent(rows, {"/a/gone"})
+    table = page.findChild(QListWidget)
+    assert "done: Devices" in table.item(0).text()
+    assert "2026" in table.item(0).text() or "26" in table.item(0).text()
+    assert "missing" in table.item(1).text()
+    assert not table.item(1).flags() & Qt.ItemFlag.ItemIsEnabled
+    chosen = []
+    page.chosen.connect(chosen.append)
+    table.itemActivated.emit(table.item(0))
+    assert chosen == [Path("/a/there")]
+
+
+def test_a_question_takes_one_answer(qtbot):
+    question, answers = Question(), []
+    qtbot.addWidget(question)
+    question.ask(
+        "What now?", [("This", lambda: answers.append("this")), ("That", lambda: answers.append("that"))]
+    )
+    assert question.sentence == "What now?"
+    qtbot.mouseClick(question.answers()[1], Qt.MouseButton.LeftButton)
+    assert answers == ["that"]
+    assert question.sentence == ""
+
+
+def test_a_free_folder_is_never_one_that_exists(tmp_path):
+    first = free_folder(tmp_path, "virtual bench")
+    first.mkdir()
+    assert free_folder(tmp_path, "virtual bench") != first
+    assert os.path.commonpath([first, tmp_path]) == str(tmp_path)

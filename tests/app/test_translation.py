@@ -1,0 +1,208 @@
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from xml.etree import ElementTree as ET
+
+import pytest
+import typer
+from PySide6.QtCore import QCoreApplication, QTranslator
+
+from app import translation
+from app.cli import app
+from pipeline.workbench.steps import Step
+
+from . import spoken as spoken_words
+from .spoken import Source, sources
+
+OTHERS = [code for code in translation.LANGUAGES if code != "en"]
+_PLACES = re.compile(r"\{[^}]*\}|%n|%\d")
+
+
+def test_unknown_languages_are_english(qapp):
+    assert translation.load(qapp, "xx") == "en"
+    assert translation.in_use() == "en"
+
+
+@pytest.fixture
+def small(tmp_path, monkeypatch):
+    """A language of one finished and one missing string."""
+    monkeypatch.setattr(translation, "_FOLDER", tmp_path)
+    (tmp_path / "contactbench_de.ts").write_text(
+        '<?xml version="1.0"?><TS version="2.1" language="de"><context><name>StepList</name>'
+        "<message><source>Gravity</source><translation>Schwerkraft</translation></message>"
+        '<message><source>Probe</source><translation type="unfinished"></translation></message>'
+        "</context></TS>",
+        encoding="utf-8",
+    )
+    translation.release("de")
+    return tmp_path
+
+
+def test_a_language_is_spoken_where_it_is_known(qapp, small, spoken):  # noqa: ARG001
+    from widgets.step_list import StepList
+
+    spoken("de")
+    steps = StepList()
+    try:
+        assert steps.name_of(Step.GRAVITY) == "Schwerkraft"
+        assert steps.name_of(Step.PROBE) == "Probe"
+    finally:
+        steps.deleteLater()
+
+
+def test_missing_strings_are_named(small, capsys):  # noqa: ARG001
+    assert translation.unfinished("de") == ("StepList: Probe",)
+    assert translation.main(["check"]) == 1
+    assert "de: StepList: Probe" in capsys.readouterr().out
+    assert translation.main([]) == 2
+
+
+def test_update_takes_strings_of_both_packages(tmp_path, monkeypatch):
+    monkeypatch.setattr(translation, "_FOLDER", tmp_path)
+    monkeypatch.setattr(translation.subprocess, "run", _quiet)
+    translation.update("de")
+    text = (tmp_path / "contactbench_de.ts").read_text(encoding="utf-8")
+    assert "<name>StepList</name>" in text
+    assert "<name>MainWindow</name>" in text
+    assert (tmp_path / "contactbench_de.qm").exists()
+
+
+# ---- what is said, and what is translated ----------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def said():
+    return sources()
+
+
+def test_every_word_goes_through_tr(said):
+    assert [wrong for each in said for wrong in each.wrong] == []
+
+
+@pytest.mark.parametrize(
+    ("line", "complaint"),
+    [
+        ('self.label.setText("Ready now")', "is not given to tr()"),
+        ('QLabel(f"{count} poses")', "is not given to tr()"),
+        ("self.tr(words)", "not a plain literal"),
+        ("say = self.tr", "by another name"),
+        ('window.tr("Steps")', "only self.tr"),
+        ("name = f'{self.tr(\"Steps\")}: 1'", "in an f-string"),
+    ],
+)
+def test_words_that_would_stay_english_are_found(tmp_path, monkeypatch, line, complaint):
+    monkeypatch.setattr(spoken_words, "ROOT", tmp_path)
+    file = tmp_path / "page.py"
+    file.write_text(f"class Page:\n    def show(self):\n        {line}\n", encoding="utf-8")
+    (wrong,) = Source(file).wrong
+    assert complaint in wrong
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_the_file_of_a_language_is_that_of_the_source(said, language):
+    """After a string has changed: ``python -m app.translation update``, then translate what is new."""
+    wanted = {(each.context, each.text) for source in said for each in source.strings}
+    assert {(context, text) for context, text, _ in _messages(language)} == wanted
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_a_language_is_complete(language):
+    assert translation.unfinished(language) == ()
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_numbers_and_names_are_put_into_the_same_places(language):
+    for context, text, made in _messages(language):
+        assert sorted(_PLACES.findall(made)) == sorted(_PLACES.findall(text)), f"{context}: {text}"
+        assert made[:1].isspace() == text[:1].isspace(), f"{context}: {text!r}"
+        assert made.count("\n") == text.count("\n"), f"{context}: {text}"
+        assert ("&" in made) == ("&" in text), f"{context}: {text}"
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_what_the_window_loads_is_up_to_date(language, tmp_path, monkeypatch):
+    kept = (translation._FOLDER / f"contactbench_{language}.qm").read_bytes()
+    shutil.copy(translation._file(language), tmp_path)
+    monkeypatch.setattr(translation, "_FOLDER", tmp_path)
+    monkeypatch.setattr(translation.subprocess, "run", _quiet)
+    translation.release(language)
+    assert (tmp_path / f"contactbench_{language}.qm").read_bytes() == kept
+
+
+@pytest.mark.parametrize("language", translation.LANGUAGES)
+def test_help_names_controls_as_the_window_does(language):
+    """What is bold in a help page can be read in the window."""
+    seen = " \n ".join(_plain(words) for words in _words(language))
+    for page in _pages(language):
+        named = re.findall(r"\*\*(.+?)\*\*", page.read_text(encoding="utf-8"))
+        assert named, page.name
+        assert [words for words in named if _plain(words) not in seen] == [], page.name
+
+
+def test_help_names_commands_that_there_are():
+    group = typer.main.get_command(app)
+    for page in _pages("en"):
+        for words in re.findall(r"`contactbench ([a-z -]+)`", page.read_text(encoding="utf-8")):
+            here = group
+            for word in words.split():
+                here = here.commands[word]
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_help_is_in_every_language(language):
+    for english, page in zip(_pages("en"), _pages(language), strict=True):
+        text, other = english.read_text(encoding="utf-8"), page.read_text(encoding="utf-8")
+        assert text.count("\n") == other.count("\n"), page.name
+        assert text.count("**") == other.count("**"), page.name
+        assert re.findall(r"`contactbench [a-z -]+`", text) == re.findall(r"`contactbench [a-z -]+`", other)
+
+
+def _pages(language):
+    """Return the help pages of a language: one for each step, and the first."""
+    ending = ".md" if language == "en" else f".{language}.md"
+    return [
+        translation._HERE / "help" / f"{name}{ending}" for name in ("start", *(step.value for step in Step))
+    ]
+
+
+def _plain(words):
+    return words.replace("&", "").casefold()
+
+
+def _words(language):
+    """Return all that is said in a language."""
+    return [
+        text if language == "en" else made
+        for _, text, made in _messages(OTHERS[0] if language == "en" else language)
+    ]
+
+
+def _messages(language):
+    for context in ET.parse(translation._file(language)).iter("context"):  # noqa: S314 - our own file
+        for message in context.iter("message"):
+            made = message.find("translation").text or ""
+            yield context.findtext("name"), message.findtext("source"), made
+
+
+@pytest.fixture
+def spoken(qapp):
+    """Have the application speak a language until the test ends."""
+    before = _translators(qapp)
+    yield lambda code: translation.load(qapp, code)
+    for each in _translators(qapp):
+        if each not in before:
+            QCoreApplication.removeTranslator(each)
+    translation.load(qapp, "en")
+
+
+def _translators(application):
+    return [each for each in application.children() if isinstance(each, QTranslator)]
+
+
+_run = subprocess.run
+
+
+def _quiet(*arguments, **options):
+    return _run(*arguments, **options, capture_output=True)

@@ -1,0 +1,246 @@
+"""The Verify page in a real window: markers by clicks, touches on a bench that goes by steps, the verdict."""
+
+import shutil
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QWidget
+from workbench.touch_session import STEPWISE, make_session, press
+
+from app.bench import Bench, Weight
+from app.pages.verify import VerifyPage
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.markers import Markers, kept
+from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.scene import Scene
+from widgets.scene.scene import Pick
+
+READY = StepStatus(StepState.READY, "")
+LONG = 30_000
+
+
+class Window:
+    """A page beside the scene, with the session behind it."""
+
+    def __init__(self, qtbot, folder, devices=True):
+        self.qtbot, self.told = qtbot, []
+        self.desk = Desk(Session.open(folder, by="ada"))
+        self.widget = QWidget()
+        qtbot.addWidget(self.widget)
+        self.scene = Scene()
+        self.bench = Bench(self.desk, self.scene)
+        self.bench.told.connect(self.told.append)
+        if devices:
+            self.bench.live.open(STEPWISE, STEPWISE)
+            self.bench.live.pair.step(300)
+        self.page = VerifyPage(self.bench)
+        layout = QHBoxLayout(self.widget)
+        layout.addWidget(self.scene, 1)
+        layout.addWidget(self.page)
+        self.page.setFixedWidth(360)
+        self.widget.resize(900, 640)
+        self.widget.show()
+        qtbot.waitExposed(self.widget)
+        self.bench.changed.connect(lambda: self.page.show_state(READY))
+        self.page.enter()
+        self.page.show_state(READY)
+
+    def wait(self, condition):
+        self.qtbot.waitUntil(condition, timeout=LONG)
+
+    def click(self, button):
+        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    def kept(self):
+        return kept(self.desk.folder, self.desk.state)
+
+    def close(self):
+        self.page.leave()
+        self.page.close_page()
+        self.bench.close()
+        self.scene.close_scene()
+
+
+@pytest.fixture(scope="module")
+def calibrated(tmp_path_factory):
+    """Make a session once; everybody gets a copy."""
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "files").mkdir()
+    return make_session(folder / "s", folder / "files")
+
+
+@pytest.fixture
+def window(qtbot, calibrated, tmp_path):
+    made = Window(qtbot, shutil.copytree(calibrated, tmp_path / "s"))
+    made.wait(lambda: made.page.tool is not None)
+    yield made
+    made.close()
+
+
+def spread(window, count):
+    panel = window.page.panel_markers
+    panel.count.setValue(count)
+    window.click(panel.spread)
+    window.wait(lambda: len(window.page.markers) == count and window.kept() == window.page.markers)
+
+
+def test_the_whole_way_by_clicks(window):
+    page, touch = window.page, window.page.panel_touch
+    assert not touch.start.isEnabled()
+    spread(window, 2)
+    page.tabs.setCurrentIndex(2)
+    window.click(touch.start)
+    window.wait(lambda: touch.finish.isEnabled())
+    assert Step.VERIFY in window.bench.running
+    assert not page.panel_markers.spread.isEnabled()
+    page.tick()
+    assert "M1" in touch.next.text()
+    assert page.panel_markers.table.item(0, 4).text() == "next"
+    for marker in page.markers.all:
+        press(window.bench.live, marker.point_S)
+        page.tick()
+    assert touch.state.state == "accepted"
+    assert "accepted" in page.sounds.played
+    assert touch.error.number.endswith("mm")
+    assert "All markers" in touch.next.text()
+    window.click(touch.finish)
+    window.wait(
+        lambda: page.outcome is not None and not page.work.going_on and touch.start.isVisibleTo(touch)
+    )
+    assert page.outcome.passed
+    assert page.tabs.currentIndex() == 3
+    assert page.panel_result.verdict.text() == "Passed"
+    assert page.panel_result.number.text() == f"{page.outcome.mean_mm:.2f} mm"
+    assert page.panel_result.open.isVisible()
+    assert Step.VERIFY not in window.bench.running
+    assert window.told[-1].weight is Weight.GOOD
+    assert ("verification", "verification.json") in window.desk.state.current_results
+
+
+def test_a_touch_that_does_not_count_is_said_in_words(window):
+    spread(window, 1)
+    page = window.page
+    page.start()
+    window.wait(lambda: page.panel_touch.finish.isEnabled())
+    press(window.bench.live, page.markers.all[0].point_S, force=4.0)
+    page.tick()
+    assert page.panel_touch.state.state == "rejected"
+    assert "force out of window (" in page.panel_touch.state.detail.lower()
+    assert page.sounds.played[-1] == "rejected"
+    window.click(page.panel_touch.discard)
+    window.wait(lambda: not page.work.going_on and page.panel_touch.start.isEnabled())
+    assert ("recording", "verify-1.mcap") not in window.desk.state.current_inputs
+
+
+def test_the_virtual_bench_touches_for_who_has_none(window):
+    spread(window, 1)
+    page = window.page
+    page.start()
+    window.wait(lambda: page.panel_touch.touch.isEnabled() and page.panel_touch.touch.isVisible())
+    window.click(page.panel_touch.touch)
+    window.bench.live.pair.step(400)
+    page.tick()
+    assert page.work.touches.view().accepted == 1
+
+
+def test_markers_are_edited_and_every_edit_can_be_undone(window):
+    page, undo = window.page, window.bench.undo
+    page.panel_markers.typed.emit((0.0, 0.0, 0.15))
+    page.panel_markers.pick.setChecked(True)
+    window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
+    assert page.markers.names == ("M1", "M2")
+    page.tick()
+    page.panel_markers.table.item(0, 0).setText("tip")
+    assert page.markers.names == ("tip", "M2")
+    page.panel_markers.show_markers([])
+    page.panel_markers.table.rename_wanted.emit("tip", "M2")
+    assert window.told[-1].weight is Weight.WARNING
+    page.tick()
+    page.panel_markers.remove_wanted.emit(["M2"])
+    assert page.markers.names == ("tip",)
+    undo.undo()
+    assert page.markers.names == ("tip", "M2")
+    for _ in range(3):
+        undo.undo()
+    assert page.markers == Markers()
+    undo.setIndex(4)
+    assert page.markers.names == ("tip",)
+    window.wait(lambda: window.kept() == page.markers)
+    page.panel_markers.pick.setChecked(False)
+    window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
+    assert page.markers.names == ("tip",)
+
+
+def test_a_picked_point_moves_the_marker_that_is_selected(window):
+    spread(window, 2)
+    page = window.page
+    page.tick()
+    page.panel_markers.pick.setChecked(True)
+    page.panel_markers.table.select("M2")
+    window.scene.picked.emit(Pick(0, np.array([0.01, 0.0, 0.15])))
+    assert page.markers.all[1].point_S.tolist() == [0.01, 0.0, 0.15]
+    assert len(page.markers) == 2
+
+
+def test_a_table_is_imported_and_saved(window, tmp_path):
+    page, file = window.page, tmp_path / "m.csv"
+    file.write_text("name,x_mm,y_mm,z_mm\nnose,0,0,150\n")
+    page._editing.bring(file)
+    window.wait(lambda: page.markers.names == ("nose",))
+    page._editing.write(tmp_path / "out.csv")
+    window.wait(lambda: (tmp_path / "out.csv").exists())
+    assert (tmp_path / "out.csv").read_bytes() == page.markers.to_bytes()
+    file.write_text("nothing\n")
+    page._editing.bring(file)
+    window.wait(
+        lambda: any("m.csv" in message.text and message.weight is Weight.WARNING for message in window.told)
+    )
+    assert page.markers.names == ("nose",)
+
+
+def test_settings_are_those_of_the_session_and_can_be_undone(window):
+    page = window.page
+    page.panel_how.repeats.setValue(3)
+    window.wait(lambda: "verification.repeats" in window.desk.state.settings)
+    assert window.desk.state.settings["verification.repeats"].value == 3
+    page.panel_how.low.setValue(7.0)
+    window.wait(lambda: "verification.windows" in window.desk.state.settings)
+    assert window.desk.state.settings["verification.windows"].value == [[7.0, 10.0]]
+    window.bench.undo.undo()
+    window.bench.undo.undo()
+    window.wait(lambda: window.desk.state.settings["verification.repeats"].value == 1)
+    window.wait(lambda: page.panel_how.repeats.value() == 1 and page.panel_how.low.value() == 8.0)
+
+
+def test_without_calibration_or_devices_the_page_says_what_to_do(qtbot, tmp_path):
+    Session.create(tmp_path / "s").close()
+    window = Window(qtbot, tmp_path / "s", devices=False)
+    try:
+        page, went = window.page, []
+        window.bench.go_to.connect(went.append)
+        assert "Gravity" in page.locked.text()
+        assert not page.tabs.isVisible()
+        window.click(page.go)
+        assert went == [Step.GRAVITY]
+        page.tick()
+        assert "No sensor" in page.panel_touch.state.detail
+    finally:
+        window.close()
+
+
+def test_nothing_of_the_page_stays_in_the_scene_and_no_panel_is_too_wide(window):
+    spread(window, 2)
+    page = window.page
+    for tab in range(page.tabs.count()):
+        page.tabs.setCurrentIndex(tab)
+        area = page.tabs.widget(tab)
+        window.wait(lambda area=area: 300 < area.widget().width() <= area.viewport().width())
+        assert area.widget().minimumSizeHint().width() <= 330
+    page.panel_touch.heat.setChecked(True)
+    page.tick()
+    page.leave()
+    window.page.enter()
+    page.panel_touch.mute.click()
+    assert page.sounds.muted

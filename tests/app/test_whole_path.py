@@ -1,0 +1,141 @@
+"""A newcomer without hardware: from the first start to a bundle that a runtime loads, by clicks and keys only."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+from driving.hand import Hand, rest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtWidgets import QWidget
+
+from widgets.theme import use_theme
+
+LONG = 180.0  # s: on a machine with other work
+
+
+@pytest.mark.window
+@pytest.mark.timeout(540)
+def test_from_the_first_start_to_a_checked_bundle(make_window, tmp_path):
+    use_theme("light")
+    window = make_window()
+    hand = Hand(window, tmp_path / "pictures")
+    begin(hand)
+    weigh(hand)
+    check_a_pose(hand)
+    prepare_the_probe(hand)
+    paint_a_region(hand)
+    verify(hand)
+    bundle = tmp_path / "by-hand.zip"
+    export(hand, bundle)
+    window.close()
+    hand.until(lambda: not window.isVisible(), "the window to close", LONG)
+    assert not (tmp_path / "pictures").exists(), "nothing was in the way"
+
+    (session,) = (tmp_path / "home" / "sessions").iterdir()
+    checked = json.loads(contactbench("config", "check", bundle, "--json"))
+    assert checked["verified"], checked
+    contactbench("config", "export", session, "--out", tmp_path / "headless.zip")
+    assert (tmp_path / "headless.zip").read_bytes() == bundle.read_bytes()
+    assert "differ" not in contactbench("session", "replay", session)
+
+
+def begin(hand):
+    hand.press("Try the virtual bench")
+    hand.read("Hold the tool still", LONG)
+    hand.press("Devices")
+    hand.read("Connected: the virtual bench", LONG)
+    hand.press("Gravity")
+
+
+def weigh(hand):
+    """Let the virtual bench turn; the first pose by the space bar, the others by themselves."""
+    hand.press("Take each still pose by itself")
+    hand.press("Start")
+    hand.press("Turn it there for me", LONG)
+    hand.read("You are there", LONG)
+    hand.read("Press SPACE", LONG)
+    hand.key(Qt.Key.Key_Space)
+    hand.read("pose 2 of", LONG)
+    hand.press("Take each still pose by itself")
+    for _ in range(12):
+        if enough(hand):
+            break
+        poses = count(hand)
+        hand.press("Turn it there for me", LONG)
+        hand.until(lambda poses=poses: count(hand) != poses or enough(hand), "another pose", LONG)
+    hand.press("Finish")
+    hand.read("The calibration adds up to", LONG)
+
+
+def count(hand):
+    return [line for line in hand.words().splitlines() if line.startswith("pose ")]
+
+
+def enough(hand):
+    return "poses: enough" in hand.words()
+
+
+def check_a_pose(hand):
+    hand.press("Check one more pose", LONG)
+    hand.press("Turn it there for me", LONG)
+    hand.read("Checked in a pose it had not seen", LONG)
+
+
+def prepare_the_probe(hand):
+    hand.press("Go on: Probe")
+    hand.press("Use the virtual bench's housing")
+    hand.until(lambda: hand.enabled("Use this probe"), "the probe to be prepared", LONG)
+    advised = hand.reading("facets: contacts move")
+    chart = hand.find("Contact error against the number of facets", QWidget)
+    hand.click(chart, QPoint(chart.width() // 2, chart.height() // 2))
+    hand.key(Qt.Key.Key_Right)
+    hand.until(lambda: hand.reading("facets: contacts move") != advised, "another choice")
+    rest(600)
+    hand.press("Use this probe", LONG)
+
+
+def paint_a_region(hand):
+    hand.press("In use. Go on: Regions", LONG)
+    hand.press("Add", LONG)
+    scene = hand.find("3D view of the probe", QWidget)
+    x, y = scene.width() // 2, scene.height() // 2
+    for _ in range(5):  # a person sees that nothing is painted yet, and drags once more
+        rest(1_000)
+        hand.drag(scene, [QPoint(x, y - 10 * step) for step in range(9)])
+        if hand.enabled("Give them to the probe"):
+            break
+    hand.press("Give them to the probe", LONG)
+    hand.read("The probe has these regions", LONG)
+
+
+def verify(hand):
+    hand.press("Go on to Verify")
+    hand.until(lambda: hand.enabled("Spread evenly"), "the probe to be loaded", LONG)
+    hand.choose("Where markers are placed", "the whole probe")
+    hand.type("How many markers", "6")
+    hand.press("Spread evenly", LONG)
+    hand.press("Go on: touch them", LONG)
+    hand.press("Start touching", LONG)
+    hand.press("Touch all", LONG)
+    hand.read("All markers are touched", LONG)
+    hand.press("Finish")
+    hand.read("mean error of 6 touches", LONG)
+    hand.read("Passed")
+
+
+def export(hand, bundle):
+    hand.press("Go on: Export")
+    hand.read("Verified: ready to be exported", LONG)
+    hand.name_file("Export a file", bundle)
+    hand.until(bundle.exists, "the bundle", LONG)
+    hand.read(bundle.name, LONG)
+
+
+def contactbench(*words):
+    """Run a command without a screen; what it prints."""
+    done = subprocess.run(
+        [sys.executable, "-m", "app.cli", *map(str, words)], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout

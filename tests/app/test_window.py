@@ -1,0 +1,297 @@
+from __future__ import annotations
+
+import gc
+import os
+import threading
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QUndoCommand, QWheelEvent
+from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLayout, QWidget
+from shiboken6 import isValid
+
+from app.settings import Settings
+from app.window_wheels import guard_wheels
+from pipeline.errors import InputError
+from pipeline.session import Session
+from pipeline.workbench.steps import Step
+
+from .conftest import PlainPage, close, shown
+
+
+@pytest.fixture
+def window(make_window, plain_pages):  # noqa: ARG001 - for what it does
+    return make_window()
+
+
+@pytest.fixture
+def opened(qtbot, window, tmp_path):
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "a session"))
+    return window
+
+
+def test_a_new_window_offers_sessions_and_nothing_that_needs_one(window):
+    assert window.start.isVisible()
+    assert not window.docks.step_dock.isVisible()
+    assert window.bench is None
+    assert not next(a for a in window.menus._only_open if a.text().startswith("&Close")).isEnabled()
+
+
+def test_a_session_brings_steps_page_scene_and_charts(opened):
+    docks = (
+        opened.docks.step_dock,
+        opened.docks.page_dock,
+        opened.docks.chart_dock,
+        opened.docks.message_dock,
+    )
+    assert all(dock.isVisible() for dock in docks)
+    assert opened.scene.isVisible()
+    assert opened.pages.step is Step.DEVICES
+    assert "a session" in opened.windowTitle()
+
+
+def test_steps_by_click_key_and_page(qtbot, opened):
+    qtbot.mouseClick(opened.steps.row(Step.PROBE), Qt.MouseButton.LeftButton)
+    assert opened.pages.step is Step.PROBE
+    opened.activateWindow()
+    qtbot.waitUntil(opened.isActiveWindow, timeout=10_000)
+    qtbot.keyClick(opened, Qt.Key.Key_5, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: opened.pages.step is Step.VERIFY, timeout=5000)
+    opened.bench.go_to.emit(Step.REGIONS)
+    assert opened.pages.step is Step.REGIONS
+    probe = opened.pages._pages[Step.PROBE]
+    assert probe.calls == ["enter", "leave"]
+
+
+def test_the_page_that_is_shown_is_ticked_and_told_its_state(qtbot, opened):
+    page = opened.pages.current
+    qtbot.waitUntil(lambda: page.ticks > 3, timeout=10_000)
+    assert page.status.state == "ready"
+
+
+def test_pages_are_made_ahead_without_being_entered(qtbot, opened):
+    qtbot.waitUntil(lambda: len(opened.pages._pages) == len(Step), timeout=20_000)
+    assert opened.pages._pages[Step.EXPORT].calls == []
+
+
+def test_what_a_page_raises_is_told_and_the_window_lives(
+    qtbot, make_window, plain_pages, tmp_path, monkeypatch
+):
+    seen = []
+    monkeypatch.setattr("sys.excepthook", lambda *info: seen.append(info[1]))
+
+    class Broken(PlainPage):
+        step = Step.DEVICES
+
+        def tick(self):
+            raise ValueError("a page with a fault")
+
+    plain_pages[Step.DEVICES] = Broken
+    window = make_window()
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "s"))
+    qtbot.waitUntil(lambda: bool(seen), timeout=10_000)
+    qtbot.wait(200)
+    assert len(seen) == 1  # not thirty times a second
+    window.show_step(Step.GRAVITY)
+    assert window.pages.step is Step.GRAVITY
+
+
+def test_a_page_that_cannot_be_made_leaves_the_others(qtbot, make_window, plain_pages, tmp_path, monkeypatch):
+    seen = []
+    monkeypatch.setattr("sys.excepthook", lambda *info: seen.append(info[1]))
+    del plain_pages[Step.DEVICES]
+    window = make_window()
+    shown(qtbot, window, lambda: window.sessions.new(tmp_path / "s"))
+    window.show_step(Step.PROBE)
+    assert isinstance(seen[0], KeyError)
+    assert window.pages.current.calls == ["enter"]
+
+
+def test_undo_and_redo_belong_to_the_session(qtbot, opened):
+    done = []
+
+    class Count(QUndoCommand):
+        def redo(self):
+            done.append("redo")
+
+        def undo(self):
+            done.append("undo")
+
+    assert not opened.menus.undo.isEnabled()
+    opened.bench.undo.push(Count("Count"))
+    opened.menus.undo.trigger()
+    opened.menus.redo.trigger()
+    assert done == ["redo", "undo", "redo"]
+    with qtbot.waitSignal(opened.gone, timeout=30_000):
+        opened.close_session()
+    assert not opened.menus.undo.isEnabled()
+
+
+def test_long_work_is_shown_with_a_cancel_button(qtbot, opened):
+    stop = threading.Event()
+    job = opened.bench.jobs.start("Simplifying", lambda progress, _: (progress(0.5), stop.wait(30)))
+    qtbot.waitUntil(lambda: opened.strip.text().startswith("Simplifying"), timeout=10_000)
+    assert opened.strip._bar.value() == 500
+    qtbot.mouseClick(opened.strip._stop, Qt.MouseButton.LeftButton)
+    assert job.cancelled()
+    assert opened.strip._stop.text() == "Stopping"
+    stop.set()
+    qtbot.waitUntil(lambda: opened.strip.text() == "", timeout=10_000)
+
+
+def test_a_failed_job_is_told_in_its_own_words(qtbot, opened):
+    def fail(_progress, _cancelled):
+        raise InputError("mesh.stl: no facet: choose another file.")
+
+    opened.bench.jobs.start("Reading", fail)
+    qtbot.waitUntil(lambda: opened.messages.texts()[:1] != (), timeout=10_000)
+    assert opened.messages.texts()[0] == "Reading: mesh.stl: no facet: choose another file."
+    assert opened.messages.weights()[0] == "error"
+
+
+def test_closing_gives_the_session_back_and_remembers_the_page(qtbot, opened, tmp_path):
+    pages = opened.pages
+    opened.show_step(Step.GRAVITY)
+    gravity = pages.current
+    with qtbot.waitSignal(opened.gone, timeout=30_000):
+        opened.close_session()
+    assert gravity.calls == ["enter", "leave", "close"]
+    with Session.open(tmp_path / "a session"):
+        pass  # nothing holds its lock
+    assert Settings().page_of(tmp_path / "a session") == "gravity"
+    shown(qtbot, opened, lambda: opened.sessions.open(tmp_path / "a session"))
+    assert pages.step is Step.GRAVITY
+
+
+def test_layout_and_theme_are_remembered(qtbot, opened):
+    opened.docks.message_dock.hide()
+    opened.set_theme("dark")
+    with qtbot.waitSignal(opened.gone, timeout=30_000):
+        opened.close_session()
+    opened.set_theme("light")
+    folder = Path(opened.settings.now.recent[0].folder)
+    shown(qtbot, opened, lambda: opened.sessions.open(folder))
+    assert opened.docks.message_dock.isHidden()
+    assert not opened.docks.chart_dock.isHidden()
+    opened.reset_layout()
+    assert not opened.docks.message_dock.isHidden()
+    assert Settings().now.theme == "light"
+
+
+def test_closing_while_work_runs_waits_for_it_and_asks_nothing(qtbot, opened):
+    ended = threading.Event()
+
+    def work(_progress, cancelled):
+        while not cancelled():
+            ended.wait(0.01)
+        ended.set()
+
+    opened.bench.jobs.start("Working", work)
+    close(qtbot, opened)
+    assert ended.is_set()
+
+
+def test_a_session_is_opened_while_another_is_open(qtbot, opened, tmp_path):
+    shown(qtbot, opened, lambda: opened.sessions.new(tmp_path / "another"))
+    assert opened.bench.desk.folder.name == "another"
+    with Session.open(tmp_path / "a session"):
+        pass
+
+
+def test_help_shortcuts_log_and_about_open(opened):
+    for action, words in (
+        (opened.menus.show_help, "sensor"),
+        (opened.menus.show_log, "stood still"),
+    ):
+        action()
+        dialog = QApplication.activeModalWidget()
+        assert words in dialog.view.toPlainText()
+        dialog.close()
+    opened.menus.show_shortcuts()
+    sheet = QApplication.activeModalWidget()
+    keys = {sheet.table.item(row, 0).text() for row in range(sheet.table.rowCount())}
+    assert {"Ctrl+1", "Ctrl+6", "F1", "Ctrl+Z", "Ctrl+O"} <= keys
+    sheet.close()
+    opened.menus.show_about()
+    about = QApplication.activeModalWidget()
+    assert "numpy" in about.licences.toPlainText()
+    assert "pytest" not in about.licences.toPlainText()
+    about.close()
+
+
+def test_diagnostics_are_saved_from_the_menu(qtbot, opened, tmp_path):
+    opened.menus.save_diagnostics(tmp_path / "d.zip")
+    qtbot.waitUntil(lambda: opened.messages.texts()[:1] != (), timeout=20_000)
+    assert "Diagnostics are saved" in opened.messages.texts()[0]
+    assert (tmp_path / "d.zip").stat().st_size > 500
+
+
+def test_the_heatmap_viewer_opens_beside_and_closes_with_the_window(qtbot, window):
+    window.menus.show_heatmap_viewer()
+    window.menus.show_heatmap_viewer()
+    viewers = [each for each in QApplication.topLevelWidgets() if each.windowTitle() == "Heatmap viewer"]
+    assert [each.isVisible() for each in viewers] == [True, True]
+    viewers[0].close()
+    close(qtbot, window)
+    qtbot.waitUntil(lambda: not any(isValid(each) and each.isVisible() for each in viewers), timeout=10_000)
+
+
+def test_the_wheel_changes_no_number_that_has_not_the_focus(qtbot):
+    area, inner = QScrollArea(), QWidget()
+    qtbot.addWidget(area)
+    column = QVBoxLayout(inner)
+    box, other = QDoubleSpinBox(value=5), QDoubleSpinBox()
+    column.addWidget(box)
+    column.addWidget(other)
+    area.setWidget(inner)
+    guard_wheels(area)
+    area.show()
+    qtbot.waitExposed(area)
+    area.activateWindow()
+    other.setFocus()
+    qtbot.waitUntil(other.hasFocus, timeout=10_000)
+
+    def turn():
+        at = QPointF(box.rect().center())
+        none, no_keys = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
+        event = QWheelEvent(
+            at,
+            box.mapToGlobal(at),
+            QPoint(),
+            QPoint(0, 120),
+            none,
+            no_keys,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        )
+        QApplication.sendEvent(box, event)
+
+    turn()
+    assert box.value() == 5
+    box.setFocus()
+    qtbot.waitUntil(box.hasFocus, timeout=10_000)
+    turn()
+    assert box.value() == 6
+
+
+@pytest.mark.usefixtures("plain_pages")
+def test_opened_and_closed_many_times_nothing_is_left(qtbot, make_window, tmp_path):
+    def once(number):
+        window = make_window()
+        begin = window.sessions.new if number == 0 else window.sessions.open
+        shown(qtbot, window, lambda: begin(tmp_path / "s"))
+        close(qtbot, window)
+        window.deleteLater()
+        QApplication.sendPostedEvents(None, 52)  # what was to be deleted later
+        QApplication.processEvents()
+        del window
+
+    once(0)
+    gc.collect()
+    windows, threads = len(QApplication.topLevelWidgets()), threading.active_count()
+    for number in range(1, int(os.environ.get("CONTACTBENCH_OPENINGS", "6"))):
+        once(number)
+    gc.collect()
+    qtbot.waitUntil(lambda: threading.active_count() <= threads, timeout=10_000)
+    assert len(QApplication.topLevelWidgets()) <= windows

@@ -1,0 +1,28 @@
+"""The window with its real pages."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+
+from pipeline.workbench.steps import Step
+
+from .conftest import close, shown
+
+
+def test_every_page_is_visited_on_the_virtual_bench_without_a_complaint(qtbot, make_window):
+    window = make_window()
+    start = window.start.virtual_button
+    shown(qtbot, window, lambda: qtbot.mouseClick(start, Qt.MouseButton.LeftButton))
+    qtbot.waitUntil(lambda: window.live.connected, timeout=60_000)
+    for step in Step:
+        qtbot.mouseClick(window.steps.row(step), Qt.MouseButton.LeftButton)
+        assert window.pages.step is step
+        assert window.pages.current.step is step
+        qtbot.wait(150)
+        assert window.pages.current.minimumSizeHint().width() <= 400, step
+    assert [text for text in window.messages.texts() if "went wrong" in text] == []
+    window.resize(1280, 800)
+    qtbot.wait(50)
+    assert (window.width(), window.height()) == (1280, 800)  # nothing asks for more
+    close(qtbot, window)
+    assert "error" not in window.messages.weights()

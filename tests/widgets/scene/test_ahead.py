@@ -1,0 +1,43 @@
+"""What is computed of a probe beside the window."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from widgets.scene.ahead import MANY, Ahead, crease_ends, prepare
+from widgets.scene.benchmark import ball
+
+
+def test_the_creases_of_a_box_are_its_twelve_edges(make_box):
+    box = make_box()
+    ends = crease_ends(box.vertices, box.faces, box.normals).reshape(-1, 2, 3)
+    assert len(ends) == 12
+    along = np.abs(ends[:, 1] - ends[:, 0])
+    assert (np.count_nonzero(along > 1e-9, axis=1) == 1).all()  # no diagonal
+
+
+def test_an_open_edge_is_a_crease_and_a_smooth_one_is_not():
+    vertices = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]])
+    faces = np.array([[0, 1, 2], [1, 3, 2]], np.int32)
+    ends = crease_ends(vertices, faces, np.array([[0.0, 0, 1], [0, 0, 1]]))
+    assert len(ends) == 2 * 4
+
+
+def test_only_many_facets_have_a_likeness():
+    assert prepare(ball(1_000)).likeness is None
+    assert prepare(ball(2 * MANY)).likeness is not None
+
+
+def test_only_the_newest_probe_is_handed_on(qtbot):
+    taken = []
+    ahead = Ahead(taken.append, None)
+    old, new = ball(2_000), ball(3_000)
+    ahead.begin(old)
+    ahead.begin(new)
+    assert ahead.busy
+    qtbot.waitUntil(lambda: not ahead.busy, timeout=20_000)
+    assert [prepared.probe for prepared in taken] == [new]
+    ahead.begin(old)
+    ahead.close()
+    qtbot.wait(50)
+    assert len(taken) == 1

@@ -1,0 +1,43 @@
+from __future__ import annotations
+
+import pytest
+from PySide6.QtCore import Qt
+
+from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.step_list import StepList
+
+
+@pytest.fixture
+def steps(qtbot):
+    made = StepList()
+    qtbot.addWidget(made)
+    made.show()
+    qtbot.waitExposed(made)
+    return made
+
+
+def test_each_step_says_how_it_stands_in_a_word(steps):
+    states = list(StepState)
+    steps.show_statuses({step: StepStatus(states[n], f"why {n}") for n, step in enumerate(Step)})
+    names = [steps.row(step).accessibleName() for step in Step]
+    assert names[0] == "1 Devices: locked"
+    assert {name.rpartition(" ")[2] for name in names} == {state.value for state in StepState}
+    assert steps.row(Step.EXPORT).toolTip() == "why 5"
+
+
+def test_click_and_key_choose(qtbot, steps):
+    chosen = []
+    steps.chosen.connect(chosen.append)
+    qtbot.mouseClick(steps.row(Step.VERIFY), Qt.MouseButton.LeftButton)
+    steps.row(Step.PROBE).setFocus()
+    qtbot.keyClick(steps.row(Step.PROBE), Qt.Key.Key_Space)
+    assert chosen == [Step.VERIFY, Step.PROBE]
+    steps.show_step(Step.GRAVITY)
+    assert [step for step in Step if steps.row(step).isChecked()] == [Step.GRAVITY]
+
+
+def test_the_shown_step_looks_different(steps):
+    steps.show_step(Step.GRAVITY)
+    one = steps.row(Step.GRAVITY).grab().toImage()
+    steps.show_step(Step.PROBE)
+    assert steps.row(Step.GRAVITY).grab().toImage() != one

@@ -1,0 +1,190 @@
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication
+
+from widgets.strip_chart import History, StripChart
+from widgets.strip_chart_decimate import decimate, nearest, steady_range
+
+
+def history(count=2000, rate=200.0, start=50.0, bias=0.0):
+    times = start + np.arange(count) / rate
+    raw = np.tile([1.0, -2.0, 3.0, 0.1, -0.2, 0.3], (count, 1)) + bias
+    return History(times, raw, np.full((count, 6), np.nan))
+
+
+@pytest.fixture
+def chart(qtbot):
+    found = StripChart()
+    qtbot.addWidget(found)
+    found.resize(1200, 320)
+    found.show()
+    qtbot.waitExposed(found)
+    return found
+
+
+def wheel(pane, steps):
+    view = pane._plot.viewport()
+    place = QPointF(view.rect().center())
+    QApplication.sendEvent(
+        view,
+        QWheelEvent(
+            place,
+            QPointF(view.mapToGlobal(place.toPoint())),
+            QPoint(0, 0),
+            QPoint(0, 120 * steps),
+            Qt.MouseButton.NoButton,
+            Qt.KeyboardModifier.NoModifier,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        ),
+    )
+
+
+# ---- fewer points --------------------------------------------------------------------------------
+
+
+def test_decimating_keeps_every_peak():
+    times = np.arange(60_000) / 1000
+    values = np.zeros((60_000, 3))
+    values[31_234, 1], values[7, 2] = 9.0, -4.0
+    drawn, points = decimate(times, values, 0.0, 60.0, 500)
+    assert len(drawn) == len(points) <= 2 * 500 + 4
+    assert points[:, 1].max() == 9.0
+    assert points[:, 2].min() == -4.0
+    assert drawn[np.argmax(points[:, 1])] == pytest.approx(31.234, abs=0.13)
+
+
+def test_decimating_leaves_few_points_alone_and_a_gap_open():
+    times, values = np.arange(100.0), np.arange(100.0)[:, None]
+    drawn, points = decimate(times, values, 10.0, 20.0, 50)
+    assert drawn[0] <= 10 <= 20 <= drawn[-1] <= 21
+    assert (drawn == points[:, 0]).all()
+    values = np.full((10_000, 1), np.nan)
+    values[:5000] = 1.0
+    _, points = decimate(np.arange(10_000.0), values, 0.0, 10_000.0, 100)
+    assert np.isnan(points[-1, 0])
+    assert points[0, 0] == 1.0
+
+
+def test_decimating_one_missing_sample_hides_nothing():
+    values = np.ones((10_000, 1))
+    values[::10] = np.nan
+    _, points = decimate(np.arange(10_000.0), values, 0.0, 10_000.0, 100)
+    assert np.isfinite(points).all()
+
+
+def test_nearest_and_nothing():
+    assert nearest(np.array([0.0, 1.0, 2.0]), 1.4) == 1
+    assert nearest(np.array([0.0, 1.0, 2.0]), 99.0) == 2
+    assert nearest(np.empty(0), 0.0) is None
+
+
+def test_the_axis_changes_seldom():
+    shown = steady_range(np.array([0.0, 1.0]), 0.5, None)
+    assert steady_range(np.array([0.1, 0.9]), 0.5, shown) == shown
+    assert steady_range(np.array([0.0, 50.0]), 0.5, shown)[1] > 50
+    assert steady_range(np.array([0.0, 0.001]), 0.5, (-100, 100))[1] < 1
+    assert steady_range(np.array([np.nan]), 0.5, shown) == shown
+
+
+# ---- the charts ----------------------------------------------------------------------------------
+
+
+def test_the_newest_values_are_written_with_their_unit(chart):
+    chart.refresh(history())
+    assert chart.panes[0].read_out == "Force: Fx 1.00  Fy -2.00  Fz 3.00 N"
+    assert chart.panes[1].read_out == "Torque: Mx 0.100  My -0.200  Mz 0.300 N·m"
+    assert chart.panes[2].read_out.endswith("|F| 3.74 N")
+    assert chart.panes[3].read_out == "Contact point: x –  y –  z – mm"
+
+
+def test_compensated_is_shown_once_there_is_a_calibration_unless_somebody_chose(chart):
+    data = history()
+    chart.refresh(data)
+    assert chart.kind.currentText() == "Raw"
+    calibrated = History(data.times, data.raw, data.raw - 1.0)
+    chart.refresh(calibrated)
+    assert chart.kind.currentText() == "Compensated"
+    assert "Fx 0.00" in chart.panes[0].read_out
+    chart.kind.setCurrentIndex(0)
+    chart.kind.activated.emit(0)
+    chart.refresh(calibrated)
+    assert "Fx 1.00" in chart.panes[0].read_out
+
+
+def test_contacts_are_in_millimetres(chart):
+    data = history()
+    chart.refresh(
+        History(
+            data.times,
+            data.raw,
+            data.compensated,
+            data.times[-2:],
+            np.array([[0.01, 0, 0], [0.02, -0.03, 0.1]]),
+        )
+    )
+    assert chart.panes[3].read_out == "Contact point: x 20.0  y -30.0  z 100.0 mm"
+
+
+def test_pause_holds_the_picture_until_back_to_live(chart, qtbot):
+    chart.refresh(history())
+    qtbot.mouseClick(chart.pause_button, Qt.MouseButton.LeftButton)
+    assert chart.held
+    assert chart.live_button.isVisible()
+    chart.refresh(history(bias=5.0))
+    assert "Fx 1.00" in chart.panes[0].read_out
+    qtbot.mouseClick(chart.live_button, Qt.MouseButton.LeftButton)
+    chart.refresh(history(bias=5.0))
+    assert not chart.held
+    assert not chart.pause_button.isChecked()
+    assert "Fx 6.00" in chart.panes[0].read_out
+
+
+def test_the_wheel_zooms_all_panes_and_holds(chart):
+    chart.refresh(history())
+    before = chart.panes[0]._view.viewRange()[0]
+    wheel(chart.panes[0], 3)
+    zoomed = chart.panes[0]._view.viewRange()[0]
+    assert chart.held
+    assert zoomed[1] - zoomed[0] < 0.9 * (before[1] - before[0])
+    assert chart.panes[1]._view.viewRange()[0] == pytest.approx(zoomed)
+    chart.back_to_live()
+    chart.refresh(history())
+    assert chart.panes[0]._view.viewRange()[0] == pytest.approx(before)
+
+
+def test_the_cursor_reads_values_at_its_time(chart):
+    data = history()
+    data.raw[:, 0] = data.times - data.times[-1]
+    chart.refresh(data)
+    chart.panes[1].pointed.emit(-4.0)
+    assert chart.panes[0].read_out == "Force: Fx -4.00  Fy -2.00  Fz 3.00 N, -4.00 s"
+    chart.panes[1].pointed.emit(None)
+    assert "Fx 0.00" in chart.panes[0].read_out
+
+
+def test_there_are_as_many_panes_as_there_is_room(chart, qtbot):
+    def shown():
+        return [pane.isVisible() for pane in chart.panes]
+
+    assert shown() == [True] * 4
+    chart.resize(450, 165)
+    qtbot.waitUntil(lambda: shown() == [True, True, False, False])
+    chart._toggles[3].trigger()
+    assert shown() == [True, True, False, True]
+    chart.resize(1200, 320)
+    assert shown() == [True, True, False, True]  # what was chosen stays
+
+
+def test_nothing_at_all_can_be_shown(chart):
+    chart.refresh(History(np.empty(0), np.empty((0, 6)), np.empty((0, 6))))
+    assert "Fx –" in chart.panes[0].read_out
+    chart.follow(None)
+    chart.tick()
+
+
+def test_lines_differ_without_their_colours(chart):
+    strokes = {line.opts["pen"].style() for line in chart.panes[0]._lines}
+    assert len(strokes) == 3

@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import re
+from dataclasses import fields
+
+import pytest
+
+from widgets import theme
+from widgets.theme import colours, contrast, is_dark, style_sheet, use_theme
+
+_WRITTEN = ("text", "muted", "accent", "good", "warning", "bad", "stale")
+
+
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("ground", ["panel", "background"])
+@pytest.mark.parametrize("written", _WRITTEN)
+def test_what_is_written_can_be_read(dark, ground, written):
+    c = colours(dark)
+    assert contrast(getattr(c, written), getattr(c, ground)) >= 4.5
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_on_the_accent_too_and_lines_can_be_told(dark):
+    c = colours(dark)
+    assert contrast(c.panel, c.accent) >= 4.5
+    assert all(contrast(colour, c.panel) >= 2.0 for colour in c.series)
+    assert len(set(c.series)) == 6
+
+
+def test_contrast_is_that_of_wcag():
+    assert contrast("#000000", "#ffffff") == pytest.approx(21.0)
+    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_the_style_sheet_uses_colours_of_the_theme_only(dark):
+    sheet = style_sheet(dark)
+    known = {getattr(colours(dark), field.name) for field in fields(colours(dark)) if field.name != "series"}
+    assert set(re.findall(r"#[0-9a-f]{6}", sheet)) <= known
+    assert "{" + "{" not in sheet
+    for picture in re.findall(r"url\((.*?)\)", sheet):
+        assert theme.Path(picture).is_file()
+
+
+def test_a_running_application_is_dressed(qapp):
+    before, sheet = qapp.palette(), qapp.styleSheet()
+    try:
+        use_theme("dark")
+        assert is_dark()
+        use_theme("light")
+        assert not is_dark()
+    finally:
+        qapp.setPalette(before)
+        qapp.setStyleSheet(sheet)

@@ -1,0 +1,62 @@
+"""Samples of the virtual bench in still poses, without waiting for them."""
+
+from __future__ import annotations
+
+import time
+from functools import cache
+
+import numpy as np
+
+from pipeline.calibration.reachable import by_hand
+from pipeline.calibration.suggest import plan_poses
+from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from pipeline.session.live import LiveRecording
+from pipeline.simulation.virtual.bench import VirtualBench
+from pipeline.workbench.live import Block
+
+STILL_S = 4.5  # of which the wrist turns for the first
+
+
+@cache
+def planned():
+    return plan_poses(6, by_hand()).R_WS
+
+
+@cache
+def batches(count=6, bumped=None, begin=0):
+    """Return what comes of a bench that goes through planned poses; one of them is pushed meanwhile."""
+    bench = VirtualBench()
+    found = []
+    for number, R in enumerate(planned()[begin : begin + count]):
+        bench.turn_to(R, seconds=1.5)
+        if number == bumped:
+            found.append(bench.advance(2.0))
+            bench.bump([3.0, 0.0, 0.0], seconds=10.0)
+            found += [bench.advance(0.5) for _ in range(10)]
+        found += [bench.advance(0.5) for _ in range(int(STILL_S / 0.5))]
+    bench.close()
+    return tuple(found)
+
+
+def block(batch, turn=None):
+    """Return wrenches as the window gets them; `turn`: the flange as S, times this."""
+    R = np.array([truth.R_WS for truth in batch.truths])
+    return Block(
+        np.array([sample.time for sample in batch.wrenches]),
+        np.array([[*sample.force, *sample.torque] for sample in batch.wrenches]),
+        R if turn is None else R @ turn,
+        np.array([sample.status != 0 for sample in batch.wrenches]),
+    )
+
+
+def record(session, name, some, *, abruptly=False):
+    """Put batches into a session as a recording."""
+    devices = (
+        DeviceInfo("wrench", WRENCH_TOPIC, "virtual://bench", rate=200.0),
+        DeviceInfo("flange", FLANGE_TOPIC, "virtual://bench", rate=50.0),
+    )
+    with LiveRecording(session, RecordingInfo(time.time_ns(), 0.0, devices), name=name, patient=True) as tape:
+        for batch in some:
+            tape.recorder.samples(batch.wrenches)
+            tape.recorder.poses(batch.flanges)
+    return None if abruptly else tape.keep({})

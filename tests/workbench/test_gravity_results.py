@@ -1,0 +1,103 @@
+import pytest
+from workbench.gravity_bench import batches, block, record
+
+from pipeline.session import Session
+from pipeline.session.errors import SessionError
+from pipeline.session.recompute import compute
+from pipeline.session.unfinished import adopt_unfinished
+from pipeline.workbench.gravity import GravityWork
+from pipeline.workbench.gravity_poses import PoseState
+from pipeline.workbench.gravity_results import (
+    change,
+    difference,
+    finish,
+    interrupted,
+    next_name,
+    outcome_of,
+    take_up,
+)
+from pipeline.workbench.gravity_settings import gravity_settings
+
+
+@pytest.fixture
+def session(tmp_path):
+    with Session.create(tmp_path / "s") as made:
+        yield made
+
+
+def test_the_session_computes_what_was_shown_live(session):
+    run = GravityWork(gravity_settings(session.state))
+    for batch in batches():
+        run.feed(block(batch))
+    run.finish()
+    run.wait()
+    record(session, "gravity-1.mcap", batches())
+    outcome = finish(session, "gravity-1.mcap", run.left_out)
+    live = run.view().solved.calibration
+    run.close()
+    assert difference(live, outcome) == ""
+    assert outcome.calibration.contact_error == pytest.approx(live.contact_error, rel=0.02)
+    assert len(outcome.rows) == 6
+    assert outcome.recording == "gravity-1.mcap"
+    assert next_name(session.state, session.folder) == "gravity-2.mcap"
+    assert next_name(session.state, session.folder, check=True) == "gravity-check-1.mcap"
+
+
+def test_left_out_poses_are_left_out_and_taken_back(session):
+    record(session, "gravity-1.mcap", batches())
+    whole = finish(session, "gravity-1.mcap")
+    first = session.state.current_results["captures", "poses.csv"].outcome
+    without = change(session, [whole.rows[1].time])
+    assert len(without.calibration.poses) == 5
+    assert without.rows[-1].state is PoseState.LEFT_OUT
+    assert without.rows[-1].time == whole.rows[1].time
+    assert difference(whole.calibration, without)
+    again = change(session, [])
+    assert len(again.calibration.poses) == 6
+    assert session.state.current_results["captures", "poses.csv"].outcome == first
+    assert outcome_of(session.folder, session.state).rows[-1].state is PoseState.TAKEN
+
+
+def test_a_headless_computation_gives_the_same_bytes(session):
+    record(session, "gravity-1.mcap", batches())
+    whole = finish(session, "gravity-1.mcap")
+    change(session, [whole.rows[0].time])
+    mine = session.state.current_results["captures", "poses.csv"].outcome
+    given = session.state.current_inputs["recording", "gravity-1.mcap"].content
+    compute(session, "captures", "poses.csv", {"recording": given}, {"leave_out": [whole.rows[0].time]})
+    assert session.state.current_results["captures", "poses.csv"].outcome == mine
+
+
+def test_an_interrupted_run_is_gone_on_from(session):
+    record(session, "gravity-1.mcap", batches(2), abruptly=True)
+    adopt_unfinished(session)
+    left = interrupted(session.state)
+    assert left.name == "gravity-1.mcap"
+    name, poses = take_up(session, left.name)
+    assert len(poses) == 2
+    assert interrupted(session.state) is None
+    run = GravityWork(gravity_settings(session.state), earlier=poses)
+    rest = batches(6)[2 * 9 :]
+    for batch in rest:
+        run.feed(block(batch))
+    run.finish()
+    run.wait()
+    assert run.view().count == 6
+    assert [row.earlier for row in run.view().rows] == [True] * 2 + [False] * 4
+    run.close()
+    record(session, "gravity-2.mcap", rest)
+    outcome = finish(session, "gravity-2.mcap", earlier=name)
+    assert len(outcome.calibration.poses) == 6
+    assert [row.changeable for row in outcome.rows] == [False] * 2 + [True] * 4
+    assert change(session, [outcome.rows[-1].time]).rows[0].earlier
+
+
+def test_too_few_poses_are_refused_in_words(session):
+    record(session, "gravity-1.mcap", batches(2))
+    with pytest.raises(SessionError, match="2 still poses, a calibration needs 3"):
+        finish(session, "gravity-1.mcap")
+    with pytest.raises(SessionError, match="no recording of this name"):
+        finish(session, "gravity-7.mcap")
+    with pytest.raises(SessionError, match="record some first"):
+        change(session, [])
+    assert outcome_of(session.folder, session.state) is None

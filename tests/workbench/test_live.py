@@ -1,0 +1,333 @@
+import threading
+import time
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import GravityModel
+from pipeline.contact import ContactSolver
+from pipeline.devices.drive import State
+from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from pipeline.devices.url import AddressError
+from pipeline.errors import InputError
+from pipeline.filtering import KalmanFilter
+from pipeline.workbench.live import Live, Tap
+from pipeline.workbench.live_poses import LONGEST_GAP, PoseTrack
+from pipeline.workbench.live_ring import Ring
+from pipeline.workbench.live_trial import trial_of
+
+STEPWISE = "virtual://bench?probe=convex&sensor=paper&speed=step"
+EMPTY = np.zeros(3)
+
+
+def wait_until(condition, seconds=20.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it did not happen"
+        time.sleep(0.01)
+
+
+@pytest.fixture
+def live():
+    found = Live()
+    yield found
+    found.close()
+
+
+def turned(degrees, time):
+    return FlangeSample(time, Rotation.from_euler("z", degrees, degrees=True).as_matrix(), EMPTY)
+
+
+def degrees_of(R):
+    return Rotation.from_matrix(R).as_euler("zyx", degrees=True)[..., 0]
+
+
+# ---- orientation ---------------------------------------------------------------------------------
+
+
+def test_orientation_between_two_poses_is_on_the_shortest_way():
+    track = PoseTrack(np.eye(3))
+    track.add([turned(350, 1.0), turned(10, 1.2)])
+    found = track.at(np.array([1.0, 1.05, 1.1, 1.15, 1.2]))
+    assert degrees_of(found) == pytest.approx([-10, -5, 0, 5, 10], abs=1e-9)
+
+
+def test_orientation_is_held_for_a_while_and_then_unknown():
+    track = PoseTrack(np.eye(3))
+    track.add([turned(0, 1.0), turned(40, 1.1)])
+    found = track.at(np.array([0.9, 1.1 + LONGEST_GAP - 0.01, 1.1 + LONGEST_GAP + 0.01]))
+    assert np.isnan(found[0]).all()  # nothing is made up before the first pose
+    assert degrees_of(found[1]) == pytest.approx(40)
+    assert np.isnan(found[2]).all()
+
+
+def test_orientation_across_a_gap_of_poses_is_unknown_except_at_its_edge():
+    track = PoseTrack(np.eye(3))
+    track.add([turned(0, 1.0), turned(90, 1.0 + 2 * LONGEST_GAP)])
+    found = track.at(np.array([1.0, 1.0 + LONGEST_GAP]))
+    assert degrees_of(found[0]) == pytest.approx(0)
+    assert np.isnan(found[1]).all()
+
+
+def test_mount_turns_the_sensor_on_the_flange():
+    R_ES = Rotation.from_euler("x", 90, degrees=True).as_matrix()
+    track = PoseTrack(R_ES)
+    track.add([turned(90, 0.0), turned(90, 0.1)])
+    expected = turned(90, 0).R_BE @ R_ES
+    assert track.at(np.array([0.05]))[0] == pytest.approx(expected)
+
+
+# ---- memory --------------------------------------------------------------------------------------
+
+
+def test_ring_keeps_the_newest_in_their_order():
+    ring = Ring(10)
+    for start in range(0, 24, 4):
+        times = np.arange(start, start + 4, dtype=float)
+        wrenches = np.repeat(times[:, None], 6, axis=1)
+        ring.add(times, wrenches, 10 * wrenches, np.tile(np.eye(3), (4, 1, 1)))
+    times, raw, compensated = ring.last(100.0)
+    assert times.tolist() == list(range(14, 24))
+    assert raw[:, 5].tolist() == times.tolist()
+    assert (compensated == 10 * raw).all()
+    assert ring.last(2.0)[0].tolist() == [21, 22, 23]
+
+
+def test_ring_takes_more_than_it_holds():
+    ring = Ring(5)
+    times = np.arange(12.0)
+    ring.add(times, np.zeros((12, 6)), np.zeros((12, 6)), np.zeros((12, 3, 3)))
+    assert ring.last(100.0)[0].tolist() == [7, 8, 9, 10, 11]
+    assert ring.count == 12
+
+
+def test_history_follows_another_calibration(live):
+    live.open(STEPWISE, STEPWISE)
+    live.pair.step(400)
+    assert np.isnan(live.history(10.0)[2]).all()
+    bias = np.array([1.0, 2.0, 3.0])
+    live.set_model(GravityModel(EMPTY, bias, EMPTY, EMPTY))
+    times, raw, compensated = live.history(10.0)
+    assert len(times) > 200
+    assert compensated[:, :3] == pytest.approx(raw[:, :3] - bias)
+    assert np.isfinite(compensated).all()
+
+
+# ---- the path of samples -------------------------------------------------------------------------
+
+
+def test_followers_get_every_sample_once_in_order_with_its_orientation(live):
+    blocks = []
+    live.open(STEPWISE, STEPWISE)
+    end = live.follow(blocks.append)
+    live.pair.step(500)
+    times = np.concatenate([block.times for block in blocks])
+    R_WS = np.concatenate([block.R_WS for block in blocks])
+    assert (np.diff(times) > 0).all()
+    assert np.diff(times) == pytest.approx(0.005, abs=1e-6)
+    assert np.isfinite(R_WS).all()
+    assert sum(block.saturated.sum() for block in blocks) == 0
+    end()
+    seen = len(blocks)
+    live.pair.step(50)
+    assert len(blocks) == seen
+
+
+def test_a_sample_waits_for_the_pose_after_it(live):
+    blocks = []
+    live.open(STEPWISE, STEPWISE)
+    live.follow(blocks.append)
+    base = 1000.0
+    live._take_flanges([turned(0, base)])
+    live._take_wrenches([WrenchSample(base + 0.01, (0, 0, 0), (0, 0, 0), status=Status.OVERRANGE)])
+    assert not blocks
+    live._take_flanges([turned(20, base + 0.02)])
+    assert degrees_of(blocks[-1].R_WS[-1]) == pytest.approx(10)
+    assert blocks[-1].saturated.all()
+
+
+def test_samples_go_on_when_poses_stop(live):
+    blocks = []
+    live.open(STEPWISE, STEPWISE)
+    live.follow(blocks.append)
+    base = 1000.0
+    live._take_flanges([turned(30, base)])
+    for index in range(200):
+        live._take_wrenches([WrenchSample(base + 0.005 * index, (0, 0, 0), (0, 0, 0))])
+    times = np.concatenate([block.times for block in blocks])
+    R_WS = np.concatenate([block.R_WS for block in blocks])
+    known = np.isfinite(R_WS).all(axis=(1, 2))
+    assert times[-1] > base + 0.9  # nobody waits for ever
+    assert times[known].max() <= base + LONGEST_GAP + 1e-9
+    assert times[known].max() > base + LONGEST_GAP - 0.06
+
+
+def test_a_follower_that_fails_stops_nothing(live):
+    errors, blocks = [], []
+    live.on_error.append(errors.append)
+
+    def fails(_block):
+        raise ValueError("a mistake")
+
+    live.open(STEPWISE, STEPWISE)
+    live.follow(fails)
+    live.follow(blocks.append)
+    live.pair.step(100)
+    assert blocks
+    assert {str(error) for error in errors} == {"a mistake"}
+
+
+def test_a_tap_gets_what_devices_give_until_they_are_closed(live):
+    wrenches, flanges, health, closed = [], [], [], []
+    live.open(STEPWISE, STEPWISE)
+    live.tap(
+        Tap(wrenches.extend, flanges.extend, lambda *told: health.append(told), lambda: closed.append(True))
+    )
+    live.pair.step(250)
+    assert len(wrenches) + len(flanges) == 250
+    assert isinstance(wrenches[0], WrenchSample)
+    assert isinstance(flanges[0], FlangeSample)
+    assert {device for device, _ in health} == {"sensor", "robot"}
+    live.close()
+    assert closed == [True]
+    assert live.health is None
+
+
+# ---- the newest moment ---------------------------------------------------------------------------
+
+
+def test_reading_is_the_filter_of_all_samples(live):
+    live.open(STEPWISE, STEPWISE)
+    assert live.reading() is None
+    live.pair.step(600)
+    times, raw, _ = live.history(1e9)
+    reading = live.reading()
+    assert reading.time == times[-1]
+    assert reading.raw == pytest.approx(KalmanFilter(200.0).filter(raw, times)[-1], abs=1e-6)
+    assert np.isnan(reading.compensated).all()
+    assert reading.contact is None
+
+
+def test_reading_finds_the_contact_once_for_each_sample(live):
+    live.open(STEPWISE, STEPWISE)
+    bench = live.pair.bench
+    live.pair.step(200)
+    raw = live.reading().raw
+    live.set_model(GravityModel(EMPTY, raw[:3], EMPTY, raw[3:]))
+    solver = ContactSolver(bench.probe)
+    asked = []
+
+    class Counting:
+        def locate(self, wrench):
+            asked.append(wrench)
+            return solver.locate(wrench)
+
+    live.set_solver(Counting())
+    assert live.reading().contact is None  # nothing touches
+    point = bench.markers[2]
+    bench.touch(point_S=point, force=9.0, seconds=2.0)
+    live.pair.step(420)
+    assert live.reading() is live.reading()
+    assert len(asked) == 2
+    contact = live.reading().contact
+    assert contact.accepted
+    assert np.linalg.norm(contact.point - point) < 0.004
+    times, points = live.contacts(10.0)
+    assert np.isnan(points[0]).all()
+    assert points[-1] == pytest.approx(contact.point)
+    assert (np.diff(times) > 0).all()
+
+
+# ---- opening -------------------------------------------------------------------------------------
+
+
+def test_a_wrong_address_leaves_what_is_open(live):
+    live.open(STEPWISE, STEPWISE)
+    pair = live.pair
+    with pytest.raises(AddressError):
+        live.open("sri://nowhere", None)
+    assert live.pair is pair
+
+
+def test_what_cannot_be_opened_leaves_nothing_open(live, tmp_path):
+    live.open(STEPWISE, STEPWISE)
+    with pytest.raises(InputError):
+        live.open(f"replay://{tmp_path}/none.mcap", None)
+    assert live.pair is None
+    assert live.health is None
+
+
+def test_ensure_opens_only_what_is_not_open(live):
+    live.ensure(STEPWISE, STEPWISE)
+    pair = live.pair
+    live.ensure(STEPWISE, STEPWISE)
+    assert live.pair is pair
+    live.ensure(STEPWISE, None)
+    assert live.pair is not pair
+    live.pair.step(10)
+    assert 0 < live.samples <= 10
+
+
+def test_an_unplugged_sensor_comes_back_and_is_told_in_words(live):
+    script = Script([FaultEvent(0.5, Fault.RECONNECT, 1.0)])
+    with emulator("sri", "tcp", script=script, signal=sine((5, 5, 5, 0.1, 0.1, 0.1))) as device:
+        live.open(device.url, None)
+        wait_until(lambda: live.samples > 20)
+        assert trial_of(live).state is State.STREAMING
+        wait_until(lambda: trial_of(live).state is State.LOST)
+        assert any("plug it in again" in words for words in trial_of(live).sentences)
+        gone = live.samples
+        wait_until(lambda: live.samples > gone + 20)
+        assert trial_of(live).state is State.STREAMING
+
+
+def test_closing_while_samples_come_and_are_asked_for_waits_for_nobody(live):
+    address, stop = "virtual://bench?probe=convex&sensor=paper", threading.Event()
+
+    def ask():
+        while not stop.is_set():
+            live.reading()
+            live.history(1)
+            time.sleep(0.001)
+
+    readers = [threading.Thread(target=ask) for _ in range(2)]
+    for reader in readers:
+        reader.start()
+    for _ in range(3):
+        live.open(address, address)
+        wait_until(lambda: live.samples > 5)
+        live.close()
+        assert live.pair is None
+    stop.set()
+    for reader in readers:
+        reader.join(10)
+        assert not reader.is_alive()
+
+
+# ---- how good they are ---------------------------------------------------------------------------
+
+
+def test_trial_measures_noise_and_margin(live):
+    assert trial_of(live) is None
+    live.open(STEPWISE, STEPWISE)
+    live.pair.step(1500)
+    trial = trial_of(live)
+    assert trial.well
+    assert trial.rate == pytest.approx(200, rel=0.01)
+    assert trial.pose_rate == pytest.approx(50, rel=0.01)
+    assert trial.noise[:3] == pytest.approx(0.05, rel=0.2)
+    assert trial.noise[3:] == pytest.approx(0.0014, rel=0.2)
+    assert (trial.range_used < 0.1).all()
+    assert trial.gaps == 0
+
+
+def test_trial_counts_gaps(live):
+    live.open(STEPWISE, None)
+    for index in range(300):
+        shift = 0.2 if index >= 150 else 0.0
+        live._take_wrenches([WrenchSample(100 + 0.005 * index + shift, (index % 2, 0, 0), (0, 0, 0))])
+    trial = trial_of(live)
+    assert trial.gaps == 1
+    assert trial.longest_gap == pytest.approx(0.205)

@@ -1,0 +1,52 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.devices.url import DeviceAddress, Protocol
+from pipeline.session import Session
+from pipeline.workbench import live_devices as devices
+from pipeline.workbench.live_devices import Devices
+
+
+def test_addresses_read_back():
+    assert DeviceAddress.parse(devices.virtual_address("linear")).bench.probe == "linear"
+    assert DeviceAddress.parse(devices.serial_address(Protocol.BOTA, "/dev/ttyUSB3")).path == "/dev/ttyUSB3"
+    for name in ("/data/a b.mcap", "/data/50%?#ä.mcap"):
+        assert DeviceAddress.parse(devices.replay_address(Path(name))).path == name
+        assert DeviceAddress.parse(devices.poses_address(Path(name))).path == name
+    assert DeviceAddress.parse(devices.still_address(0, 90, -45.5)).rpy_degrees == (0, 90, -45.5)
+
+
+@pytest.mark.parametrize(
+    ("address", "poses", "words"),
+    [
+        ("", False, "Give the address"),
+        ("ur+tcp://1.2.3.4", False, "no force/torque sensor"),
+        ("sri+tcp://1.2.3.4", True, "gives no poses"),
+        ("sri://1.2.3.4", False, "scheme"),
+    ],
+)
+def test_a_wrong_address_is_told_in_words(address, poses, words):
+    assert words in devices.problem_of(address, poses=poses)
+
+
+def test_right_addresses_have_no_problem():
+    assert not devices.problem_of("sri+tcp://1.2.3.4")
+    assert not devices.problem_of(" ur+tcp://1.2.3.4 ", poses=True)
+    assert devices.gives_poses("virtual://bench")
+    assert not devices.gives_poses("sri+tcp://1.2.3.4")
+    assert not devices.gives_poses("nonsense")
+
+
+def test_devices_are_what_the_session_says(tmp_path):
+    chosen = Devices("sri+tcp://1.2.3.4", "ur+tcp://1.2.3.5", (0.0, 0.0, 90.0), "SN 1")
+    with Session.create(tmp_path / "session") as session:
+        assert Devices.of(session.state) == Devices()
+        for key, value in chosen.settings.items():
+            session.set_parameter(key, value)
+        assert Devices.of(session.state) == chosen
+        session.set_parameter("devices.mount", "askew")
+        assert Devices.of(session.state).mount == (0, 0, 0)
+    assert np.allclose(chosen.R_ES @ [1, 0, 0], [0, 1, 0])
+    assert Devices().R_ES is None

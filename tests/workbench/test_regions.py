@@ -1,0 +1,357 @@
+"""Regions at work: colours that follow, tools, steps, and what the session keeps of them."""
+
+from __future__ import annotations
+
+import math
+import threading
+
+import numpy as np
+import pytest
+from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
+
+from pipeline.commands.region_session import Session as CommandSession
+from pipeline.errors import InputError
+from pipeline.mesh.colours import PLAIN
+from pipeline.mesh.engines import Cancelled
+from pipeline.mesh.regions import Brush, RegionError
+from pipeline.mesh.sidecar import load_probe_file, save_probe_file
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.regions import RegionsWork
+from pipeline.workbench.regions_session import (
+    Standing,
+    apply,
+    keep,
+    open_work,
+    standing,
+    stored,
+    surface_key,
+)
+from pipeline.workbench.regions_tools import Box, Clear, Flood, Grow, Mirror, Plane, Shrink, Smooth
+
+TOP = CENTRE + [0, 0, RADIUS]
+
+
+def rgb(colour: str) -> list[int]:
+    return list(bytes.fromhex(colour[1:]))
+
+
+def paint(work: RegionsWork, at: np.ndarray, rank: int = 1, radius: float = 0.015, **how: bool) -> str | None:
+    work.begin(Brush(radius, **how), rank)
+    faces, points = work.graph.pick([at])
+    work.extend(int(faces[0]), points[0])
+    return work.finish()
+
+
+@pytest.fixture
+def work() -> RegionsWork:
+    made = RegionsWork(ball_shell())
+    made.step(lambda model: model.add("Lens"))
+    return made
+
+
+def consistent(work: RegionsWork) -> None:
+    """The colours are those of the labels, however they came to be."""
+    table = np.array([rgb(PLAIN), *(rgb(region.colour) for region in work.model.regions)], dtype=np.uint8)
+    assert np.array_equal(work.colours, table[work.model.labels])
+
+
+# ---- painting ----------------------------------------------------------------------------------
+
+
+def test_colours_follow_every_edit(work):
+    same = work.colours.base
+    paint(work, TOP)
+    assert work.model.labels.any()
+    consistent(work)
+    for action in (
+        lambda model: model.add("Side"),
+        lambda model: model.recolour(1, "#123456"),
+        lambda model: model.move(1, 2),
+        lambda model: model.rename(2, "Window"),
+        lambda model: model.remove(1),
+    ):
+        assert work.step(action)
+        consistent(work)
+    for _ in range(7):
+        assert work.undo()
+        consistent(work)
+    assert not work.undo()
+    while work.redo():
+        consistent(work)
+    assert work.colours.base is same, "a view may keep the array"
+
+
+def test_a_piece_of_a_stroke_tells_the_facets_that_changed(work):
+    told = []
+    end = work.subscribe(lambda change, drawing: told.append((change, drawing)))
+    work.begin(Brush(0.01), 1)
+    faces, points = work.graph.pick([TOP, TOP + [0.02, 0, -0.004]])
+    for face, point in zip(faces, points, strict=True):
+        changed = work.extend(int(face), point)
+        assert np.array_equal(told[-1][0].faces, changed)
+        assert told[-1][1], "still drawing"
+    assert work.finish() == "paint Lens"
+    assert not told[-1][1]
+    assert not len(told[-1][0].faces)
+    end()
+    work.undo()
+    assert len(told) == 3
+
+
+def test_an_aborted_stroke_leaves_nothing_to_undo(work):
+    before = work.model.undo_text
+    work.begin(Brush(0.02), 1)
+    faces, points = work.graph.pick([TOP])
+    work.extend(int(faces[0]), points[0])
+    assert work.model.labels.any()
+    work.abort()
+    assert not work.model.labels.any()
+    consistent(work)
+    assert work.model.undo_text == before
+    assert work.finish() is None
+
+
+def test_undoing_while_a_stroke_is_drawn_takes_the_stroke_back_first(work):
+    work.begin(Brush(0.02), 1)
+    faces, points = work.graph.pick([TOP])
+    work.extend(int(faces[0]), points[0])
+    assert work.undo()
+    assert work.model.regions == ()
+    assert not work.drawing
+
+
+def test_a_stroke_without_a_region_is_refused(work):
+    with pytest.raises(RegionError):
+        work.begin(Brush(0.01), 5)
+    assert not work.drawing
+    assert len(work.extend(0, TOP)) == 0
+
+
+def test_a_step_that_changes_nothing_is_none(work):
+    assert work.step(lambda model: model.rename(1, "Lens")) is None
+    assert work.clear(1) is None
+    with pytest.raises(RegionError, match="rename"):
+        work.step(lambda model: model.add("Lens"))
+
+
+def test_rows_hold_areas_and_facets(work):
+    paint(work, TOP, radius=0.01)
+    work.step(lambda model: model.add("Side"))
+    lens, side = work.rows()
+    assert (lens.name, side.name, side.facets, side.area) == ("Lens", "Side", 0, 0.0)
+    assert lens.facets == int((work.model.labels == 1).sum())
+    assert lens.area == pytest.approx(math.pi * 0.01**2, rel=0.35)
+
+
+# ---- tools -------------------------------------------------------------------------------------
+
+
+def test_box_and_plane_and_taking_away(work):
+    upper = work.finder(Plane(tuple(CENTRE), (0, 0, 1)), 1)()
+    assert work.give(upper) == "half into Lens"
+    assert work.rows()[0].area == pytest.approx(work.probe.areas.sum() / 2, rel=0.05)
+    box = Box((-1.0, -1.0, 0.08), (0.0, 1.0, 1.0))
+    assert work.give(work.finder(box, 1)(), erase=True) == "box into Lens, erasing"
+    x, _, z = work.graph.centroids.T
+    assert np.array_equal(work.model.labels == 1, (x > 0) & (z >= 0.08))
+    work.undo()
+    work.undo()
+    assert not work.model.labels.any()
+
+
+def test_protecting_leaves_other_regions(work):
+    work.step(lambda model: model.add("Side"))
+    paint(work, TOP, rank=2)
+    side = work.model.labels == 2
+    everything = Box((-1, -1, -1), (1, 1, 1))
+    work.give(work.finder(everything, 1)(), protect=True)
+    assert np.array_equal(work.model.labels == 2, side)
+    assert np.array_equal(work.model.labels == 1, ~side)
+
+
+def test_mirror_says_how_well_it_went(work):
+    paint(work, CENTRE + [RADIUS, 0, 0])
+    found = work.finder(Mirror((0, 0, 0), (1, 0, 0)), 1)()
+    assert "mirrored" in found.sentence
+    before = work.rows()[0].area
+    work.give(found)
+    assert work.rows()[0].area == pytest.approx(2 * before, rel=0.02)
+
+
+def test_grow_shrink_smooth_and_clear_change_the_whole_region(work):
+    paint(work, TOP)
+    start = work.rows()[0].area
+    assert work.give(work.finder(Grow(0.004), 1)()) == "grow Lens"
+    grown = work.rows()[0].area
+    assert work.give(work.finder(Shrink(0.004), 1)()) == "shrink Lens"
+    assert work.rows()[0].area < grown
+    assert start < grown
+    work.give(work.finder(Smooth(2), 1)())
+    assert work.clear(1) == "clear Lens"
+    assert not work.model.labels.any()
+
+
+@pytest.mark.parametrize("tool", [Grow(0.001), Shrink(0.001), Smooth(1), Mirror((0, 0, 0), (1, 0, 0))])
+def test_an_empty_region_has_no_shape(work, tool):
+    with pytest.raises(RegionError, match="paint something first"):
+        work.finder(tool, 1)()
+
+
+def test_what_was_found_before_another_change_is_not_used(work):
+    found = work.finder(Flood(0, math.pi), 1)()
+    paint(work, TOP)
+    with pytest.raises(RegionError, match="do it again"):
+        work.give(found)
+    with pytest.raises(RegionError, match="No region is chosen"):
+        work.finder(Clear(), 0)
+
+
+def test_tools_look_in_another_thread_while_painting_goes_on(work):
+    finder, results = work.finder(Flood(0, math.pi), 1), []
+    thread = threading.Thread(target=lambda: results.append(finder()))
+    thread.start()
+    paint(work, TOP)
+    thread.join(20)
+    assert results[0].mask.all()
+
+
+# ---- the session -------------------------------------------------------------------------------
+
+
+def kept(desk, work):  # noqa: F811
+    regions, shell = work.model.snapshot(), work.shell
+    return desk.do(lambda session: keep(session, regions, shell)).result()
+
+
+def test_what_was_painted_is_found_again_and_reaches_the_probe(desk):  # noqa: F811
+    assert standing(desk.state) is Standing.NONE
+    work = open_work(desk)
+    assert kept(desk, work) is None, "there are none, and never were any"
+    work.step(lambda model: model.add("Lens"))
+    paint(work, TOP)
+    assert kept(desk, work) is not None
+    assert kept(desk, work) is None, "the very same are not kept twice"
+    assert standing(desk.state) is Standing.WAITING
+
+    again = open_work(desk)
+    assert again.notes == ()
+    assert again.model.regions == work.model.regions
+    assert np.array_equal(again.model.labels, work.model.labels)
+
+    key, shares = surface_key(desk.state), []
+    record = desk.do(apply(desk, shares.append)).result()
+    assert standing(desk.state) is Standing.APPLIED
+    assert shares[-1] == 1.0
+    assert surface_key(desk.state) == key, "the surface is the same: what can be undone stays"
+    probe = load_probe_file(desk.folder / record.action.files["probe.ply"].path).probe
+    near = np.linalg.norm(probe.vertices[probe.faces].mean(axis=1) - TOP, axis=1) < 0.008
+    assert near.any()
+    assert (probe.region[near] == 1).all()
+    assert len(probe.faces) < 400
+
+
+def test_removing_all_regions_reaches_the_probe_too(desk):  # noqa: F811
+    work = open_work(desk)
+    work.step(lambda model: model.add("Lens"))
+    paint(work, TOP)
+    kept(desk, work)
+    desk.do(apply(desk)).result()
+    work.step(lambda model: model.remove(1))
+    kept(desk, work)
+    assert standing(desk.state) is Standing.WAITING
+    record = desk.do(apply(desk)).result()
+    assert not load_probe_file(desk.folder / record.action.files["probe.ply"].path).probe.region.any()
+
+
+def test_the_command_gives_the_same_bytes(desk, folder):  # noqa: F811
+    from typer.testing import CliRunner
+
+    from pipeline.cli import app
+
+    work = open_work(desk)
+    work.step(lambda model: model.add("Lens"))
+    paint(work, TOP)
+    kept(desk, work)
+    made = desk.do(apply(desk)).result()
+    desk.close()
+    given = ["--set", "units=mm", "--set", "facets=300", "--set", "mount=[0,0,80,0,0,0]"]
+    ran = CliRunner().invoke(app, ["session", "compute", str(folder), "probe", "probe.ply", *given])
+    assert ran.exit_code == 0, ran.output
+    with Session.open(folder, write=False) as session:
+        again = session.state.current_results["probe", "probe.ply"].action
+    assert again.files == made.action.files
+
+
+def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
+    from typer.testing import CliRunner
+
+    from pipeline.cli import app
+
+    mesh = tmp_path / "shell.ply"
+    save_probe_file(ball_shell(), mesh)
+    for command in (
+        ["add", "{}", "Lens"],
+        ["brush", "{}", "Lens", "--at=0,0,130", "--radius=15"],
+        ["box", "{}", "Lens", "--low=-5,-5,100", "--high=5,5,200", "--erase"],
+        ["grow", "{}", "Lens", "--distance=2"],
+        ["mirror", "{}", "Lens", "--normal=0,0,1", "--point=0,0,80"],
+    ):
+        ran = CliRunner().invoke(app, ["region", *(part.format(mesh) for part in command)])
+        assert ran.exit_code == 0, ran.output
+    work = RegionsWork(load_probe_file(mesh), None)  # with the file's own rounding
+    work.step(lambda model: model.add("Lens"))
+    paint(work, TOP)
+    work.give(work.finder(Box((-0.005, -0.005, 0.1), (0.005, 0.005, 0.2)), 1)(), erase=True)
+    work.give(work.finder(Grow(0.002), 1)())
+    work.give(work.finder(Mirror((0, 0, 0.08), (0, 0, 1)), 1)())
+    assert np.array_equal(work.model.labels, CommandSession(mesh).model.labels)
+
+
+def test_another_alignment_carries_the_regions_over(desk):  # noqa: F811
+    work = open_work(desk)
+    work.step(lambda model: model.add("Lens"))
+    paint(work, TOP)
+    kept(desk, work)
+    before = surface_key(desk.state)
+    desk.do(lambda session: session.set_parameter("probe.mount", [0, 0, 90, 0, 0, 0])).result()
+    assert surface_key(desk.state) != before
+    moved = open_work(desk)
+    assert np.array_equal(moved.model.labels, work.model.labels)
+    assert moved.probe.vertices[:, 2].max() == pytest.approx(0.14, abs=1e-6)
+
+
+def test_regions_of_another_surface_are_left_out_with_a_word(desk, tmp_path):  # noqa: F811
+    file = tmp_path / "regions.json"
+    file.write_text(
+        '{"format": "contactbench regions", "version": 1, "mesh": {"sha256": "0", "facets": 3},'
+        ' "regions": []}'
+    )
+    desk.do(lambda session: session.add_input(file, "regions", name="regions.json")).result()
+    work = open_work(desk)
+    assert work.model.regions == ()
+    assert "not shown" in work.notes[0]
+    assert stored(desk.state) is not None, "they stay in the session"
+
+
+def test_without_a_probe_there_is_nothing_to_paint_on(tmp_path):
+    desk = Desk(Session.create(tmp_path / "empty"))  # noqa: F811
+    try:
+        assert surface_key(desk.state) is None
+        with pytest.raises(InputError, match="probe"):
+            open_work(desk)
+        with pytest.raises(InputError, match="no probe yet"):
+            apply(desk)
+    finally:
+        desk.close()
+
+
+def test_cancelled_means_nothing_was_recorded(desk):  # noqa: F811
+    work = open_work(desk)
+    work.step(lambda model: model.add("Lens"))
+    paint(work, TOP)
+    kept(desk, work)
+    count = desk.state.count
+    with pytest.raises(Cancelled):
+        apply(desk, None, lambda: True)
+    assert desk.state.count == count

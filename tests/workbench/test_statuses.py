@@ -1,0 +1,129 @@
+import json
+
+import pytest
+
+from pipeline.session import Session
+from pipeline.workbench.export_checklist import results_of
+from pipeline.workbench.statuses import Facts, read_facts, statuses
+from pipeline.workbench.steps import Step, StepState
+
+
+@pytest.fixture
+def session(tmp_path):
+    with Session.create(tmp_path / "session") as found:
+        yield found
+
+
+def look(session, *, connected=True, running=(), failed=None, facts=None):
+    facts = facts or read_facts(session.folder, session.state)
+    return statuses(session.state, session.stale(), set(running), connected, failed or {}, facts)
+
+
+def states(session, **given):
+    return [status.state.value for status in look(session, **given).values()]
+
+
+def add(session, kind, content, name=None):
+    names = {"calibration": "calibration.json", "probe": "probe.ply", "verification": "verification.json"}
+    name = name or names[kind]
+    session.add_result(kind, name, {name: json.dumps(content).encode()}, {}, {})
+
+
+GOOD = {"verdict": {"level": "good", "reasons": ["All is well."]}}
+PASSED = {"verdict": {"passed": True, "reasons": []}, "overall": {"mean_mm": 0.4, "max_mm": 0.9}}
+
+
+def test_a_new_session_begins_with_the_devices(session):
+    assert states(session) == ["ready", "locked", "ready", "locked", "locked", "locked"]
+    assert "Choose the devices first" in look(session)[Step.GRAVITY].sentence
+
+
+def test_devices_unlock_gravity_and_say_whether_they_are_connected(session):
+    session.set_parameter("devices.sensor", "sri+tcp://192.168.0.108?rate=200")
+    found = look(session, connected=False)
+    assert found[Step.DEVICES].state is StepState.DONE
+    assert "sri+tcp://192.168.0.108." in found[Step.DEVICES].sentence
+    assert "not connected" in found[Step.DEVICES].sentence
+    assert found[Step.GRAVITY].state is StepState.READY
+    assert "orientation" in look(session)[Step.DEVICES].sentence  # there is no source of poses
+
+
+def test_the_way_to_a_bundle(session):
+    session.set_parameter("devices.sensor", "virtual://bench")
+    session.set_parameter("devices.poses", "virtual://bench")
+    add(session, "calibration", GOOD)
+    assert states(session) == ["done", "done", "ready", "locked", "locked", "locked"]
+    assert look(session)[Step.VERIFY].sentence == "Prepare the probe first."
+    add(session, "probe", {})
+    assert states(session) == ["done", "done", "done", "ready", "ready", "locked"]
+    add(session, "verification", PASSED)
+    assert states(session) == ["done", "done", "done", "ready", "done", "ready"]
+    assert "0.40 mm on average" in look(session)[Step.VERIFY].sentence
+    session.set_parameter("export.results", dict(results_of(session.state)))
+    assert states(session) == ["done", "done", "done", "ready", "done", "done"]
+
+
+def test_a_refused_calibration_failed_and_locks_what_rests_on_it(session):
+    session.set_parameter("devices.sensor", "virtual://bench")
+    add(session, "calibration", {"verdict": {"level": "refuse", "reasons": ["The poses are all alike."]}})
+    add(session, "probe", {})
+    found = look(session)
+    assert found[Step.GRAVITY].state is StepState.FAILED
+    assert "The poses are all alike." in found[Step.GRAVITY].sentence
+    assert found[Step.VERIFY].state is StepState.LOCKED
+
+
+def test_what_was_computed_anew_makes_an_export_stale(session):
+    for kind, content in (("calibration", GOOD), ("probe", {}), ("verification", PASSED)):
+        add(session, kind, content)
+    session.set_parameter("export.results", dict(results_of(session.state)))
+    add(session, "calibration", {**GOOD, "another": 1})
+    found = look(session)
+    assert found[Step.EXPORT].state is StepState.STALE
+    assert "export again" in found[Step.EXPORT].sentence
+
+
+def test_stale_says_why_and_what_to_do(session):
+    add(session, "calibration", GOOD)
+    session.mark("calibration", "calibration.json", "stale", "the tool was changed")
+    found = look(session)[Step.GRAVITY]
+    assert found.state is StepState.STALE
+    assert "the tool was changed" in found.sentence
+    assert found.sentence.endswith("Calibrate again.")
+
+
+def test_what_was_undone_is_to_be_done_again(session):
+    session.set_parameter("devices.sensor", "virtual://bench")
+    add(session, "calibration", GOOD)
+    session.mark("calibration", "calibration.json", "rejected", "undone")
+    assert look(session)[Step.GRAVITY].state is StepState.READY
+
+
+def test_a_verification_that_did_not_pass_failed(session):
+    for kind, content in (("calibration", GOOD), ("probe", {})):
+        add(session, kind, content)
+    add(session, "verification", {"verdict": {"passed": False, "reasons": ["The mean error is 3 mm."]}})
+    found = look(session)[Step.VERIFY]
+    assert found.state is StepState.FAILED
+    assert "The mean error is 3 mm." in found.sentence
+
+
+def test_running_and_failed_are_shown(session):
+    session.set_parameter("devices.sensor", "virtual://bench")
+    found = look(session, running=[Step.GRAVITY], failed={Step.PROBE: "The mesh is empty: choose another."})
+    assert found[Step.GRAVITY].state is StepState.RUNNING
+    assert found[Step.PROBE].state is StepState.FAILED
+    assert found[Step.PROBE].sentence == "The mesh is empty: choose another."
+
+
+def test_every_step_has_a_sentence(session):
+    for status in look(session, running=list(Step)).values():
+        assert status.sentence.endswith(".")
+
+
+def test_files_that_cannot_be_read_are_left_out(session):
+    add(session, "calibration", GOOD)
+    found = session.state.current_results["calibration", "calibration.json"]
+    (session.folder / found.file.path).write_bytes(b"{")
+    assert read_facts(session.folder, session.state) == Facts()
+    assert look(session)[Step.GRAVITY].state is StepState.DONE

@@ -1,0 +1,144 @@
+import time
+
+import pytest
+
+from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from pipeline.errors import InputError
+from pipeline.recording import read_recording
+from pipeline.recording.errors import RecordingError
+from pipeline.session import Session
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.live import Live
+from pipeline.workbench.tape import Tape
+
+BENCH = "virtual://bench?probe=convex&sensor=paper&speed=step"
+PATIENCE = 30
+
+
+@pytest.fixture
+def desk(tmp_path):
+    found = Desk(Session.create(tmp_path / "session"))
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def live():
+    found = Live()
+    yield found
+    found.close()
+
+
+def start(desk, live, name="gravity-1.mcap", serial="SN 7"):
+    return Tape.start(desk, live, name, serial).result(PATIENCE)
+
+
+def test_what_comes_while_it_runs_is_an_input_of_the_session(desk, live):
+    live.open(BENCH, BENCH)
+    live.pair.step(50)
+    tape = start(desk, live)
+    live.pair.step(500)
+    assert tape.running
+    samples, seconds = tape.samples, tape.seconds
+    tape.keep().result(PATIENCE)
+    live.pair.step(50)
+    kept = desk.state.current_inputs["recording", "gravity-1.mcap"]
+    assert kept.sensor == "SN 7"
+    assert kept.about["streams"]["sensor"]["samples"] == samples == tape.samples
+    assert kept.about["streams"]["robot"]["samples"] == 500 - samples
+    recording = read_recording(desk.folder / kept.file.path)
+    (wrenches,) = recording.wrenches.values()
+    assert len(wrenches.times) == samples
+    assert wrenches.times[-1] - wrenches.times[0] == pytest.approx(seconds)
+    assert not tape.running
+
+
+def test_discarding_leaves_no_file_and_says_so(desk, live):
+    live.open(BENCH, BENCH)
+    tape = start(desk, live)
+    live.pair.step(100)
+    tape.discard().result(PATIENCE)
+    assert not desk.state.current_inputs
+    assert not list((desk.folder / "raw").iterdir())
+    assert "given up" in desk.state.notes[-1].text
+
+
+def test_without_a_sample_nothing_is_kept(desk, live):
+    live.open(BENCH, BENCH)
+    tape = start(desk, live)
+    with pytest.raises(InputError, match="not one sample came"):
+        tape.keep().result(PATIENCE)
+    assert not list((desk.folder / "raw").iterdir())
+    with pytest.raises(InputError, match="already ended"):
+        tape.discard().result(PATIENCE)
+
+
+def test_without_devices_nothing_begins(desk, live):
+    with pytest.raises(InputError, match="choose devices first"):
+        start(desk, live)
+
+
+def test_a_name_that_is_taken_is_refused(desk, live):
+    live.open(BENCH, BENCH)
+    first = start(desk, live)
+    live.pair.step(10)
+    first.keep().result(PATIENCE)
+    with pytest.raises(InputError, match="choose another name"):
+        start(desk, live)
+
+
+def test_an_unplugged_sensor_does_not_end_it(desk, live):
+    script = Script([FaultEvent(0.5, Fault.RECONNECT, 0.8)])
+
+    def wait_until(condition):
+        end = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < end
+            time.sleep(0.01)
+
+    with emulator("sri", "tcp", script=script, signal=sine((5, 5, 5, 0.1, 0.1, 0.1))) as device:
+        live.open(device.url, None)
+        tape = start(desk, live)
+        wait_until(lambda: tape.findings)
+        assert any("goes on when it is back" in words for words in tape.findings)
+        before = tape.samples
+        assert before
+        wait_until(lambda: tape.samples > before + 20)
+        assert tape.running
+        tape.keep().result(PATIENCE)
+    kept = desk.state.current_inputs["recording", "gravity-1.mcap"]
+    assert kept.about["streams"]["sensor"]["reconnected"] == 1
+
+
+def test_closed_devices_leave_what_came(desk, live):
+    live.open(BENCH, BENCH)
+    tape = start(desk, live)
+    live.pair.step(100)
+    live.close()
+    assert not tape.running
+    assert any("devices were closed" in words for words in tape.findings)
+    tape.keep().result(PATIENCE)
+    assert desk.state.current_inputs
+
+
+def test_a_full_disk_is_told_and_what_was_recorded_is_kept(desk, live, monkeypatch):
+    live.open(BENCH, BENCH)
+    tape = start(desk, live)
+    live.pair.step(200)
+    recorder = tape._recording.recorder
+
+    def full(_sample, _topic=None):
+        raise RecordingError("raw: it cannot be written (No space left on device): free space.")
+
+    assert tape.error is None
+    time.sleep(0.7)  # what came before is on the disk
+    monkeypatch.setattr(tape._recording._writer, "wrench", full)
+    live.pair.step(200)
+    assert recorder.failed.wait(PATIENCE)
+    assert "No space left" in tape.error
+    assert tape.error in tape.findings
+    tape.keep().result(PATIENCE)
+    kept = desk.state.current_inputs["recording", "gravity-1.mcap"]
+    assert "No space left" in kept.about["problem"]
+    (wrenches,) = read_recording(desk.folder / kept.file.path).wrenches.values()
+    assert len(wrenches.times) > 100

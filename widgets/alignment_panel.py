@@ -1,0 +1,301 @@
+"""The ways to say where the mesh lies in the sensor frame: numbers, points, the flange face, touches, shape, a file."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QGridLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.alignment_points import PointTable
+from widgets.alignment_stack import HeightStack
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Way(IntEnum):
+    """How one says where the mesh lies; in the order of the list."""
+
+    NUMBERS = 0
+    POINTS = 1
+    FLANGE = 2
+    TOUCHES = 3
+    SHAPE = 4
+    FILE = 5
+
+
+class AlignmentPanel(QWidget):
+    """
+    Asks where the mesh lies.
+
+    It changes nothing itself: its signals say what is asked for. Places on the mesh come in by `pick`, in the mesh's
+    own frame, m.
+    """
+
+    numbers_given = Signal(object)  # six floats: mm, then degrees
+    points_given = Signal(object)  # list of (point_P, point_S), m
+    flange_given = Signal(int, object, float, float)  # facet, point towards +x or None (P, m), degrees, mm
+    touches_given = Signal(object)  # Path
+    shape_given = Signal(float)  # offset, mm
+    file_given = Signal(object)  # Path
+    picking = Signal(bool)  # whether places on the mesh are asked for
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._facet = -1
+        self._toward: NDArray[np.float64] | None = None
+        self.way = QComboBox()
+        self.way.addItems(
+            [
+                self.tr("By numbers"),
+                self.tr("By matching points"),
+                self.tr("By the face on the sensor"),
+                self.tr("By touches of marked points"),
+                self.tr("By its shape"),
+                self.tr("From a file"),
+            ]
+        )
+        self.way.setAccessibleName(self.tr("How the place of the mesh is given"))
+        self.stack = HeightStack()
+        for page in (
+            self._numbers_page(),
+            self._points_page(),
+            self._flange_page(),
+            self._touches_page(),
+            self._shape_page(),
+            self._file_page(),
+        ):
+            self.stack.add(page)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.way)
+        layout.addWidget(self.stack)
+        self.way.currentIndexChanged.connect(self._show_way)
+
+    @property
+    def wants_picks(self) -> bool:
+        """Whether a click on the mesh means something here."""
+        return self.way.currentIndex() in {Way.POINTS, Way.FLANGE}
+
+    def show_numbers(self, numbers: Sequence[float]) -> None:
+        """Show where the mesh lies: mm, then degrees about the fixed axes."""
+        for spin, value in zip(self.numbers, numbers, strict=True):
+            spin.setValue(value)
+
+    def pick(self, point_P: NDArray[np.float64], facet: int) -> None:
+        """Take a place on the mesh that was clicked."""
+        if self.way.currentIndex() == Way.POINTS:
+            self.points.add(point_P)
+        elif self.way.currentIndex() == Way.FLANGE:
+            if self._facet < 0:
+                self._facet = facet
+            else:
+                self._toward = point_P
+            self._show_flange()
+
+    def clear_picks(self) -> None:
+        """Forget places on a mesh that is not there any more."""
+        self.points.clear()
+        self._forget_flange()
+
+    def _show_way(self, index: int) -> None:
+        self.stack.show_page(index)
+        self.picking.emit(self.wants_picks)
+
+    # ---- the ways ----------------------------------------------------------------------------
+
+    def _numbers_page(self) -> QWidget:
+        page = QWidget()
+        grid = QGridLayout(page)
+        grid.setContentsMargins(0, 0, 0, 0)
+        self.numbers = tuple(self._spin(1e4, " mm", 2) for _ in range(3)) + tuple(
+            self._spin(360.0, "°", 2) for _ in range(3)
+        )
+        grid.addWidget(
+            _said(self.tr("Where the mesh's origin lies, and how the mesh is turned:")), 0, 0, 1, 4
+        )
+        turned = self.tr("Turned about the fixed axis {} of the sensor, in degrees; x first, then y, then z")
+        for row, axis in enumerate("xyz"):
+            for column, (words, spin) in enumerate(
+                (
+                    (self.tr("The mesh's origin along {} of the sensor, in mm"), self.numbers[row]),
+                    (turned, self.numbers[row + 3]),
+                )
+            ):
+                label = QLabel(axis if column == 0 else self.tr("about {}").format(axis))
+                label.setBuddy(spin)
+                spin.setToolTip(words.format(axis))
+                spin.setAccessibleName(words.format(axis))
+                grid.addWidget(label, row + 1, 2 * column)
+                grid.addWidget(spin, row + 1, 2 * column + 1)
+        self.place_numbers = self._button(self.tr("Place it so"), self._give_numbers)
+        grid.addWidget(self.place_numbers, 4, 0, 1, 4)
+        grid.setColumnStretch(1, 1)
+        grid.setColumnStretch(3, 1)
+        return page
+
+    def _points_page(self) -> QWidget:
+        page, layout = _column()
+        layout.addWidget(
+            _said(
+                self.tr(
+                    "Click a place on the mesh, then type where it lies in the sensor frame. Three places, far from"
+                    " one another; a fourth shows a wrong one."
+                )
+            )
+        )
+        self.points = PointTable()
+        layout.addWidget(self.points)
+        self.place_points = self._button(
+            self.tr("Place it by these points"), lambda: self.points_given.emit(self.points.pairs())
+        )
+        self.place_points.setEnabled(False)
+        self.points.changed.connect(lambda: self.place_points.setEnabled(self.points.complete))
+        layout.addWidget(self.place_points)
+        return page
+
+    def _flange_page(self) -> QWidget:
+        page, layout = _column()
+        self.flange_words = _said("")
+        layout.addWidget(self.flange_words)
+        form = QFormLayout()
+        self.clock = self._spin(360.0, "°", 2)
+        self.clock.setToolTip(self.tr("Angle of the second place from +x of the sensor about +z, degrees"))
+        form.addRow(self.tr("Second place at"), self.clock)
+        self.height_mm = self._spin(1e3, " mm", 3)
+        self.height_mm.setToolTip(self.tr("Height of the mounting plane above the sensor's origin, mm"))
+        form.addRow(self.tr("Height of the face"), self.height_mm)
+        layout.addLayout(form)
+        self.place_flange = self._button(self.tr("Put this face on the sensor"), self._give_flange)
+        layout.addWidget(self.place_flange)
+        self.forget = QPushButton(self.tr("Pick again"))
+        self.forget.clicked.connect(self._forget_flange)
+        layout.addWidget(self.forget)
+        self._show_flange()
+        return page
+
+    def _touches_page(self) -> QWidget:
+        page, layout = _column()
+        layout.addWidget(
+            _said(
+                self.tr(
+                    "Touch marked points of the probe, and choose the table of them: px, py, pz in the mesh, mm, and"
+                    " fx to mz in the sensor frame. The place above is where the search begins."
+                )
+            )
+        )
+        layout.addWidget(
+            self._button(
+                self.tr("Choose the touches..."),
+                lambda: self._ask(self.tr("Touches"), self.tr("Tables (*.csv)"), self.touches_given),
+            )
+        )
+        return page
+
+    def _shape_page(self) -> QWidget:
+        page, layout = _column()
+        layout.addWidget(
+            _said(
+                self.tr(
+                    "The longest axis along z, the middle one along x. A guess that is good to begin with: look at it,"
+                    " and correct it by numbers or touches."
+                )
+            )
+        )
+        form = QFormLayout()
+        self.lowest = self._spin(1e3, " mm", 3)
+        self.lowest.setToolTip(self.tr("Height of the probe's lowest point above the sensor's origin, mm"))
+        form.addRow(self.tr("Lowest point at"), self.lowest)
+        layout.addLayout(form)
+        layout.addWidget(
+            self._button(self.tr("Place it by its shape"), lambda: self.shape_given.emit(self.lowest.value()))
+        )
+        return page
+
+    def _file_page(self) -> QWidget:
+        page, layout = _column()
+        layout.addWidget(_said(self.tr("An alignment that contactbench wrote before.")))
+        layout.addWidget(
+            self._button(
+                self.tr("Choose the alignment..."),
+                lambda: self._ask(self.tr("Alignment"), self.tr("Alignments (*.json)"), self.file_given),
+            )
+        )
+        return page
+
+    # ---- what is asked for -----------------------------------------------------------------------
+
+    def _give_numbers(self) -> None:
+        self.numbers_given.emit(tuple(spin.value() for spin in self.numbers))
+
+    def _give_flange(self) -> None:
+        self.flange_given.emit(self._facet, self._toward, self.clock.value(), self.height_mm.value())
+
+    def _forget_flange(self) -> None:
+        self._facet, self._toward = -1, None
+        self._show_flange()
+
+    def _show_flange(self) -> None:
+        if self._facet < 0:
+            words = self.tr("Click the plane face of the mesh that sits on the sensor.")
+        elif self._toward is None:
+            words = self.tr(
+                "The face is chosen. Click a second place that shows how the probe is turned about z, if you can."
+            )
+        else:
+            words = self.tr("The face and the second place are chosen.")
+        self.flange_words.setText(words)
+        self.place_flange.setEnabled(self._facet >= 0)
+        self.forget.setEnabled(self._facet >= 0)
+
+    def _ask(self, title: str, kinds: str, signal: object) -> None:
+        name, _ = QFileDialog.getOpenFileName(self, title, "", kinds)
+        if name:
+            signal.emit(Path(name))  # type: ignore[attr-defined]
+
+    def _button(self, words: str, action: object) -> QPushButton:
+        button = QPushButton(words)
+        button.setMinimumHeight(36)
+        button.clicked.connect(lambda _checked=False: action())  # type: ignore[operator]
+        return button
+
+    def _spin(self, largest: float, unit: str, decimals: int) -> QDoubleSpinBox:
+        spin = QDoubleSpinBox()
+        spin.setRange(-largest, largest)
+        spin.setDecimals(decimals)
+        spin.setSuffix(unit)
+        spin.setMinimumWidth(70)
+        spin.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        spin.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        spin.setKeyboardTracking(False)
+        return spin
+
+
+def _said(words: str) -> QLabel:
+    label = QLabel(words)
+    label.setWordWrap(True)
+    return label
+
+
+def _column() -> tuple[QWidget, QVBoxLayout]:
+    page = QWidget()
+    layout = QVBoxLayout(page)
+    layout.setContentsMargins(0, 0, 0, 0)
+    return page, layout

@@ -1,0 +1,176 @@
+"""What the reading does, so large that it can be read from a metre away."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from pipeline.calibration.stillness import StillState
+from widgets.theme import colours, is_dark
+
+CAPTURED, ASKED = "captured", "asked"
+_RING, _PEN = 76, 8
+
+
+class CaptureState(QWidget):
+    """
+    An icon in a ring, a word, and a line below it; the ring fills while a pose is averaged.
+
+    It never takes the meaning from the colour alone: each state has its own shape and word.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setMinimumHeight(_RING + 24)
+        self._shape, self._word, self._line, self._share = "idle", "", "", 0.0
+        self.show_idle()
+
+    @property
+    def word(self) -> str:
+        """What it says."""
+        return self._word
+
+    @property
+    def line(self) -> str:
+        """What it says below."""
+        return self._line
+
+    def show_idle(self) -> None:
+        """Show that nothing is going on."""
+        self._show("idle", self.tr("not started"), "", 0.0)
+
+    def show_state(
+        self,
+        state: StillState,
+        *,
+        seconds: float | None = None,
+        share: float = 0.0,
+        captured: bool = False,
+        by_key: bool = False,
+        wanted: bool = False,
+    ) -> None:
+        """
+        Show what the reading does.
+
+        Parameters
+        ----------
+        state : StillState
+        seconds : float, optional
+            Until it is still.
+        share : float
+            Of the averaging that is done, 0 to 1.
+        captured : bool
+            The pose has been captured.
+        by_key, wanted : bool
+            Captures are asked for by a key, and this one was.
+        """
+        if captured and state is StillState.STILL:
+            self._show(CAPTURED, self.tr("captured"), self.tr("Turn the tool to the next pose."), 1.0)
+            return
+        if state is StillState.STILL and by_key and not wanted:
+            self._show(ASKED, self.tr("still: SPACE"), self.tr("Press SPACE to take this pose."), share)
+            return
+        words = {
+            StillState.MOVING: (self.tr("moving"), self.tr("Hold the tool still.")),
+            StillState.SETTLING: (self.tr("settling"), self.tr("Keep still.")),
+            StillState.STILL: (self.tr("still"), self.tr("Keep still: it is being averaged.")),
+            StillState.BUMPED: (self.tr("bumped"), self.tr("Keep still: it begins anew by itself.")),
+            StillState.TOUCHED: (self.tr("touched"), self.tr("Take away what touches the tool.")),
+            StillState.STALE: (self.tr("no samples"), self.tr("Nothing comes from the devices.")),
+        }
+        word, line = words[state]
+        if state is StillState.SETTLING and seconds is not None:
+            word = self.tr("settling {seconds:.1f} s").format(seconds=seconds)
+        self._show(state.value, word, line, share if state is StillState.STILL else 0.0)
+
+    def _show(self, shape: str, word: str, line: str, share: float) -> None:
+        if (shape, word, line, share) == (self._shape, self._word, self._line, self._share):
+            return
+        if word != self._word:
+            self.setAccessibleName(word)
+            self.setAccessibleDescription(line)
+        self._shape, self._word, self._line, self._share = shape, word, line, share
+        self.update()
+
+    def sizeHint(self) -> QSize:
+        """Return a size that fits the panel."""
+        return QSize(320, _RING + 24)
+
+    # ---- drawing -----------------------------------------------------------------------------------
+
+    def paintEvent(self, _: QPaintEvent) -> None:
+        """Draw it."""
+        c = colours(is_dark())
+        tints = {
+            "idle": c.muted, "moving": c.muted, "settling": c.accent, "still": c.accent, ASKED: c.accent,
+            CAPTURED: c.good, "bumped": c.warning, "touched": c.warning, "stale": c.stale,
+        }  # fmt: skip
+        tint = QColor(tints[self._shape])
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        ring = QRectF(_PEN, (self.height() - _RING) / 2, _RING, _RING)
+        painter.setPen(QPen(QColor(c.line), _PEN))
+        painter.drawEllipse(ring)
+        painter.setPen(QPen(tint, _PEN, c=Qt.PenCapStyle.FlatCap))
+        painter.drawArc(ring, 90 * 16, -int(360 * 16 * self._share))
+        self._icon(painter, ring.center(), tint)
+        left = ring.right() + 20
+        self._words(painter, QRectF(left, 0, self.width() - left, self.height()), tint, QColor(c.text))
+        painter.end()
+
+    def _words(self, painter: QPainter, room: QRectF, tint: QColor, text: QColor) -> None:
+        big = self.font()
+        big.setPointSizeF(24)
+        big.setBold(True)
+        painter.setFont(big)
+        width = painter.fontMetrics().horizontalAdvance(self._word)
+        if width > room.width():
+            big.setPointSizeF(23 * (room.width() - 4) / width)
+            painter.setFont(big)
+        painter.setPen(tint)
+        half = room.height() / 2
+        top = QRectF(room.left(), 0, room.width(), half + 6)
+        painter.drawText(top, Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom, self._word)
+        small = self.font()
+        small.setPointSizeF(10.5)
+        painter.setFont(small)
+        painter.setPen(text)
+        below = QRectF(room.left(), half + 10, room.width(), half - 10)
+        painter.drawText(below, Qt.TextFlag.TextWordWrap, self._line)
+
+    def _icon(self, painter: QPainter, at: QPointF, tint: QColor) -> None:
+        painter.setPen(QPen(tint, 5, c=Qt.PenCapStyle.RoundCap, j=Qt.PenJoinStyle.RoundJoin))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+
+        def line(*points: tuple[float, float]) -> None:
+            painter.drawPolyline(QPolygonF([QPointF(at.x() + x, at.y() + y) for x, y in points]))
+
+        match self._shape:
+            case "moving":
+                line((-16, -8), (16, -8), (8, -15))
+                line((16, 8), (-16, 8), (-8, 15))
+            case "settling":
+                for size, shift in ((10, -10), (6, 4), (3, 15)):
+                    wave = [(shift + t * 1.2 - 6, size * math.sin(t * 0.63)) for t in range(11)]
+                    line(*wave)
+            case "captured":
+                line((-15, 1), (-4, 12), (16, -11))
+            case "bumped":
+                line((0, -17), (0, 4))
+                line((0, 15), (0, 15.5))
+            case "touched":
+                line((0, -18), (0, 4), (-8, -5))
+                line((0, 4), (8, -5))
+                line((-16, 13), (16, 13))
+            case "stale":
+                line((-14, -14), (14, 14))
+                line((14, -14), (-14, 14))
+            case "idle":
+                line((-8, -13), (-8, 13), (14, 0), (-8, -13))
+            case _:
+                painter.setBrush(tint)
+                painter.drawEllipse(at, 10, 10)

@@ -1,0 +1,135 @@
+"""How good the devices are: a big rate, what is lost, noise and margin of each channel, and findings in words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from pipeline.devices.drive import State
+from widgets.icons import Sign, icon
+
+if TYPE_CHECKING:
+    from pipeline.workbench.live_trial import Trial
+
+_CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+_ICON_PX = 24
+
+
+class DeviceTrial(QFrame):
+    """What a connection is worth; `show_trial` brings it up to date."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Connection"))
+        self._icon, self._state, self._rate, self._facts = Sign(_ICON_PX), QLabel(), QLabel(), QLabel()
+        self._findings = QLabel()
+        self._state.setProperty("role", "title")
+        self._rate.setProperty("role", "number")
+        self._rate.setToolTip(self.tr("Readings a second, measured"))
+        for label in (self._facts, self._findings):
+            label.setWordWrap(True)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._facts.setProperty("role", "muted")
+        head = QHBoxLayout()
+        head.addWidget(self._icon)
+        head.addWidget(self._state, 1)
+        head.addWidget(self._rate)
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.addLayout(head)
+        box.addWidget(self._facts)
+        box.addWidget(self._findings)
+        self.show_trial(None)
+
+    def show_trial(self, trial: Trial | None) -> None:
+        """Show what was measured; None: nothing is open."""
+        name, colour, words = self._standing(trial)
+        self._icon.show_icon(icon(name, colour))
+        self._state.setText(words)
+        rate = None if trial is None else trial.rate
+        self._rate.setText(self.tr("– Hz") if rate is None else self.tr("{rate:.0f} Hz").format(rate=rate))
+        self._facts.setText("" if trial is None else self._counted(trial))
+        self._facts.setVisible(trial is not None)
+        self._findings.setText("" if trial is None else "\n\n".join(trial.sentences))
+        self._findings.setVisible(trial is not None and bool(trial.sentences))
+
+    @property
+    def words(self) -> str:
+        """All that is said, as text."""
+        return "\n".join(label.text() for label in (self._state, self._rate, self._facts, self._findings))
+
+    def _standing(self, trial: Trial | None) -> tuple[str, str, str]:
+        if trial is None:
+            return "ready", "muted", self.tr("Not connected")
+        if trial.state is State.STREAMING:
+            if trial.sentences:
+                return "warning", "warning", self.tr("Connected")
+            return "done", "good", self.tr("Connected")
+        return {
+            State.CONNECTING: ("running", "accent", self.tr("Waiting")),
+            State.SILENT: ("warning", "warning", self.tr("Silent")),
+            State.LOST: ("failed", "bad", self.tr("Lost")),
+        }.get(trial.state, ("stop", "muted", self.tr("Ended")))
+
+    def _counted(self, trial: Trial) -> str:
+        gaps = self.tr("no gaps")
+        if trial.gaps:
+            gaps = self.tr("gaps in 5 s: {count}, the longest {longest:.0f} ms").format(
+                count=trial.gaps, longest=1e3 * trial.longest_gap
+            )
+        poses = self.tr("no poses")
+        if trial.pose_rate is not None:
+            poses = self.tr("poses {rate:.0f} Hz").format(rate=trial.pose_rate)
+        return self.tr("{samples:,} readings, {lost:,} lost, {gaps}; {poses}").format(
+            samples=trial.samples, lost=trial.lost, gaps=gaps, poses=poses
+        )
+
+
+class DeviceChannels(QWidget):
+    """Noise, largest reading and margin of each channel; `show_trial` brings it up to date."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Noise and margin of each channel"))
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        heads = (
+            (self.tr("channel"), ""),
+            (self.tr("noise"), self.tr("Standard deviation of one reading while nothing moves, N or N·m")),
+            (self.tr("largest"), self.tr("Largest reading of either sign in the last 5 s, N or N·m")),
+            (self.tr("of range"), self.tr("Share of the sensor's range; beyond 100 % it is cut off")),
+        )
+        for column, (text, tip) in enumerate(heads):
+            label = QLabel(text)
+            label.setProperty("role", "muted")
+            label.setToolTip(tip)
+            if column:
+                label.setAlignment(Qt.AlignmentFlag.AlignRight)
+            grid.addWidget(label, 0, column)
+        self._cells: list[tuple[QLabel, QLabel, QLabel]] = []
+        for row, name in enumerate(_CHANNELS, start=1):
+            cells = (QLabel(), QLabel(), QLabel())
+            grid.addWidget(QLabel(name), row, 0)
+            for column, cell in enumerate(cells, start=1):
+                cell.setAlignment(Qt.AlignmentFlag.AlignRight)
+                grid.addWidget(cell, row, column)
+            self._cells.append(cells)
+        self.show_trial(None)
+
+    def show_trial(self, trial: Trial | None) -> None:
+        """Show what was measured; None: nothing is open."""
+        for index, cells in enumerate(self._cells):
+            self._show_channel(index, cells, trial)
+
+    def _show_channel(self, index: int, cells: tuple[QLabel, QLabel, QLabel], trial: Trial | None) -> None:
+        unit, digits = ("N", 3) if index < 3 else ("N·m", 4)
+        noise = np.nan if trial is None else trial.noise[index]
+        largest = np.nan if trial is None else trial.largest[index]
+        used = np.nan if trial is None or trial.range_used is None else trial.range_used[index]
+        cells[0].setText(f"{noise:.{digits}f} {unit}" if np.isfinite(noise) else "–")
+        cells[1].setText(f"{largest:.{digits - 1}f} {unit}" if np.isfinite(largest) else "–")
+        cells[2].setText(f"{100 * used:.0f} %" if np.isfinite(used) else self.tr("unknown"))

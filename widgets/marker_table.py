@@ -1,0 +1,194 @@
+"""The markers as a table: name, place, touches, error, state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QKeySequence
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHeaderView,
+    QSizePolicy,
+    QTableWidget,
+    QTableWidgetItem,
+    QWidget,
+)
+
+from widgets.icons import icon
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_ICONS = {
+    "open": ("ready", "muted"),
+    "next": ("play", "accent"),
+    "done": ("done", "good"),
+    "failed": ("warning", "bad"),
+    "skipped": ("remove", "stale"),
+}
+_NAME, _PLACE, _TOUCHES, _ERROR, _STATE = range(5)
+
+
+@dataclass(frozen=True)
+class ShownMarker:
+    """
+    A row.
+
+    Attributes
+    ----------
+    name : str
+    point_mm : (3,) tuple
+        S.
+    touches, wanted : int
+        Accepted, of so many.
+    mean_mm, max_mm : float or None
+        Errors.
+    state : {"open", "next", "done", "failed", "skipped"}
+    """
+
+    name: str
+    point_mm: tuple[float, float, float]
+    touches: int = 0
+    wanted: int = 1
+    mean_mm: float | None = None
+    max_mm: float | None = None
+    state: str = "open"
+
+
+class MarkerTable(QTableWidget):
+    """Shows markers; what is typed or deleted is only asked for."""
+
+    selected = Signal(object)  # name, or None
+    rename_wanted = Signal(str, str)  # from, to
+    remove_wanted = Signal(list)  # names
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(0, 5, parent)
+        self._rows: tuple[ShownMarker, ...] = ()
+        titles = (
+            self.tr("Marker"),
+            self.tr("x  y  z"),
+            self.tr("Touches"),
+            self.tr("Error"),
+            self.tr("State"),
+        )
+        self.setHorizontalHeaderLabels(list(titles))
+        for column, words in (
+            (_PLACE, self.tr("Position in the sensor frame S, mm")),
+            (_TOUCHES, self.tr("Accepted touches, of those that are wanted")),
+            (_ERROR, self.tr("Mean error and largest error, mm")),
+        ):
+            item = self.horizontalHeaderItem(column)
+            if item is not None:
+                item.setToolTip(words)
+        self.setAccessibleName(self.tr("Markers"))
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(28)
+        header = self.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(_NAME, QHeaderView.ResizeMode.Stretch)
+        header.setMinimumSectionSize(40)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self.setShowGrid(False)
+        self.setAlternatingRowColors(True)
+        self.setTabKeyNavigation(False)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
+        self.itemChanged.connect(self._typed)
+        self.itemSelectionChanged.connect(lambda: self.selected.emit(self.current_name))
+
+    @property
+    def current_name(self) -> str | None:
+        """The marker that is selected, if one is."""
+        names = self.selected_names
+        return names[0] if len(names) == 1 else None
+
+    @property
+    def selected_names(self) -> list[str]:
+        """All that are selected, in order."""
+        rows = sorted({index.row() for index in self.selectedIndexes()})
+        return [self._rows[row].name for row in rows if row < len(self._rows)]
+
+    def select(self, name: str) -> None:
+        """Select a marker, if it is there."""
+        for row, each in enumerate(self._rows):
+            if each.name == name:
+                self.selectRow(row)
+                return
+
+    def show_rows(self, rows: Sequence[ShownMarker]) -> None:
+        """Show markers; those that stayed the same are not touched."""
+        before, self._rows = self._rows, tuple(rows)
+        if before == self._rows:
+            return
+        with QSignalBlocker(self):
+            if len(before) != len(self._rows):
+                self.clearSelection()
+                self.setRowCount(len(self._rows))
+            for row, each in enumerate(self._rows):
+                if row >= len(before) or before[row] != each:
+                    self._fill(row, each)
+
+    def _fill(self, row: int, marker: ShownMarker) -> None:
+        x, y, z = marker.point_mm
+        error = ""
+        if marker.mean_mm is not None and marker.max_mm is not None:
+            error = f"{marker.mean_mm:.2f}"
+            if marker.touches > 1:
+                error += f" / {marker.max_mm:.2f}"
+        word = self.word(marker.state)
+        texts = (
+            marker.name,
+            "  ".join(str(round(value)) for value in marker.point_mm),
+            f"{marker.touches} / {marker.wanted}",
+            error,
+            word,
+        )
+        for column, text in enumerate(texts):
+            item = self.item(row, column)
+            if item is None:
+                item = QTableWidgetItem()
+                self.setItem(row, column, item)
+            flags = Qt.ItemFlag.ItemIsSelectable | Qt.ItemFlag.ItemIsEnabled
+            item.setFlags(flags | Qt.ItemFlag.ItemIsEditable if column == _NAME else flags)
+            item.setText(text)
+            if column in (_TOUCHES, _ERROR):
+                item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+            item.setToolTip(
+                self.tr("{name}: x {x} mm, y {y} mm, z {z} mm").format(
+                    name=marker.name, x=f"{x:.2f}", y=f"{y:.2f}", z=f"{z:.2f}"
+                )
+            )
+        first = self.item(row, _STATE)
+        if first is not None:
+            first.setIcon(icon(*_ICONS[marker.state]))
+
+    def word(self, state: str) -> str:
+        """Return a state in a word."""
+        return {
+            "open": self.tr("open"),
+            "next": self.tr("next"),
+            "done": self.tr("done"),
+            "failed": self.tr("too far off"),
+            "skipped": self.tr("left out"),
+        }[state]
+
+    def _typed(self, item: QTableWidgetItem) -> None:
+        if item.column() != _NAME or item.row() >= len(self._rows):
+            return
+        old, new = self._rows[item.row()].name, item.text().strip()
+        with QSignalBlocker(self):
+            item.setText(old)  # until whoever is asked has done it
+        if new and new != old:
+            self.rename_wanted.emit(old, new)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Ask for markers to be removed with Delete."""
+        if event.matches(QKeySequence.StandardKey.Delete) and self.selected_names:
+            self.remove_wanted.emit(self.selected_names)
+            return
+        super().keyPressEvent(event)

@@ -1,0 +1,110 @@
+"""What is known about a mesh, as sentences with icons; the important ones first."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.icons import Sign, icon
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pipeline.mesh.inspect import Inspection
+
+_ICON_PX = 20
+_SHOWN = 2
+# Icon, and name of the theme's colour.
+_ICONS = {
+    "fault": ("failed", "bad"),
+    "doubt": ("warning", "warning"),
+    "note": ("info", "muted"),
+    "good": ("done", "good"),
+}
+
+
+class MeshReport(QWidget):
+    """
+    Sentences one below the other.
+
+    Parameters
+    ----------
+    shown : int
+        How many are shown at once; the others on demand.
+    parent : QWidget, optional
+    """
+
+    def __init__(self, shown: int = _SHOWN, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._shown = shown
+        self.sentences: tuple[tuple[str, str], ...] = ()
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setSpacing(6)
+        self._rows: list[QWidget] = []
+        self.more = QPushButton()
+        self.more.setFlat(True)
+        self.more.setCheckable(True)
+        self.more.toggled.connect(self._show_rows)
+        self._layout.addWidget(self.more)
+        self.show_sentences(())
+
+    def show_inspection(self, inspection: Inspection | None) -> None:
+        """Show what an inspection found; None: nothing."""
+        if inspection is None:
+            self.show_sentences(())
+            return
+        found: list[tuple[str, str]] = [(each.level, each.text) for each in inspection.findings]
+        if inspection.sound:
+            found.insert(0, ("good", self.tr("Nothing was found that spoils contacts.")))
+        self.show_sentences((*found, *(("note", fact) for fact in inspection.facts)))
+
+    def show_sentences(self, sentences: Sequence[tuple[str, str]]) -> None:
+        """Show levels ("fault", "doubt", "note" or "good") and texts."""
+        if self.sentences == tuple(sentences) and self._rows:
+            return  # what is unfolded stays so
+        self.sentences = tuple(sentences)
+        for row in self._rows:
+            self._layout.removeWidget(row)
+            row.deleteLater()
+        self._rows = [self._row(level, text) for level, text in self.sentences]
+        for number, row in enumerate(self._rows):
+            self._layout.insertWidget(number, row)
+        self.more.setChecked(False)
+        self._show_rows()
+
+    def _row(self, level: str, text: str) -> QWidget:
+        row = QWidget(self)
+        line = QHBoxLayout(row)
+        line.setContentsMargins(0, 0, 0, 0)
+        line.setSpacing(8)
+        mark = Sign(_ICON_PX)
+        mark.show_icon(icon(*_ICONS[level]))
+        mark.setToolTip(self._word(level))
+        mark.setAccessibleName(self._word(level))
+        line.addWidget(mark, 0, Qt.AlignmentFlag.AlignTop)
+        words = QLabel(text)
+        words.setWordWrap(True)
+        words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)
+        line.addWidget(words, 1)
+        return row
+
+    def _word(self, level: str) -> str:
+        return {
+            "fault": self.tr("Fault"),
+            "doubt": self.tr("Look at this"),
+            "note": self.tr("Note"),
+            "good": self.tr("Good"),
+        }[level]
+
+    def _show_rows(self) -> None:
+        every = self.more.isChecked()
+        for number, row in enumerate(self._rows):
+            row.setVisible(every or number < self._shown)
+        hidden = len(self._rows) - self._shown
+        self.more.setVisible(hidden > 0)
+        self.more.setText(self.tr("Show less") if every else self.tr("Show {} more").format(max(hidden, 0)))
+        self.setVisible(bool(self._rows))

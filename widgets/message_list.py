@@ -1,0 +1,202 @@
+"""The list of messages: plain sentences, newest first, with what is behind them on demand."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from datetime import datetime
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QGuiApplication, QKeySequence, QPainter, QPaintEvent, QShortcut
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QComboBox,
+    QHBoxLayout,
+    QListWidget,
+    QListWidgetItem,
+    QPlainTextEdit,
+    QSplitter,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from widgets.icons import icon
+from widgets.theme import colours, is_dark
+
+_MOST = 500
+_ICONS = {
+    "info": ("info", "muted"),
+    "good": ("done", "good"),
+    "warning": ("warning", "warning"),
+    "error": ("failed", "bad"),
+}
+_RANK = {"info": 0, "good": 0, "warning": 1, "error": 2}
+_ROW = Qt.ItemDataRole.UserRole
+
+
+@dataclass
+class _Told:
+    weight: str
+    text: str
+    details: str
+    at: datetime
+    times: int = 1
+
+
+class _List(QListWidget):
+    """A list that says something while it is empty."""
+
+    def __init__(self, words: str) -> None:
+        super().__init__()
+        self._words = words
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        super().paintEvent(event)
+        if not self.count():
+            painter = QPainter(self.viewport())
+            painter.setPen(QColor(colours(is_dark()).muted))
+            inside = self.viewport().rect().adjusted(8, 4, -8, -4)
+            painter.drawText(inside, Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, self._words)
+            painter.end()
+
+
+class MessageList(QWidget):
+    """Messages of the weights "info", "good", "warning" and "error"; the oldest of more than 500 go."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._numbers: Counter[str] = Counter()
+        self._list = _List(self.tr("All is well: nothing to report."))
+        self._list.setWordWrap(True)
+        self._list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._list.setResizeMode(QListWidget.ResizeMode.Adjust)
+        self._list.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
+        self._list.setAccessibleName(self.tr("Messages"))
+        self._list.itemSelectionChanged.connect(self._show_details)
+        self._details = QPlainTextEdit(readOnly=True)
+        self._details.setAccessibleName(self.tr("Details of the message"))
+        self._details.hide()
+        both = QSplitter(Qt.Orientation.Horizontal)
+        both.addWidget(self._list)
+        both.addWidget(self._details)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 4, 6, 4)
+        layout.addLayout(self._controls())
+        layout.addWidget(both, 1)
+        shortcut = QShortcut(QKeySequence(QKeySequence.StandardKey.Copy), self._list)
+        shortcut.setContext(Qt.ShortcutContext.WidgetShortcut)
+        shortcut.setWhatsThis(self.tr("Copy the selected messages"))
+        shortcut.activated.connect(self.copy)
+        self._count()
+
+    def _controls(self) -> QHBoxLayout:
+        self._filter = QComboBox()
+        self._filter.addItems(self._words())
+        self._filter.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self._filter.setToolTip(self.tr("Which messages are shown: all, warnings and errors, or errors only"))
+        self._filter.setAccessibleName(self.tr("Which messages are shown"))
+        self._filter.currentIndexChanged.connect(self._sift)
+        self._more = QToolButton()
+        self._more.setText(self.tr("Details"))
+        self._more.setCheckable(True)
+        self._more.setToolTip(self.tr("Show what is behind the selected message"))
+        self._more.toggled.connect(self._show_details)
+        copy = QToolButton()
+        copy.setIcon(icon("copy"))
+        copy.setToolTip(self.tr("Copy the selected messages with their details"))
+        copy.setAccessibleName(self.tr("Copy messages"))
+        copy.clicked.connect(self.copy)
+        row = QHBoxLayout()
+        row.addWidget(self._filter)
+        row.addStretch(1)
+        row.addWidget(self._more)
+        row.addWidget(copy)
+        return row
+
+    def add(self, weight: str, text: str, details: str = "", at: datetime | None = None) -> None:
+        """Put a message on top; the same one again is counted instead."""
+        at = at or datetime.now().astimezone()
+        if self._list.count():
+            told: _Told = self._list.item(0).data(_ROW)
+            if (told.weight, told.text) == (weight, text):
+                told.times, told.at, told.details = told.times + 1, at, details or told.details
+                self._write(self._list.item(0), told)
+                return
+        item = QListWidgetItem()
+        self._list.insertItem(0, item)
+        self._write(item, _Told(weight, text, details, at))
+        item.setHidden(_RANK[weight] < self._filter.currentIndex())
+        self._numbers[weight] += 1
+        while self._list.count() > _MOST:
+            self._numbers[self._told(self._list.count() - 1).weight] -= 1
+            self._list.takeItem(self._list.count() - 1)
+        self._count()
+
+    def texts(self) -> tuple[str, ...]:
+        """Return the sentences that are there, newest first."""
+        return tuple(self._told(index).text for index in range(self._list.count()))
+
+    def weights(self) -> tuple[str, ...]:
+        """Return the weights of the messages, newest first."""
+        return tuple(self._told(index).weight for index in range(self._list.count()))
+
+    def clear(self) -> None:
+        """Empty it."""
+        self._list.clear()
+        self._numbers.clear()
+        self._show_details()
+        self._count()
+
+    def copy(self) -> None:
+        """Copy the selected messages, or all, with their details."""
+        chosen = self._list.selectedItems() or [self._list.item(row) for row in range(self._list.count())]
+        rows: list[_Told] = [item.data(_ROW) for item in chosen]
+        lines = [
+            f"{row.at:%Y-%m-%d %H:%M:%S} {row.weight}: {row.text}\n{row.details}".strip() for row in rows
+        ]
+        QGuiApplication.clipboard().setText("\n".join(lines))
+
+    def word_of(self, weight: str) -> str:
+        """Return the word for a weight."""
+        words = {
+            "info": self.tr("Note"),
+            "good": self.tr("Good"),
+            "warning": self.tr("Warning"),
+            "error": self.tr("Error"),
+        }
+        return words[weight]
+
+    def _told(self, row: int) -> _Told:
+        result: _Told = self._list.item(row).data(_ROW)
+        return result
+
+    def _write(self, item: QListWidgetItem, told: _Told) -> None:
+        again = self.tr(" ({} times)").format(told.times) if told.times > 1 else ""
+        item.setText(f"{told.at:%H:%M:%S}  {self.word_of(told.weight)}: {told.text}{again}")
+        item.setIcon(icon(*_ICONS[told.weight]))
+        item.setData(_ROW, told)
+
+    def _sift(self) -> None:
+        least = self._filter.currentIndex()
+        for row in range(self._list.count()):
+            self._list.item(row).setHidden(_RANK[self._told(row).weight] < least)
+
+    def _count(self) -> None:
+        errors = self._numbers["error"]
+        numbers = (self._list.count(), self._numbers["warning"] + errors, errors)
+        for row, (words, number) in enumerate(zip(self._words(), numbers, strict=True)):
+            self._filter.setItemText(row, f"{words} ({number})" if number else words)
+
+    def _words(self) -> tuple[str, str, str]:
+        return self.tr("All"), self.tr("Warnings"), self.tr("Errors")
+
+    def _show_details(self, *_: object) -> None:
+        chosen = self._list.selectedItems()
+        told: _Told | None = chosen[0].data(_ROW) if chosen else None
+        self._details.setPlainText(
+            (told.details or self.tr("There is nothing more to this message."))
+            if told is not None
+            else self.tr("Choose a message.")
+        )
+        self._details.setVisible(self._more.isChecked())

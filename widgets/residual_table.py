@@ -1,0 +1,229 @@
+"""The poses of a gravity calibration, and how far each is from what the others say."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QPoint,
+    QRect,
+    QSize,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHeaderView,
+    QMenu,
+    QSizePolicy,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTableView,
+    QWidget,
+)
+
+from pipeline.workbench.gravity_poses import PoseRow, PoseState
+from widgets.icons import icon
+from widgets.theme import colours, is_dark
+
+NAME, STANDS, SIGMAS, STATE = range(4)
+_FULL = 6.0  # sigmas that fill the bar
+_FEW = 3.0  # beyond, a pose is worth a look
+_BAR = Qt.ItemDataRole.UserRole
+_Index = QModelIndex | QPersistentModelIndex
+
+
+class PoseModel(QAbstractTableModel):
+    """Poses as rows: number, how the sensor stood, residual in sigmas, state."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.rows: tuple[PoseRow, ...] = ()
+
+    def show_rows(self, rows: tuple[PoseRow, ...]) -> None:
+        """Show other rows; where only values changed, what is selected stays so."""
+        if len(rows) != len(self.rows):
+            self.beginResetModel()
+            self.rows = rows
+            self.endResetModel()
+            return
+        self.rows = rows
+        if rows:
+            self.dataChanged.emit(self.index(0, 0), self.index(len(rows) - 1, STATE))
+
+    def rowCount(self, parent: _Index | None = None) -> int:
+        """Return how many poses there are."""
+        return 0 if parent is not None and parent.isValid() else len(self.rows)
+
+    def columnCount(self, parent: _Index | None = None) -> int:  # noqa: ARG002 - Qt's signature
+        """Return four."""
+        return 4
+
+    def headerData(
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> object:
+        """Return what a column is called."""
+        if orientation is not Qt.Orientation.Horizontal:
+            return None
+        if role == Qt.ItemDataRole.DisplayRole:
+            return (self.tr("pose"), self.tr("tilt"), self.tr("residual"), self.tr("state"))[section]
+        if role == Qt.ItemDataRole.ToolTipRole and section == SIGMAS:
+            return self.tr(
+                "How far the reading is from what all poses together predict, in standard deviations: 1 is usual, above"
+                " 3 is worth a look."
+            )
+        return None
+
+    def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> object:
+        """Return what a cell shows."""
+        row, column = self.rows[index.row()], index.column()
+        match role:
+            case Qt.ItemDataRole.DisplayRole:
+                return (row.name.removeprefix("pose "), row.words, self._sigmas(row), self._state(row))[
+                    column
+                ]
+            case Qt.ItemDataRole.DecorationRole if column == STATE:
+                return self._icon(row.state)
+            case Qt.ItemDataRole.ToolTipRole:
+                return self._tip(row)
+            case Qt.ItemDataRole.AccessibleTextRole:
+                return self.tr("{name}, {words}, residual {sigmas} sigma, {state}").format(
+                    name=row.name, words=row.words, sigmas=self._sigmas(row), state=self._state(row)
+                )
+            case _ if role == _BAR:
+                return row.sigmas
+        return None
+
+    def _tip(self, row: PoseRow) -> str:
+        parts = [row.reason]
+        if not math.isnan(row.sigmas):
+            parts.append(
+                self.tr("force {force:.1f} sigma, torque {torque:.1f} sigma").format(
+                    force=row.force_sigmas, torque=row.torque_sigmas
+                )
+            )
+        if row.earlier:
+            parts.append(self.tr("From the interrupted recording."))
+        return "\n".join(part for part in parts if part)
+
+    def _sigmas(self, row: PoseRow) -> str:
+        return "-" if math.isnan(row.sigmas) else f"{row.sigmas:.1f} σ"
+
+    def _state(self, row: PoseRow) -> str:
+        return {
+            PoseState.TAKEN: self.tr("taken"),
+            PoseState.LEFT_OUT: self.tr("left out"),
+            PoseState.REJECTED: self.tr("rejected"),
+        }[row.state]
+
+    def _icon(self, state: PoseState) -> QIcon:
+        name, colour = {
+            PoseState.TAKEN: ("check", "good"),
+            PoseState.LEFT_OUT: ("remove", "muted"),
+            PoseState.REJECTED: ("cross", "bad"),
+        }[state]
+        return icon(name, colour)
+
+
+class _Bar(QStyledItemDelegate):
+    """Draws a bar behind the number."""
+
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
+        value = index.data(_BAR)
+        rect: QRect = option.rect
+        if isinstance(value, float) and not math.isnan(value):
+            c = colours(is_dark())
+            colour = QColor(c.good if value < _FEW else c.warning)
+            colour.setAlpha(90)
+            width = int((rect.width() - 6) * min(value / _FULL, 1.0))
+            painter.fillRect(
+                QRect(rect.left() + 3, rect.top() + 5, max(width, 2), rect.height() - 10), colour
+            )
+        super().paint(painter, option, index)
+
+
+class ResidualTable(QTableView):
+    """
+    Poses; Delete, Return or the menu leave the selected ones out or take them back.
+
+    Signals
+    -------
+    leave_out, take_back : tuple of PoseRow
+    """
+
+    leave_out = Signal(object)
+    take_back = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._poses = PoseModel(self)
+        self.setModel(self._poses)
+        self.setItemDelegateForColumn(SIGMAS, _Bar(self))
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)  # it grows with its rows
+        self.setAccessibleName(self.tr("Poses"))
+        self.setShowGrid(False)
+        self.setTabKeyNavigation(False)
+        self.setIconSize(QSize(14, 14))
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(28)
+        header = self.horizontalHeader()
+        header.setHighlightSections(False)
+        header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        for column in (NAME, SIGMAS, STATE):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(STANDS, QHeaderView.ResizeMode.Stretch)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.customContextMenuRequested.connect(self._open_menu)
+
+    @property
+    def rows(self) -> tuple[PoseRow, ...]:
+        """What it shows."""
+        return self._poses.rows
+
+    def show_rows(self, rows: tuple[PoseRow, ...]) -> None:
+        """Show other rows."""
+        grew = len(rows) != len(self._poses.rows)
+        self._poses.show_rows(rows)
+        if grew:
+            self.setFixedHeight(self.sizeHint().height())
+
+    def sizeHint(self) -> QSize:
+        """Return the height of all rows."""
+        rows = max(self._poses.rowCount(), 1) * 28
+        return QSize(330, rows + self.horizontalHeader().sizeHint().height() + 4)
+
+    def selected(self) -> tuple[PoseRow, ...]:
+        """Return the rows that are selected and can be changed."""
+        chosen = sorted(index.row() for index in self.selectionModel().selectedRows())
+        return tuple(self.rows[row] for row in chosen if self.rows[row].changeable)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Delete leaves out, Return takes back."""
+        rows = self.selected()
+        if event.key() in {Qt.Key.Key_Delete, Qt.Key.Key_Backspace} and rows:
+            self.leave_out.emit(rows)
+        elif event.key() in {Qt.Key.Key_Return, Qt.Key.Key_Enter} and rows:
+            self.take_back.emit(rows)
+        else:
+            super().keyPressEvent(event)
+
+    def menu(self) -> QMenu:
+        """Return the menu for what is selected."""
+        rows, menu = self.selected(), QMenu(self)
+        out = menu.addAction(self.tr("Leave out"), lambda: self.leave_out.emit(rows))
+        back = menu.addAction(self.tr("Take back"), lambda: self.take_back.emit(rows))
+        out.setEnabled(any(row.state is not PoseState.LEFT_OUT for row in rows))
+        back.setEnabled(any(row.state is PoseState.LEFT_OUT for row in rows))
+        return menu
+
+    def _open_menu(self, at: QPoint) -> None:
+        menu = self.menu()
+        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        menu.popup(self.viewport().mapToGlobal(at))

@@ -1,0 +1,117 @@
+"""What the next frames need of a new probe, computed beside the window: it must not stand still for it."""
+
+from __future__ import annotations
+
+import threading
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from widgets.scene.shapes import thinned
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from pipeline.mesh import Probe
+
+MANY = 30_000
+"""Facets from which on a likeness stands in while all moves."""
+_CREASE = np.cos(np.radians(40.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """
+    What was computed of a probe.
+
+    Attributes
+    ----------
+    probe : Probe
+    likeness : (vertices, faces, kept) or None
+        See `widgets.scene.shapes.thinned`; None: it has few facets.
+    creases : (2 k, 3)
+        Ends of its sharp and open edges, S, m.
+    """
+
+    probe: Probe
+    likeness: tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]] | None
+    creases: NDArray[np.float64]
+
+
+class Ahead(QObject):
+    """Prepares a probe in a thread; what has become old meanwhile is dropped."""
+
+    _came = Signal(object)
+
+    def __init__(self, take: Callable[[Prepared], None], parent: QObject | None) -> None:
+        super().__init__(parent)
+        self._take = take
+        self._wanted: Probe | None = None
+        self._thread: threading.Thread | None = None
+        self._came.connect(self._taken)
+
+    @property
+    def busy(self) -> bool:
+        """Whether something is still to come."""
+        return self._wanted is not None
+
+    def begin(self, probe: Probe | None) -> None:
+        """Prepare a probe, instead of any other; None: none."""
+        self._wanted = probe
+        if probe is not None:
+            self._thread = threading.Thread(target=self._work, args=(probe,), name="ahead", daemon=True)
+            self._thread.start()
+
+    def close(self) -> None:
+        """End it."""
+        self._wanted = None
+        if self._thread is not None:
+            self._thread.join()
+
+    def _work(self, probe: Probe) -> None:
+        prepared = prepare(probe)
+        with suppress(RuntimeError):  # the scene is gone
+            self._came.emit(prepared)
+
+    def _taken(self, prepared: Prepared) -> None:
+        if prepared.probe is self._wanted:
+            self._wanted = None
+            self._take(prepared)
+
+
+def prepare(probe: Probe) -> Prepared:
+    """Compute what is needed of a probe; NumPy leaves the interpreter to others while it sorts."""
+    likeness = thinned(probe.vertices, probe.faces) if len(probe.faces) > MANY else None
+    return Prepared(probe, likeness, crease_ends(probe.vertices, probe.faces, probe.normals))
+
+
+def crease_ends(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], normals: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """
+    Return the ends (2 k, 3) of the edges of one facet, and of two that meet at more than 40 degrees.
+
+    Parameters
+    ----------
+    vertices : (n, 3)
+    faces : (m, 3)
+    normals : (m, 3)
+        Of unit length.
+    """
+    corners = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
+    key = corners.min(axis=1) * len(vertices) + corners.max(axis=1)
+    order = np.argsort(key)
+    key = key[order]
+    starts = np.flatnonzero(np.diff(key, prepend=-1))
+    counts = np.diff(starts, append=len(key))
+    open_ones, pairs = starts[counts == 1], starts[counts == 2]
+    one, other = order[pairs] % len(faces), order[pairs + 1] % len(faces)
+    bend = np.einsum("ij,ij->i", normals[one], normals[other])
+    sharp = np.concatenate([open_ones, pairs[bend < _CREASE]])
+    ends: NDArray[np.float64] = vertices[corners[order[sharp]]].reshape(-1, 3)
+    return ends

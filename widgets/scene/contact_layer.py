@@ -1,0 +1,114 @@
+"""Where the probe is touched: a disc as large as the doubt about it, and hollow rings where it might have been."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from widgets.scene.shapes import circle, disc, frame_on, ring_segments, segments
+from widgets.scene.stage import Shape
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from widgets.scene.picking import Picker
+    from widgets.scene.stage import Stage
+
+CHI2_95 = 5.991  # of two degrees of freedom
+
+
+class ContactLayer:
+    """Draws the contact."""
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self._disc = Shape(stage, disc())
+        rim = circle()
+        self._rim = Shape(stage, segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3)))
+        self._dot = Shape(stage, disc())
+        self._lost = Shape(stage, vtkPolyData())
+        for shape, lift in ((self._disc, 1.0), (self._lost, 1.1), (self._rim, 1.2), (self._dot, 1.3)):
+            shape.plain()
+            shape.lift(lift)
+            shape.show(False)
+        self.dress()
+
+    def dress(self) -> None:
+        """Take the theme's colours."""
+        colours = self._stage.colours
+        self._disc.colour(colours.series[3], 0.45)
+        self._rim.colour("#000000")
+        self._dot.colour("#000000")
+        self._lost.colour("#202020")
+        self._rim.look.SetLineWidth(2.5 * self._stage.ratio)
+        self._lost.look.SetLineWidth(2.0 * self._stage.ratio)
+
+    def turn(self) -> None:
+        """Follow the tool."""
+        for shape in (self._disc, self._rim, self._dot, self._lost):
+            shape.place()
+
+    def show(
+        self,
+        point: NDArray[np.float64] | None,
+        covariance: NDArray[np.float64] | None,
+        normal: NDArray[np.float64] | None,
+        candidates: NDArray[np.float64] | None,
+        picker: Picker | None,
+        normals: NDArray[np.float64] | None,
+    ) -> None:
+        """Show a contact, or none; what the picker finds says how the surface lies where nobody told."""
+        for shape in (self._disc, self._rim, self._dot):
+            shape.show(point is not None)
+        if point is not None:
+            up = _normal(point, picker, normals) if normal is None else np.asarray(normal, float)
+            radius = 0.006 * self._stage.size
+            self._dot.place(frame_on(point, up, radius))
+            ellipse = (
+                frame_on(point, up, 2.5 * radius)
+                if covariance is None
+                else ellipse_frame(np.asarray(point, float), np.asarray(covariance, float), up)
+            )
+            self._disc.place(ellipse)
+            self._rim.place(ellipse)
+        rows = np.zeros((0, 3)) if candidates is None else np.reshape(candidates, (-1, 3))
+        self._lost.show(len(rows) > 0)
+        if len(rows):
+            radius = 0.02 * self._stage.size
+            frames = np.array([frame_on(row, _normal(row, picker, normals), radius) for row in rows])
+            self._lost.give(segments(ring_segments(frames)))
+
+
+def ellipse_frame(
+    point: NDArray[np.float64], covariance: NDArray[np.float64], normal: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """
+    Return the frame (4, 4) that makes the unit circle the 95 % ellipse in the tangent plane.
+
+    Parameters
+    ----------
+    point, normal : (3,)
+        m; unit length is not needed.
+    covariance : (3, 3)
+        m².
+    """
+    T = frame_on(point, normal)
+    tangents = T[:3, :2]
+    values, vectors = np.linalg.eigh(tangents.T @ covariance @ tangents)
+    half = np.sqrt(CHI2_95 * np.maximum(np.nan_to_num(values), 0.0))
+    axes = tangents @ vectors
+    if np.dot(np.cross(axes[:, 0], axes[:, 1]), T[:3, 2]) < 0.0:
+        axes[:, 1] = -axes[:, 1]
+    # an ellipse of no width cannot be turned back by VTK: a micrometre is no width to the eye
+    T[:3, :2] = axes * np.maximum(half, 1e-6)
+    return T
+
+
+def _normal(
+    point: NDArray[np.float64], picker: Picker | None, normals: NDArray[np.float64] | None
+) -> NDArray[np.float64]:
+    if picker is None or normals is None:
+        return np.array([0.0, 0.0, 1.0])
+    return np.asarray(normals[picker.nearest(np.asarray(point, float)).face])

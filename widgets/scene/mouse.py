@@ -1,0 +1,166 @@
+"""What the mouse does in the view: turn, move, scale, pick, brush."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PySide6.QtCore import QObject, QPointF, Qt, QTimer
+from PySide6.QtWidgets import QApplication
+
+from widgets.scene.views import moved, scaled, turned
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QMouseEvent, QWheelEvent
+
+    from widgets.scene.scene import Scene
+
+_HOVER_MS = 34
+_NOTCH = 120  # of a wheel, in eighths of a degree
+_ZOOM = 1.15  # per notch
+_BUTTON = Qt.MouseButton
+
+
+class Mouse(QObject):
+    """
+    Turns events of the view into changes of the camera and signals of the scene.
+
+    A drag of the camera is only noted; the newest place is used when the next frame is drawn.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        super().__init__(scene)
+        self._scene = scene
+        self.tool = "turn"
+        self._button = _BUTTON.NoButton
+        self._from = self._at = QPointF()
+        self._dragged = False
+        self._brushing = False
+        self._notches = 0.0
+        self._hover: QPointF | None = None
+        self._timer = QTimer(self, interval=_HOVER_MS, singleShot=True)
+        self._timer.timeout.connect(self._tell_hover)
+
+    def stop(self) -> None:
+        """Hear nothing more."""
+        self._timer.stop()
+
+    def press(self, event: QMouseEvent) -> None:
+        """Begin what the button does."""
+        if self._button != _BUTTON.NoButton:
+            return
+        self._button = event.button()
+        self._from = self._at = event.position()
+        self._dragged = False
+        if self._paints():
+            self._brush(event)
+
+    def move(self, event: QMouseEvent) -> None:
+        """Follow the pointer."""
+        here = event.position()
+        if self._button == _BUTTON.NoButton or self._paints():
+            self._hover = here
+            if not self._timer.isActive():
+                self._timer.start()
+        if self._button == _BUTTON.NoButton:
+            return
+        if self._paints():
+            self._brush(event)
+            return
+        if not self._dragged:
+            far = (here - self._from).manhattanLength() >= QApplication.startDragDistance()
+            if not far:
+                return
+            self._dragged = True
+            self._at = self._from
+        self._hover = here
+        self._scene.redraw()
+
+    def release(self, event: QMouseEvent) -> None:
+        """End what the button did."""
+        if event.button() != self._button:
+            return
+        painted, dragged = self._paints(), self._dragged
+        if dragged:
+            self._hover = event.position()
+            self.apply_drag()
+        self._button = _BUTTON.NoButton
+        if painted:
+            if self._brushing:
+                self._brushing = False
+                self._scene.brush_ended.emit()
+        elif event.button() == _BUTTON.LeftButton and not dragged:
+            pick = self._scene.pick_at(event.position())
+            if pick is not None:
+                self._scene.picked.emit(pick)
+        self._dragged = False
+        self._scene.settle()
+
+    def leave(self) -> None:
+        """Forget the pointer: it left the view."""
+        if self._button == _BUTTON.NoButton:
+            self._hover = None
+            self._tell_hover()
+
+    def wheel(self, event: QWheelEvent) -> None:
+        """Scale about the pointer, or scale the brush."""
+        self._notches += event.angleDelta().y() / _NOTCH
+        if event.modifiers() & Qt.KeyboardModifier.ControlModifier and self.tool == "brush":
+            whole = int(self._notches)
+            self._notches -= whole
+            for _ in range(abs(whole)):
+                self._scene.brush_scaled.emit(1 if whole > 0 else -1)
+            return
+        notches, self._notches = self._notches, 0.0
+        screen, ratio = self._scene.projection(), self._scene.stage.ratio
+        right = (event.position().x() * ratio - screen.width / 2) * screen.metres_per_pixel
+        up = (screen.height / 2 - event.position().y() * ratio) * screen.metres_per_pixel
+        self._scene.move_camera(scaled(screen.look, _ZOOM**notches, right, up))
+        event.accept()
+
+    def apply_drag(self) -> None:
+        """Move the camera to where the pointer has dragged it; before a frame is drawn."""
+        if not self._dragged or self._hover is None or self._paints():
+            return
+        step, self._at = self._hover - self._at, self._hover
+        if step.isNull():
+            return
+        screen, ratio = self._scene.projection(), self._scene.stage.ratio
+        if self._button == _BUTTON.MiddleButton:
+            unit = screen.metres_per_pixel * ratio
+            look = moved(screen.look, step.x() * unit, step.y() * unit)
+        else:
+            # as far across the view as half a turn
+            angle = np.pi * ratio / max(min(screen.width, screen.height), 1)
+            look = turned(screen.look, step.x() * angle, step.y() * angle)
+        self._scene.move_camera(look)
+
+    @property
+    def dragging(self) -> bool:
+        """Whether the camera is being dragged."""
+        return self._dragged
+
+    @property
+    def painting(self) -> bool:
+        """Whether the brush is drawn over the surface."""
+        return self._brushing
+
+    def _paints(self) -> bool:
+        return self.tool == "brush" and self._button == _BUTTON.LeftButton
+
+    def _brush(self, event: QMouseEvent) -> None:
+        pick = self._scene.pick_at(event.position())
+        if self._brushing:
+            self._scene.brush_moved.emit(pick)
+        elif pick is not None:
+            self._brushing = True
+            self._scene.brush_began.emit(pick, event.modifiers())
+        self._scene.show_brush(pick)
+
+    def _tell_hover(self) -> None:
+        if self._dragged:
+            return
+        pick: Any = None if self._hover is None else self._scene.pick_at(self._hover)
+        if self.tool == "brush":
+            self._scene.show_brush(pick)
+        self._scene.hovered.emit(pick)

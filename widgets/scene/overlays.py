@@ -1,0 +1,180 @@
+"""What lies over the view: buttons, a scale bar, a colour bar."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QToolButton, QWidget
+
+from widgets.scene.fields import cividis, round_length, ticks
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QPaintEvent
+
+    from widgets.theme import Colours
+
+_LONGEST = 190.0  # of the scale bar, pixels
+_BUTTON_HEIGHT = 36
+
+
+class ViewButtons(QFrame):
+    """Front, side, top, fit, and the switch to perspective."""
+
+    chosen = Signal(str)
+    perspective = Signal(bool)
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("viewButtons")
+        self._row = row = QHBoxLayout(self)
+        row.setContentsMargins(3, 3, 3, 3)
+        row.setSpacing(2)
+        self.buttons: dict[str, QToolButton] = {}
+        for name, text, tip in (
+            ("front", self.tr("Front"), self.tr("Look from the front: x to the right, z upwards")),
+            ("side", self.tr("Side"), self.tr("Look from the side: y to the right, z upwards")),
+            ("top", self.tr("Top"), self.tr("Look at the tip from above: x to the right, y upwards")),
+            ("fit", self.tr("Fit"), self.tr("Show the whole probe; the direction stays")),
+        ):
+            button = self._button(text, tip)
+            button.clicked.connect(lambda _checked=False, name=name: self.chosen.emit(name))
+            self.buttons[name] = button
+        depth = self._button(
+            self.tr("Perspective"),
+            self.tr("What is nearer looks larger; lengths are then not true, so there is no scale"),
+        )
+        depth.setCheckable(True)
+        depth.toggled.connect(self.perspective)
+        self.buttons["perspective"] = depth
+
+    def _button(self, text: str, tip: str) -> QToolButton:
+        button = QToolButton(self)
+        button.setText(text)
+        button.setToolTip(tip)
+        button.setAccessibleName(tip)
+        button.setMinimumSize(46, _BUTTON_HEIGHT)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self._row.addWidget(button)
+        return button
+
+    def dress(self, colours: Colours) -> None:
+        """Take the theme's colours."""
+        self.setStyleSheet(
+            f"#viewButtons {{ background: {colours.panel}; border: 1px solid {colours.line}; border-radius: 7px; }}"
+            f" QToolButton {{ color: {colours.text}; border: 1px solid transparent;"
+            " border-radius: 5px; padding: 4px 8px; }"
+            f" QToolButton:hover, QToolButton:focus {{ border-color: {colours.accent}; }}"
+            f" QToolButton:checked {{ background: {colours.accent}; color: {colours.panel}; }}"
+        )
+
+
+class ScaleBar(QWidget):
+    """How long a round number of millimetres is on screen."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._per_pixel = 1e-4
+        self._colour = "#000000"
+        self.resize(self.sizeHint())
+
+    def sizeHint(self) -> QSize:
+        """Return its size."""
+        return QSize(int(_LONGEST) + 20, 36)
+
+    def dress(self, colours: Colours) -> None:
+        """Take the theme's colours."""
+        self._colour = colours.text
+        self.update()
+
+    def set_scale(self, metres_per_pixel: float) -> None:
+        """Say how long a pixel is, m."""
+        if metres_per_pixel != self._per_pixel:
+            self._per_pixel = metres_per_pixel
+            self.setAccessibleName(self.tr("Scale: the bar is {length} long").format(length=self.text))
+            self.update()
+
+    @property
+    def length(self) -> float:
+        """Of the bar, m."""
+        return round_length(_LONGEST * self._per_pixel)
+
+    @property
+    def pixels(self) -> float:
+        """Of the bar."""
+        return self.length / self._per_pixel
+
+    @property
+    def text(self) -> str:
+        """What is written over it."""
+        return self.tr("{length:g} mm").format(length=round(self.length * 1e3, 6))
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(QColor(self._colour), 2))
+        middle, y, half = self.width() / 2, self.height() - 7.0, self.pixels / 2
+        painter.drawLine(QPointF(middle - half, y), QPointF(middle + half, y))
+        for x in (middle - half, middle + half):
+            painter.drawLine(QPointF(x, y - 5), QPointF(x, y + 5))
+        where = QRectF(0, 0, self.width(), y - 4)
+        painter.drawText(where, Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignBottom, self.text)
+
+
+class ColourBar(QWidget):
+    """Which colour is which value."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.title = ""
+        self.limits = (0.0, 1.0)
+        self._text = self._panel = self._line = "#000000"
+        self.resize(self.sizeHint())
+        self.hide()
+
+    def sizeHint(self) -> QSize:
+        """Return its size: as wide as its title, where that is not too long."""
+        wide = self.fontMetrics().horizontalAdvance(self.title) + 24
+        return QSize(min(max(wide, 96), 240), 236)
+
+    def dress(self, colours: Colours) -> None:
+        """Take the theme's colours."""
+        self._text, self._panel, self._line = colours.text, colours.panel, colours.line
+        self.update()
+
+    def tell(self, title: str, limits: tuple[float, float]) -> None:
+        """Show a title, with its unit, and the values of both ends."""
+        self.title, self.limits = title, limits
+        self.setAccessibleName(
+            self.tr("{title}: from {low:.3g} to {high:.3g}").format(
+                title=title, low=limits[0], high=limits[1]
+            )
+        )
+        self.resize(self.sizeHint())
+        self.update()
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Draw it."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(QColor(self._line), 1))
+        painter.setBrush(QColor(self._panel))
+        painter.drawRoundedRect(QRectF(self.rect()).adjusted(0.5, 0.5, -0.5, -0.5), 7, 7)
+        painter.setPen(QColor(self._text))
+        title = painter.fontMetrics().elidedText(self.title, Qt.TextElideMode.ElideRight, self.width() - 16)
+        painter.drawText(QRectF(8, 6, self.width() - 16, 22), Qt.AlignmentFlag.AlignLeft, title)
+        bar = QRectF(12, 40, 20, self.height() - 56)
+        shades = QLinearGradient(bar.bottomLeft(), bar.topLeft())
+        for i, (red, green, blue) in enumerate(cividis(17)):
+            shades.setColorAt(i / 16, QColor.fromRgbF(red, green, blue))
+        painter.fillRect(bar, shades)
+        low, high = self.limits
+        for value in ticks(low, high):
+            y = bar.bottom() - (value - low) / (high - low) * bar.height()
+            painter.drawLine(QPointF(bar.right(), y), QPointF(bar.right() + 5, y))
+            place = QRectF(bar.right() + 9, y - 11, self.width() - bar.right() - 12, 22)
+            painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, f"{value:.4g}".replace("-", "\u2212"))

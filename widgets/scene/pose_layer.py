@@ -1,0 +1,206 @@
+"""The sensor's frame, how the tool stands in the world, the ghost of the next pose, and the phantom."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from widgets.scene.label import Label
+from widgets.scene.shapes import circle, cone, cylinder, disc, frame_on, homogeneous, segments, triangles
+from widgets.scene.stage import Shape
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from widgets.scene.stage import Stage
+    from widgets.scene.views import Screen
+
+# Lighter on dark grounds: a pure blue letter is not read there.
+_AXES = {False: ("#c62828", "#2e7d32", "#1554c0"), True: ("#ff7b72", "#5fd07a", "#7ab8ff")}
+_GRID = 10  # fields of the floor
+_SIDES = 32  # of what is round
+_THROUGH = 60.0  # a lift that shows the axes through the probe: that of z lies inside it
+
+
+class Arrow:
+    """A straight arrow of a length along an axis of its frame's z."""
+
+    def __init__(self, stage: Stage, turns: bool) -> None:
+        self._stage = stage
+        self.shapes = (Shape(stage, cylinder(12), turns=turns), Shape(stage, cone(16), turns=turns))
+
+    def draw(self, begin: NDArray[np.float64], along: NDArray[np.float64], thick: float) -> None:
+        """Draw it from a point along a vector, m."""
+        tip, length = begin + along, float(np.linalg.norm(along))
+        head = min(5.0 * thick, 0.5 * length)
+        self.shapes[1].place(frame_on(tip, along) @ np.diag([0.4 * head, 0.4 * head, head, 1.0]))
+        neck = tip - head * along / length
+        self.shapes[0].place(frame_on(neck, along) @ np.diag([thick / 2, thick / 2, length - head, 1.0]))
+
+
+class PoseLayer:
+    """Draws frames and poses."""
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self._frame = [Arrow(stage, turns=True) for _ in range(3)]
+        self._letters = [Label(stage, offset=(-6.0, 0.0), plain=True) for _ in range(3)]
+        self._ends: NDArray[np.float64] = np.zeros((3, 3))
+        self._ghost = Shape(stage, vtkPolyData(), turns=False)
+        self._ghost_R: NDArray[np.float64] | None = None
+        self._stand_in = Shape(stage, vtkPolyData(), turns=True)
+        self._alone = True  # there is no probe: something stands in for it
+        self._down = Arrow(stage, turns=False)
+        self._down_word = Label(stage, offset=(8.0, 0.0))
+        self._floor = Shape(stage, vtkPolyData(), live=False, turns=False)
+        self._phantom, self._phantom_rim = Shape(stage, disc()), Shape(stage, _rim())
+        self.dark = self.in_world = False
+        self._ghost.look.BackfaceCullingOn()
+        for arrow in self._frame:
+            for shape in arrow.shapes:
+                shape.lift(_THROUGH)
+        for shape in (self._floor, self._phantom, self._phantom_rim):
+            shape.plain()
+        self.show_orientation(False, "")
+        self.show_ghost(None, vtkPolyData())
+        self.show_phantom(None, None)
+        self.size()
+
+    @property
+    def still(self) -> tuple[Any, ...]:
+        """Actors of what stands still."""
+        return (self._floor.actor,)
+
+    def size(self) -> None:
+        """Be as large as suits the probe."""
+        size = self._stage.size
+        for i, arrow in enumerate(self._frame):
+            self._ends[i] = 0.46 * size * np.eye(3)[i]
+            arrow.draw(np.zeros(3), 0.4 * size * np.eye(3)[i], 0.008 * size)
+        self._reach = 1.35 * size
+        steps = np.linspace(-1.0, 1.0, _GRID + 1)
+        lines = np.array([[[-1.0, s], [1.0, s]] for s in steps] + [[[s, -1.0], [s, 1.0]] for s in steps])
+        flat = self._reach * np.insert(lines.reshape(-1, 2), 2, 0.0, axis=1)
+        flat[:, 2] = -1.1 * size
+        self._floor.give(segments(flat))
+        self._stand_in.give(_tool(size))
+        self._down.draw(
+            np.array([-1.15 * size, 0.0, 0.1 * size]), np.array([0.0, 0.0, -0.5 * size]), 0.012 * size
+        )
+        self._place_ghost()
+
+    def dress(self) -> None:
+        """Take the theme's colours."""
+        colours = self._stage.colours
+        shades = _AXES[self.dark]
+        for arrow, shade in zip(self._frame, shades, strict=True):
+            for shape in arrow.shapes:
+                shape.colour(shade)
+                shape.look.SetAmbient(0.5)
+        for letter, label, shade in zip("xyz", self._letters, shades, strict=True):
+            label.write(letter, shade)
+        self._ghost.colour(colours.accent, 0.3)
+        self._stand_in.colour(colours.stale, 0.55)
+        self._ghost.look.SetAmbient(0.4)
+        for shape in self._down.shapes:
+            shape.colour(colours.muted)
+        self._floor.colour(colours.line)
+        self._phantom.colour(colours.series[4], 0.28)
+        self._phantom_rim.colour(colours.series[4])
+        self._phantom_rim.look.SetLineWidth(2.0 * self._stage.ratio)
+
+    def turn(self) -> None:
+        """Follow the tool."""
+        for arrow in self._frame:
+            for shape in arrow.shapes:
+                shape.place()
+        self._phantom.place()
+        self._phantom_rim.place()
+        self._stand_in.place()
+
+    def show_stand_in(self, alone: bool) -> None:
+        """Say whether there is no probe: a plain tool is then shown as it is held."""
+        self._alone = alone
+        self._stand_in.show(alone and self.in_world)
+
+    def show_orientation(self, shown: bool, word: str) -> None:
+        """Show the world the tool stands in, or not."""
+        self.in_world = shown
+        self._floor.show(shown)
+        for shape in self._down.shapes:
+            shape.show(shown)
+        self._down_word.wanted = shown
+        self.show_stand_in(self._alone)
+        if word:
+            self._down_word.write(word, self._stage.colours.text)
+
+    def show_ghost(self, R_WS: NDArray[np.float64] | None, likeness: Any) -> None:
+        """Show a likeness of the tool see-through in another orientation."""
+        self._ghost_R = R_WS
+        self._ghost.show(R_WS is not None)
+        if R_WS is not None:
+            plain = vtkPolyData()
+            plain.ShallowCopy(_tool(self._stage.size) if self._alone else likeness)
+            plain.GetCellData().SetScalars(None)
+            self._ghost.give(plain)
+            self._place_ghost()
+
+    def _place_ghost(self) -> None:
+        self._ghost.place(homogeneous(self._ghost_R))
+
+    def show_phantom(self, point: NDArray[np.float64] | None, normal: NDArray[np.float64] | None) -> None:
+        """Show a plane, S, m."""
+        self._phantom.show(point is not None)
+        self._phantom_rim.show(point is not None)
+        if point is not None:
+            up = np.array([0.0, 0.0, -1.0]) if normal is None else normal
+            T = frame_on(point, up, 0.6 * self._stage.size)
+            self._phantom.place(T)
+            self._phantom_rim.place(T)
+
+    def label(self, screen: Screen) -> None:
+        """Put the letters where the axes end."""
+        turn = self._stage.turn
+        ends = np.vstack(
+            [self._ends @ turn[:3, :3].T, [[-1.15 * self._stage.size, 0.0, -0.15 * self._stage.size]]]
+        )
+        places = screen.project(ends)
+        for place, label in zip(places, (*self._letters, self._down_word), strict=True):
+            label.put(place[0], place[1], True, screen.height)
+
+
+def _tool(size: float) -> Any:
+    """Return a handle with a head, as long as `size`, m, about z."""
+    profile = size * np.array(
+        [
+            (0.0, 0.0),
+            (0.17, 0.0),
+            (0.17, 0.05),
+            (0.09, 0.08),
+            (0.11, 0.55),
+            (0.16, 0.7),
+            (0.16, 0.97),
+            (0.0, 1.0),
+        ]
+    )
+    around = np.linspace(0.0, 2.0 * np.pi, _SIDES, endpoint=False)
+    ring = np.stack([np.cos(around), np.sin(around)], axis=1)
+    vertices = np.array([(*(radius * unit), z) for radius, z in profile for unit in ring])
+    low, here = _SIDES * np.arange(len(profile) - 1)[:, None], np.arange(_SIDES)[None, :]
+    then = (here + 1) % _SIDES
+    corners = [
+        low + here,
+        low + then,
+        low + _SIDES + then,
+        low + here,
+        low + _SIDES + then,
+        low + _SIDES + here,
+    ]
+    return triangles(vertices, np.stack(np.broadcast_arrays(*corners), axis=-1).reshape(-1, 3))
+
+
+def _rim() -> Any:
+    rim = circle()
+    return segments(np.stack([rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 3))

@@ -1,0 +1,242 @@
+"""The probe's surface: a colour per facet, edges, hatching of what was made up, fields, and a second mesh."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from widgets.scene.ahead import MANY
+from widgets.scene.fields import cividis
+from widgets.scene.hatching import hatches
+from widgets.scene.picking import Picker
+from widgets.scene.shapes import segments, thinned, triangles
+from widgets.scene.stage import Shape
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.mesh import Probe
+    from widgets.scene.ahead import Prepared
+    from widgets.scene.stage import Stage
+
+PLAIN = 205  # grey of facets without a region, of 255
+
+
+class ProbeLayer:
+    """
+    Draws the probe.
+
+    Attributes
+    ----------
+    probe : Probe or None
+    picker : Picker or None
+        In S.
+    bounds : (2, 3)
+        In S, m.
+    """
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self.probe: Probe | None = None
+        self.picker: Picker | None = None
+        self.bounds: NDArray[np.float64] = np.array([[-0.05] * 3, [0.05] * 3])
+        self._colours: NDArray[np.uint8] = np.zeros((0, 3), np.uint8)
+        self._scalars: Any = None
+        self._pending: list[NDArray[np.int32]] = []
+        self._kept: NDArray[np.int64] | None = None  # of which facet each of the likeness is one
+        self.surface = _surface(stage)
+        self._coarse = _surface(stage)
+        self.fresh = _surface(stage)  # facets painted since the picture was kept
+        self._edges = Shape(stage, vtkPolyData(), live=False)
+        self._hatching = Shape(stage, vtkPolyData(), live=False)
+        self._field = _surface(stage)
+        self._overlay = _surface(stage)
+        self.fresh.show(False)
+        self._coarse.show(False)
+        for lines, width in ((self._edges, 1.0), (self._hatching, 1.4)):
+            lines.plain()
+            lines.lift(0.02)
+            lines.look.SetLineWidth(width)
+        self._field.show(False)
+        self._overlay.show(False)
+        self._overlay.look.BackfaceCullingOn()
+        self.dress()
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """All that stands still."""
+        return self.surface, self._coarse, self._edges, self._hatching, self._field, self._overlay
+
+    def dress(self) -> None:
+        """Take the theme's colours."""
+        colours = self._stage.colours
+        # not see-through: such lines leave no depth, and what is painted later would cover them
+        self._edges.colour("#7d8287")
+        self._hatching.colour("#262626")
+        self._overlay.colour(colours.series[5])
+        for shape in (self._edges, self._hatching):
+            shape.look.SetLineWidth((1.0 if shape is self._edges else 1.4) * self._stage.ratio)
+
+    def turn(self) -> None:
+        """Follow the tool."""
+        for shape in (*self.shapes, self.fresh):
+            shape.place()
+
+    def show(self, probe: Probe | None, colours: NDArray[np.uint8] | None) -> None:
+        """Show another probe."""
+        self.probe, self._kept, self._pending = probe, None, []
+        self._field.show(False)
+        self._coarse.show(False)
+        self.surface.show(probe is not None)
+        if probe is None:
+            self.picker = None
+            for shape in (self.surface, self._edges, self._hatching):
+                shape.give(vtkPolyData())
+            return
+        self.bounds = np.array(probe.bounds)
+        data = triangles(probe.vertices, probe.faces)
+        self._colours = np.full((len(probe.faces), 3), PLAIN, np.uint8)
+        if colours is not None:
+            self._colours[:] = colours
+        self._scalars = _colour_cells(data, self._colours)
+        self.surface.give(data)
+        self.picker = Picker(self.surface.mapper.GetInput())
+        self._edges.give(vtkPolyData())
+        self._hatching.give(hatches(probe))
+
+    def take(self, prepared: Prepared) -> None:
+        """Take what was computed of the probe that is shown."""
+        if self.probe is not prepared.probe:
+            return
+        self._edges.give(segments(prepared.creases))
+        if prepared.likeness is not None and self._kept is None:
+            vertices, faces, self._kept = prepared.likeness
+            self._coarse.give(triangles(vertices, faces))
+
+    def build_picker(self) -> None:
+        """Make ready to find facets: about 0.1 ms per 1,000 facets."""
+        if self.picker is not None:
+            self.picker.build()
+
+    def paint(self, faces: NDArray[np.int32] | None, colours: NDArray[np.uint8]) -> bool:
+        """Give facets other colours; return whether so many that all is to be drawn again."""
+        if self.probe is None:
+            return False
+        if faces is None:
+            self._colours[:] = colours
+            self._pending = []
+        else:
+            self._colours[faces] = colours
+            self._pending.append(np.asarray(faces))
+        if self._field.shown:
+            self._pending = []  # they are seen when the field has gone
+        # the array that VTK draws is this one: it only has to hear that it changed
+        self._scalars.Modified()
+        return faces is None or sum(len(some) for some in self._pending) * 3 > len(self._colours)
+
+    def take_fresh(self) -> bool:
+        """Prepare the facets that were painted since the last call to be drawn alone; whether there are any."""
+        if not self._pending or self.probe is None:
+            return False
+        faces = np.unique(np.concatenate(self._pending))
+        self._pending = []
+        corners = self.probe.vertices[self.probe.faces[faces]].reshape(-1, 3)
+        data = triangles(corners, np.arange(len(corners), dtype=np.int32).reshape(-1, 3))
+        _colour_cells(data, self._colours[faces])
+        self.fresh.give(data)
+        return True
+
+    def set_coarse(self, coarse: bool) -> bool:
+        """Show a likeness of few facets, where there are many; return whether anything changed."""
+        # one that is not there yet is not waited for
+        coarse = coarse and self.probe is not None and self._kept is not None
+        if coarse == self._coarse.shown or self._field.shown:
+            return False
+        if coarse:
+            likeness = self.likeness()
+            _colour_cells(likeness, self._colours[self._kept])
+            self._coarse.give(likeness)
+        # two actors, so that neither is sent to the graphics card again
+        self._coarse.show(coarse)
+        self.surface.show(self.probe is not None and not coarse)
+        return True
+
+    def likeness(self) -> Any:
+        """Return the surface with few facets; the surface itself where it has few."""
+        if self.probe is None or len(self.probe.faces) <= MANY:
+            return self._fine()
+        if self._kept is None:
+            vertices, faces, self._kept = thinned(self.probe.vertices, self.probe.faces)
+            self._coarse.give(triangles(vertices, faces))
+        return self._coarse.mapper.GetInput()
+
+    def _fine(self) -> Any:
+        return self.picker.data if self.picker is not None else vtkPolyData()
+
+    # ---- a second mesh, and fields -----------------------------------------------------------------
+
+    def show_overlay(self, probe: Probe | None, opacity: float) -> None:
+        """Show a second mesh, see-through."""
+        self._overlay.show(probe is not None)
+        self._overlay.give(vtkPolyData() if probe is None else triangles(probe.vertices, probe.faces))
+        self._overlay.look.SetOpacity(opacity)
+
+    def show_field(self, values: NDArray[np.float64] | None, limits: tuple[float, float]) -> None:
+        """Show a scalar per vertex as colours, or the facets' own colours again."""
+        shown = values is not None and self.probe is not None
+        self._field.show(shown)
+        self._coarse.show(False)
+        self.surface.show(self.probe is not None and not shown)
+        if values is None or self.probe is None:
+            return
+        data = vtkPolyData()
+        data.ShallowCopy(self._fine())
+        data.GetCellData().SetScalars(None)
+        data.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values, np.float64), deep=True))
+        mapper = self._field.mapper
+        mapper.SetInputData(data)
+        mapper.ScalarVisibilityOn()
+        mapper.SetScalarModeToUsePointData()
+        mapper.SetColorModeToMapScalars()
+        # the value is interpolated and then coloured: between two corners no colour shows that is not on the bar
+        mapper.InterpolateScalarsBeforeMappingOn()
+        mapper.SetLookupTable(_table(limits))
+        mapper.SetUseLookupTableScalarRange(True)
+
+
+def _surface(stage: Stage) -> Shape:
+    shape = Shape(stage, vtkPolyData(), live=False)
+    shape.look.SetInterpolationToFlat()
+    shape.look.SetAmbient(0.42)
+    shape.look.SetDiffuse(0.62)
+    shape.look.SetSpecular(0.0)
+    # The same corners must fall on the same depths in the whole surface and in a piece of it, and VTK's own
+    # shift and scale depend on the extent.
+    shape.mapper.SetVBOShiftScaleMethod(0)
+    shape.mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    shape.mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, 0.0)
+    shape.mapper.SetScalarModeToUseCellData()
+    shape.mapper.SetColorModeToDirectScalars()
+    shape.mapper.ScalarVisibilityOn()
+    return shape
+
+
+def _colour_cells(data: Any, colours: NDArray[np.uint8]) -> Any:
+    scalars = numpy_to_vtk(np.ascontiguousarray(colours))
+    data.GetCellData().SetScalars(scalars)
+    return scalars
+
+
+def _table(limits: tuple[float, float]) -> Any:
+    shades = cividis()
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(len(shades))
+    for i, (red, green, blue) in enumerate(shades):
+        table.SetTableValue(i, red, green, blue, 1.0)
+    table.SetTableRange(*limits)
+    table.SetNanColor(PLAIN / 255, PLAIN / 255, PLAIN / 255, 1.0)
+    return table

@@ -1,0 +1,417 @@
+"""One persistent 3D view: the probe in its sensor's frame, what touches it, and where it should be touched."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from PySide6.QtCore import QEvent, QPointF, QRect, Qt, Signal
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QWidget
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from widgets.scene.ahead import Ahead
+from widgets.scene.brush_layer import BrushLayer
+from widgets.scene.contact_layer import ContactLayer
+from widgets.scene.eye import Eye
+from widgets.scene.fields import limits_of
+from widgets.scene.force_layer import ForceLayer
+from widgets.scene.marker_layer import MarkerLayer
+from widgets.scene.mouse import Mouse
+from widgets.scene.overlays import ColourBar, ScaleBar, ViewButtons
+from widgets.scene.pacing import Pacing
+from widgets.scene.picking import Pick
+from widgets.scene.pose_layer import PoseLayer
+from widgets.scene.probe_layer import ProbeLayer
+from widgets.scene.shapes import homogeneous
+from widgets.scene.stage import Stage, rgb
+from widgets.scene.still import StillPicture
+from widgets.scene.view import View
+from widgets.scene.views import VIEWS, Look, Screen
+from widgets.theme import colours as theme_colours
+from widgets.theme import is_dark
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+    from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
+
+    from pipeline.mesh import Probe
+    from widgets.scene.ahead import Prepared
+
+__all__ = ["Pick", "Scene"]
+
+_MARGIN = 12
+
+
+class Scene(QWidget):
+    """
+    The 3D view. Lengths in m, forces in N, all in S unless said otherwise; only the GUI thread may use it.
+
+    Methods change it in place and ask for one redraw, at most 30 times a second.
+    """
+
+    picked = Signal(object)  # Pick, on a click without a drag
+    hovered = Signal(object)  # Pick or None
+    brush_began = Signal(object, object)  # Pick, Qt.KeyboardModifiers; only while the tool is "brush"
+    brush_moved = Signal(object)  # Pick or None where the pointer left the probe
+    brush_ended = Signal()
+    brush_scaled = Signal(int)  # +1 or -1: Ctrl + wheel
+    dropped = Signal(object)  # Path of a file that was dropped on it
+    camera_moved = Signal()  # by the user or by look(); not by set_camera()
+    drawn = Signal(float)  # a frame was drawn, in so many ms
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("3D view of the probe"))
+        self._closed = False
+        self._fitted = False
+        self.view = View(self)
+        self._live = vtkRenderer()
+        self._layers()
+        self._children()
+        self.set_dark(is_dark())
+
+    def _layers(self) -> None:
+        window, still = self.view.ren_win, self.view.renderer
+        window.SetNumberOfLayers(2)
+        self._live.SetLayer(1)
+        self._live.InteractiveOff()
+        self._live.PreserveDepthBufferOn()
+        self._live.SetActiveCamera(still.GetActiveCamera())
+        self._live.SetLightCollection(still.GetLights())
+        self._live.AutomaticLightCreationOff()
+        window.AddRenderer(self._live)
+        self._pacing = Pacing(self.view, self)
+        self._pacing.drawn.connect(self.drawn)
+        self._pacing.settled.connect(self._refine)
+        self._pacing.beat.connect(self._beat)
+        self.ahead = Ahead(self._prepared, self)
+        self.stage = Stage(still, self._live, self.redraw)
+        self.probe_layer = ProbeLayer(self.stage)
+        self._force = ForceLayer(self.stage)
+        self._contact = ContactLayer(self.stage)
+        self._markers = MarkerLayer(self.stage)
+        self._poses = PoseLayer(self.stage)
+        self._brush = BrushLayer(self.stage)
+        self._still = StillPicture(window, still)
+        self._eye = Eye(self.view, self.stage, self.probe_layer, self._poses)
+        self.view.stage_hands = self
+
+    def _children(self) -> None:
+        self.buttons = ViewButtons(self)
+        self.scale_bar, self.colour_bar = ScaleBar(self), ColourBar(self)
+        self.buttons.chosen.connect(self.look)
+        self.buttons.perspective.connect(self.set_perspective)
+        self.view.dropped.connect(self.dropped)
+        self.mouse = Mouse(self)
+        self.view.mouse = self.mouse
+
+    # ---- the probe ---------------------------------------------------------------------------------
+
+    def show_probe(self, probe: Probe | None, colours: NDArray[np.uint8] | None = None) -> None:
+        """Show another probe, with a colour (m, 3) per facet; the view stays. Invented facets are hatched."""
+        self.probe_layer.show(probe, colours)
+        self.colour_bar.hide()
+        self._poses.show_stand_in(probe is None)
+        self._brush.show(None, None)
+        self.ahead.begin(None if self._closed else probe)
+        if probe is not None:
+            self.stage.size = probe.size
+            self._poses.size()
+            self._markers.dress()
+            # what is not needed for the first frame is made after it
+            self._pacing.later([self.probe_layer.build_picker])
+            if not self._fitted:
+                self._fitted = True
+                self._set_look(self._eye.fit("oblique"))
+        self.stage.stir()
+
+    def paint(self, faces: NDArray[np.int32] | None, colours: NDArray[np.uint8]) -> None:
+        """Give facets other colours: (c, 3) of the given ones, or (m, 3) of all."""
+        if self.probe_layer.paint(faces, colours):
+            self.stage.stir()
+        else:
+            self.redraw()
+
+    def show_overlay(self, probe: Probe | None, opacity: float = 0.25) -> None:
+        """Show a second mesh, see-through, such as the original beside the simplified one."""
+        self.probe_layer.show_overlay(probe, opacity)
+        self.stage.stir()
+
+    def show_field(
+        self,
+        values: NDArray[np.float64] | None,
+        title: str = "",
+        limits: tuple[float, float] | None = None,
+    ) -> None:
+        """Show a scalar per vertex (n,) as colours (cividis) with a bar; None: none. NaN stays plain."""
+        ends = limits or (limits_of(values) if values is not None else (0.0, 1.0))
+        self.probe_layer.show_field(values, ends)
+        self.colour_bar.setVisible(values is not None and self.probe_layer.probe is not None)
+        self.colour_bar.tell(title, ends)
+        self._arrange()
+        self.stage.stir()
+
+    # ---- what happens to it ------------------------------------------------------------------------
+
+    def show_force(self, force: NDArray[np.float64] | None, at: NDArray[np.float64] | None = None) -> None:
+        """Show the force on the probe as an arrow whose tip is at a point; without one, at the sensor's origin."""
+        self._force.show(force, at)
+        self.redraw()
+
+    def set_force_scale(self, metres_per_newton: float) -> None:
+        """Choose how long the arrow of 1 N is; used from the next force on."""
+        self._force.metres_per_newton = metres_per_newton
+
+    def show_contact(
+        self,
+        point: NDArray[np.float64] | None,
+        covariance: NDArray[np.float64] | None = None,
+        normal: NDArray[np.float64] | None = None,
+        candidates: NDArray[np.float64] | None = None,
+    ) -> None:
+        """Show the contact as a disc of the 95 % ellipse, and candidates (k, 3) that lost as hollow rings."""
+        probe = self.probe_layer.probe
+        normals = None if probe is None else probe.normals
+        self._contact.show(point, covariance, normal, candidates, self.probe_layer.picker, normals)
+        self.redraw()
+
+    def show_markers(
+        self,
+        points: NDArray[np.float64],
+        names: Sequence[str] = (),
+        states: Sequence[str] = (),
+        next_one: int | None = None,
+    ) -> None:
+        """Show markers (k, 3) with names; states "open", "done" or "failed"; the next one pulses at 1 Hz."""
+        self._markers.show(points, names, states, next_one)
+        self._start_pulse()
+        self.redraw()
+
+    def show_error_arrows(self, starts: NDArray[np.float64], ends: NDArray[np.float64]) -> None:
+        """Show where each marker (k, 3) was found (k, 3), drawn ten times as long."""
+        self._markers.show_errors(starts, ends)
+        self.redraw()
+
+    # ---- how it stands -----------------------------------------------------------------------------
+
+    def show_orientation(self, R_WS: NDArray[np.float64] | None) -> None:
+        """Turn the tool as it stands in the world; None: show it in S."""
+        self.stage.turn = homogeneous(R_WS)
+        for layer in (self.probe_layer, self._force, self._contact, self._markers, self._poses, self._brush):
+            layer.turn()
+        self._poses.show_orientation(R_WS is not None, self.tr("down"))
+        self._moves()
+        self.stage.stir()
+
+    def show_ghost(self, R_WS: NDArray[np.float64] | None) -> None:
+        """Show the tool see-through in an orientation in which it should be held next."""
+        self._poses.show_ghost(R_WS, None if R_WS is None else self.probe_layer.likeness())
+        self.redraw()
+
+    def show_phantom(
+        self, point: NDArray[np.float64] | None, normal: NDArray[np.float64] | None = None
+    ) -> None:
+        """Show a plane of soft tissue."""
+        self._poses.show_phantom(point, normal)
+        self.redraw()
+
+    # ---- how it is looked at ----------------------------------------------------------------------
+
+    def look(self, view: str) -> None:
+        """Look from "front", "side", "top" or "fit" (only fits the size)."""
+        if view not in (*VIEWS, "fit"):
+            raise ValueError(f"There is no view {view!r}: choose one of {', '.join((*VIEWS, 'fit'))}.")
+        self.move_camera(self._eye.fit(None if view == "fit" else view))
+
+    def set_perspective(self, perspective: bool) -> None:
+        """Choose between the parallel view, in which lengths are true, and the perspective one."""
+        if perspective != self._eye.look.perspective:
+            self.move_camera(self._eye.with_perspective(perspective))
+
+    def set_tool(self, tool: str, brush_radius: float = 0.0) -> None:
+        """Choose what the left button does: "turn", "pick" or "brush" (which shows a circle of the radius)."""
+        cursors = {"turn": Qt.CursorShape.ArrowCursor, "pick": Qt.CursorShape.CrossCursor}
+        if tool not in (*cursors, "brush"):
+            raise ValueError(f"There is no tool {tool!r}: choose turn, pick or brush.")
+        self.mouse.tool = tool
+        self.view.setCursor(cursors.get(tool, Qt.CursorShape.CrossCursor))
+        self._brush.set_radius(brush_radius if tool == "brush" else 0.0)
+        self.redraw()
+
+    def camera(self) -> tuple[tuple[float, float, float], ...]:
+        """Return position, focal point and up, and how large and in which way, for another scene."""
+        return self._eye.look.tuples()
+
+    def set_camera(self, camera: tuple[tuple[float, float, float], ...]) -> None:
+        """Look as `camera` said."""
+        self._fitted = True
+        self._set_look(Look.of(camera, self._eye.look))
+
+    def set_dark(self, dark: bool) -> None:
+        """Choose the theme."""
+        colours = theme_colours(dark)
+        self.stage.colours = colours
+        self._poses.dark = dark
+        self.view.renderer.SetBackground(*rgb(colours.background))
+        for part in (self.buttons, self.scale_bar, self.colour_bar):
+            part.dress(colours)
+        self._dress()
+
+    def picture(self) -> NDArray[np.uint8]:
+        """Return what is seen, (h, w, 3)."""
+        image = self.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+        rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), image.bytesPerLine())
+        return rows[:, : 3 * image.width()].reshape(image.height(), image.width(), 3).copy()
+
+    def close_scene(self) -> None:
+        """Give everything of VTK back; the widget is of no use afterwards."""
+        if self._closed:
+            return
+        self._closed = True
+        self._pacing.close()
+        self.ahead.close()
+        self.mouse.stop()
+        self.view.mouse = self.view.stage_hands = None
+        window = self.view.ren_win
+        window.MakeCurrent()
+        self._still.close()
+        self._live.RemoveAllViewProps()
+        window.RemoveRenderer(self._live)
+        self.view.close()
+        self.view.ren_win = None
+
+    # ---- what the mouse asks for -------------------------------------------------------------------
+
+    def projection(self) -> Screen:
+        """Return the camera with the size of the picture, device pixels."""
+        return self._eye.screen()
+
+    def pick_at(self, place: QPointF) -> Pick | None:
+        """Return what is seen at a place of the view, in pixels of Qt."""
+        return self._eye.pick(place)
+
+    def move_camera(self, look: Look) -> None:
+        """Look otherwise, and tell it."""
+        self._set_look(look)
+        self._moves()
+        self.camera_moved.emit()
+
+    def show_brush(self, pick: Pick | None) -> None:
+        """Show the brush's circle on the surface."""
+        self._pacing.brisk = self.mouse.painting
+        self._brush.show(pick, self.probe_layer.probe)
+        self.redraw()
+
+    def settle(self) -> None:
+        """Draw all facets again, shortly after the last movement."""
+        self._pacing.settle()
+
+    def redraw(self) -> None:
+        """Ask for a frame; they come no more often than 30 times a second, nor than they can be drawn."""
+        self._pacing.redraw()
+
+    # ---- a frame -----------------------------------------------------------------------------------
+
+    def before(self) -> None:
+        """Get everything into its place; the view calls it before VTK draws."""
+        self._pacing.begin()
+        self.mouse.apply_drag()
+        ratio = self.view.devicePixelRatioF()
+        if ratio != self.stage.ratio:
+            self.stage.ratio = ratio
+            self._dress()
+        screen = self.projection()
+        self._eye.aim()
+        self._markers.label(screen, self._eye.sees)
+        self._poses.label(screen)
+        self.scale_bar.setVisible(not self._eye.look.perspective)
+        self.scale_bar.set_scale(screen.metres_per_pixel * ratio)
+        fresh = self.probe_layer.fresh.actor if self.probe_layer.take_fresh() else None
+        key: object = (screen, self._eye.reach, self.stage.version)
+        if not self.view.software:
+            key = object()  # a graphics card draws all faster than a picture is copied
+        still = [*(shape.actor for shape in self.probe_layer.shapes), *self._poses.still]
+        self._still.prepare(key, still, fresh)
+
+    def after(self) -> None:
+        """Put back what was hidden for the frame."""
+        self._still.finish(self.probe_layer.fresh.actor)
+
+    # ---- the rest ----------------------------------------------------------------------------------
+
+    def _dress(self) -> None:
+        for layer in (self.probe_layer, self._force, self._contact, self._markers, self._poses, self._brush):
+            layer.dress()
+        self.stage.stir()
+
+    def _set_look(self, look: Look) -> None:
+        self._eye.look = look
+        self.buttons.buttons["perspective"].setChecked(look.perspective)
+        self.redraw()
+
+    def _moves(self) -> None:
+        """Let a likeness of few facets stand in while all moves, where drawing them takes too long."""
+        if self.view.software and self.probe_layer.set_coarse(True):
+            self.stage.stir()
+        self._pacing.settle()
+
+    def _refine(self) -> None:
+        if self.mouse.dragging:
+            self._pacing.settle()
+        elif self.probe_layer.set_coarse(False):
+            self.stage.stir()
+
+    def _prepared(self, prepared: Prepared) -> None:
+        self.probe_layer.take(prepared)
+        self.stage.stir()
+
+    def _beat(self) -> None:
+        self._markers.pulse()
+        self.redraw()
+
+    def _start_pulse(self) -> None:
+        self._pacing.set_pulse(self._markers.pulses and self.isVisible())
+
+    def _arrange(self) -> None:
+        self.view.setGeometry(self.rect())
+        size = self.buttons.sizeHint()
+        self.buttons.setGeometry(
+            QRect(_MARGIN, self.height() - size.height() - _MARGIN, size.width(), size.height())
+        )
+        bar = self.scale_bar
+        left = min(self.buttons.geometry().right() + 2 * _MARGIN, self.width() - bar.width())
+        low = self.height() - bar.height() - _MARGIN - 4
+        colour = self.colour_bar
+        room = self.width() - (0 if colour.isHidden() else colour.width() + _MARGIN) - _MARGIN
+        if left + bar.width() > room:
+            left, low = _MARGIN, low - size.height() - _MARGIN
+        bar.move(left, low)
+        narrow = self.buttons.geometry().right() > self.width() - colour.width() - 2 * _MARGIN
+        above = size.height() + _MARGIN if narrow else 0
+        colour.move(
+            self.width() - colour.width() - _MARGIN, self.height() - colour.height() - _MARGIN - above
+        )
+        for part in (self.buttons, bar, colour):
+            part.raise_()
+
+    def resizeEvent(self, _event: QResizeEvent) -> None:
+        """Keep everything in its corner."""
+        self._arrange()
+
+    def showEvent(self, _event: QShowEvent) -> None:
+        """Go on."""
+        self._start_pulse()
+
+    def hideEvent(self, _event: QHideEvent) -> None:
+        """Nobody looks: stand still."""
+        if hasattr(self, "_pacing"):  # a native window may be hidden while it is still being made
+            self._pacing.set_pulse(False)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Follow the theme."""
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "mouse") and not self._closed:
+            self.set_dark(is_dark())
+        super().changeEvent(event)

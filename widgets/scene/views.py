@@ -1,0 +1,178 @@
+"""How the scene is looked at: a camera as a value, what turns, moves and scales it, and where things are on screen."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Triple = tuple[float, float, float]
+
+# Where the camera is, seen from what it looks at, and what points upwards on screen.
+_DIRECTIONS: dict[str, tuple[Triple, Triple]] = {
+    "front": ((0.0, -1.0, 0.0), (0.0, 0.0, 1.0)),
+    "side": ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "top": ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0)),
+    "oblique": ((0.6, -0.7, 0.35), (0.0, 0.0, 1.0)),
+}
+VIEWS = tuple(_DIRECTIONS)
+ANGLE = 30.0  # of the perspective view, degrees, from bottom to top
+_NEAREST, _FARTHEST = 2e-4, 5.0  # half of what is seen from bottom to top, m
+
+
+@dataclass(frozen=True)
+class Look:
+    """
+    A camera.
+
+    Attributes
+    ----------
+    position, focal, up : (x, y, z)
+        Where it is, what it looks at, and what points upwards on screen; m.
+    scale : float
+        Half of what is seen from bottom to top at the focal point, m.
+    perspective : bool
+    """
+
+    position: Triple
+    focal: Triple
+    up: Triple
+    scale: float
+    perspective: bool = False
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors to the right, upwards and into the screen, as rows (3, 3)."""
+        into = np.subtract(self.focal, self.position)
+        into = into / np.linalg.norm(into)
+        right = np.cross(into, self.up)
+        right = right / np.linalg.norm(right)
+        return np.array([right, np.cross(right, into), into])
+
+    @property
+    def distance(self) -> float:
+        """From the camera to the focal point, m; in perspective it follows from the scale."""
+        if self.perspective:
+            return float(self.scale / np.tan(np.radians(ANGLE) / 2))
+        return float(np.linalg.norm(np.subtract(self.focal, self.position)))
+
+    def tuples(self) -> tuple[Triple, ...]:
+        """Return position, focal point, up, and (scale, 1 in perspective, 0)."""
+        return self.position, self.focal, self.up, (self.scale, float(self.perspective), 0.0)
+
+    @staticmethod
+    def of(tuples: tuple[Triple, ...], otherwise: Look) -> Look:
+        """Return what `tuples` made; position, focal point and up alone leave the rest as it was."""
+        position, focal, up = tuples[:3]
+        scale, perspective = tuples[3][:2] if len(tuples) > 3 else (otherwise.scale, otherwise.perspective)
+        return Look(position, focal, up, scale, bool(perspective))
+
+
+def looking(view: str, focal: Triple, radius: float, perspective: bool = False) -> Look:
+    """Return the camera of a named view in which a ball of a radius (m) about the focal point is seen."""
+    toward, up = _DIRECTIONS[view]
+    unit = np.divide(toward, np.linalg.norm(toward))
+    return Look(_triple(np.add(focal, 4.0 * radius * unit)), focal, up, radius, perspective)
+
+
+def fitted(look: Look, focal: Triple, radius: float) -> Look:
+    """Return the camera, in the same direction, in which a ball of a radius (m) about a point is seen."""
+    position = _triple(focal - 4.0 * radius * look.axes[2])
+    return replace(look, position=position, focal=focal, scale=radius)
+
+
+def turned(look: Look, right: float, down: float) -> Look:
+    """Return the camera after the scene was dragged by angles, radians, about the focal point."""
+    axes = look.axes
+    R = _rotation(axes[1], -right) @ _rotation(axes[0], -down)
+    away = np.subtract(look.position, look.focal)
+    return replace(look, position=_triple(np.add(look.focal, R @ away)), up=_triple(R @ axes[1]))
+
+
+def moved(look: Look, right: float, down: float) -> Look:
+    """Return the camera after the scene was dragged by lengths, m at the focal point."""
+    axes = look.axes
+    step = -right * axes[0] + down * axes[1]
+    return replace(
+        look, position=_triple(np.add(look.position, step)), focal=_triple(np.add(look.focal, step))
+    )
+
+
+def scaled(look: Look, factor: float, right: float = 0.0, up: float = 0.0) -> Look:
+    """Return the camera with all `factor` times as large; what is at (right, up), m from the middle, stays."""
+    scale = float(np.clip(look.scale / factor, _NEAREST, _FARTHEST))
+    share = 1.0 - scale / look.scale
+    return replace(moved(look, -right * share, up * share), scale=scale)
+
+
+def _rotation(axis: NDArray[np.float64], angle: float) -> NDArray[np.float64]:
+    x, y, z = axis
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + np.sin(angle) * K + (1.0 - np.cos(angle)) * (K @ K))
+
+
+def _triple(vector: NDArray[np.float64]) -> Triple:
+    x, y, z = (float(value) for value in vector)
+    return x, y, z
+
+
+@dataclass(frozen=True)
+class Screen:
+    """
+    A camera and the picture it makes.
+
+    Attributes
+    ----------
+    look : Look
+    width, height : int
+        Device pixels.
+    """
+
+    look: Look
+    width: int
+    height: int
+
+    @property
+    def metres_per_pixel(self) -> float:
+        """At the focal point."""
+        return 2.0 * self.look.scale / self.height
+
+    def project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """
+        Return where points are seen.
+
+        Parameters
+        ----------
+        points : (k, 3)
+            m, world.
+
+        Returns
+        -------
+        (k, 3)
+            Pixels from the left and from the top, and metres behind the camera's plane through the focal point.
+        """
+        offset = (np.reshape(points, (-1, 3)) - self.look.focal) @ self.look.axes.T
+        enlarged = np.ones(len(offset))
+        if self.look.perspective:
+            distance = self.look.distance
+            # what is behind the camera has no place on screen: kept far away instead of mirrored
+            enlarged = distance / np.maximum(distance + offset[:, 2], 1e-9)
+        x = self.width / 2 + offset[:, 0] * enlarged / self.metres_per_pixel
+        y = self.height / 2 - offset[:, 1] * enlarged / self.metres_per_pixel
+        return np.column_stack([x, y, offset[:, 2]])
+
+    def ray(self, x: float, y: float, reach: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where the line of sight through a pixel begins and ends, `reach` (m) about the focal point."""
+        axes, look = self.look.axes, self.look
+        right = (x - self.width / 2) * self.metres_per_pixel
+        up = (self.height / 2 - y) * self.metres_per_pixel
+        middle = look.focal + right * axes[0] + up * axes[1]
+        if not look.perspective:
+            return middle - reach * axes[2], middle + reach * axes[2]
+        eye = look.focal - look.distance * axes[2]
+        into = (middle - eye) / np.linalg.norm(middle - eye)
+        return eye, eye + (look.distance + reach) * into

@@ -1,0 +1,147 @@
+"""The list of steps: number, name, and how each stands, as icon and word."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QRect, QSize, Qt, Signal
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
+
+from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.icons import state_colour, state_icon
+from widgets.theme import colours, is_dark
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from PySide6.QtGui import QPaintEvent
+
+_HEIGHT, _WIDTH, _ICON, _MARGIN = 58, 148, 18, 10
+
+
+class StepList(QWidget):
+    """
+    The steps, one under the other; one of them is shown.
+
+    Signals
+    -------
+    chosen : Step
+        Somebody wants to see it; also a locked one, whose page says what is missing.
+    """
+
+    chosen = Signal(object)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName(self.tr("Steps"))
+        group = QButtonGroup(self)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(6, 6, 6, 6)
+        layout.setSpacing(4)
+        self._rows: dict[Step, _Row] = {}
+        for number, step in enumerate(Step, 1):
+            row = _Row(number, self.name_of(step))
+            row.clicked.connect(lambda _=False, step=step: self.chosen.emit(step))
+            group.addButton(row)
+            layout.addWidget(row)
+            self._rows[step] = row
+        layout.addStretch(1)
+        self.show_statuses({})
+
+    def name_of(self, step: Step) -> str:
+        """Return what a step is called."""
+        return {
+            Step.DEVICES: self.tr("Devices"),
+            Step.GRAVITY: self.tr("Gravity"),
+            Step.PROBE: self.tr("Probe"),
+            Step.REGIONS: self.tr("Regions"),
+            Step.VERIFY: self.tr("Verify"),
+            Step.EXPORT: self.tr("Export"),
+        }[step]
+
+    def word_of(self, state: StepState) -> str:
+        """Return the word for a state."""
+        return {
+            StepState.LOCKED: self.tr("locked"),
+            StepState.READY: self.tr("ready"),
+            StepState.RUNNING: self.tr("running"),
+            StepState.DONE: self.tr("done"),
+            StepState.FAILED: self.tr("failed"),
+            StepState.STALE: self.tr("stale"),
+        }[state]
+
+    def show_statuses(self, statuses: Mapping[Step, StepStatus]) -> None:
+        """Show how the steps stand; one that is missing counts as locked."""
+        for step, row in self._rows.items():
+            status = statuses.get(step, StepStatus(StepState.LOCKED, ""))
+            row.show_status(status, self.word_of(status.state))
+
+    def show_step(self, step: Step) -> None:
+        """Show which step is looked at."""
+        self._rows[step].setChecked(True)
+
+    def row(self, step: Step) -> QAbstractButton:
+        """Return the button of a step."""
+        return self._rows[step]
+
+
+class _Row(QAbstractButton):
+    def __init__(self, number: int, name: str) -> None:
+        super().__init__()
+        self.setCheckable(True)
+        self.setText(name)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self._number, self._word, self._state = number, "", StepState.LOCKED
+
+    def sizeHint(self) -> QSize:
+        bold = QFont(self.font())
+        bold.setBold(True)
+        wide = QFontMetrics(bold).horizontalAdvance(self._title()) + 4 * _MARGIN
+        return QSize(max(_WIDTH - 12, wide), _HEIGHT)
+
+    def minimumSizeHint(self) -> QSize:
+        return self.sizeHint()  # asked again when the font is known: no name is cut
+
+    def _title(self) -> str:
+        return f"{self._number}   {self.text()}"
+
+    def show_status(self, status: StepStatus, word: str) -> None:
+        self._state, self._word = status.state, word
+        self.setToolTip(status.sentence)
+        self.setAccessibleName(f"{self._number} {self.text()}: {word}")
+        self.setAccessibleDescription(status.sentence)
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002 - Qt's signature
+        c, painter = colours(is_dark()), QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._ground(painter)
+        left, width = 2 * _MARGIN, self.width() - 3 * _MARGIN
+        bold = QFont(self.font())
+        bold.setBold(True)
+        painter.setFont(bold)
+        locked = self._state is StepState.LOCKED
+        painter.setPen(QColor(c.muted if locked else c.text))
+        upper = QRect(left, 6, width, (self.height() - 12) // 2)
+        painter.drawText(upper, Qt.AlignmentFlag.AlignVCenter, self._title())
+        lower = upper.translated(0, upper.height())
+        painter.setFont(self.font())
+        painter.setPen(QColor(getattr(c, state_colour(self._state))))
+        state_icon(self._state).paint(
+            painter, QRect(lower.left(), lower.center().y() - _ICON // 2, _ICON, _ICON)
+        )
+        painter.drawText(lower.adjusted(_ICON + 6, 0, 0, 0), Qt.AlignmentFlag.AlignVCenter, self._word)
+        painter.end()
+
+    def _ground(self, painter: QPainter) -> None:
+        c, box = colours(is_dark()), self.rect().adjusted(1, 1, -1, -1)
+        painter.setPen(QColor(c.accent if self.hasFocus() or self.underMouse() else c.line))
+        painter.setBrush(QColor(c.panel if self.isChecked() else c.background))
+        painter.drawRoundedRect(box, 6, 6)
+        if self.isChecked():  # a bar, so that it is not told by colour alone
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(c.accent))
+            painter.drawRoundedRect(QRect(box.left() + 3, box.top() + 6, 5, box.height() - 11), 2, 2)

@@ -1,0 +1,213 @@
+"""One pane of the strip charts: up to three lines over time, named, in different strokes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QColor, QFont
+from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.strip_chart_decimate import decimate, nearest, steady_range
+from widgets.theme import colours, is_dark
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+_STROKES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
+_SIGNS = ("—", "╌", "┈")  # as the strokes look
+_AXIS_PX, _AXIS_PT = 46, 9
+_LEAST_BINS = 50
+_NARROW_PX = 280
+
+
+@dataclass(frozen=True)
+class Curves:
+    """
+    What a pane shows.
+
+    Attributes
+    ----------
+    title : str
+    names : tuple of str
+        Of the lines.
+    unit : str
+    digits : int
+        Behind the point.
+    least : float
+        The smallest span of the axis, in the unit.
+    first_colour : int
+        Of the theme's series.
+    """
+
+    title: str
+    names: tuple[str, ...]
+    unit: str
+    digits: int
+    least: float
+    first_colour: int = 0
+
+
+class Pane(QWidget):
+    """
+    Lines over time. Times are shown as seconds before the newest one.
+
+    Parameters
+    ----------
+    curves : Curves
+    """
+
+    pointed = Signal(object)  # s after (before: negative) the newest sample, or None
+    taken = Signal()  # the mouse zoomed or moved the time
+    stretched = Signal(float, float)  # shown time, s relative to the newest sample
+
+    def __init__(self, curves: Curves, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.curves = curves
+        self.setAccessibleName(curves.title)
+        self._legend = QLabel()
+        self._legend.setTextFormat(Qt.TextFormat.RichText)
+        self._legend.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self._plot: Any = pg.PlotWidget()
+        self._plot.setMinimumHeight(48)
+        self._unit = QLabel(self._plot)
+        self._unit.setProperty("role", "muted")
+        self._unit.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self._unit.move(_AXIS_PX + 4, 0)
+        self._view: Any = self._plot.getViewBox()
+        self._view.setMenuEnabled(False)
+        self._view.setMouseEnabled(x=True, y=False)
+        self._view.setDefaultPadding(0.0)
+        self._view.disableAutoRange()
+        self._plot.hideButtons()
+        self._lines: list[Any] = [self._plot.plot([], [], connect="finite") for _ in curves.names]
+        self._cursor: Any = pg.InfiniteLine(angle=90, movable=False)
+        self._cursor.setVisible(False)
+        self._plot.addItem(self._cursor, ignoreBounds=True)
+        self._low_high: tuple[float, float] | None = None
+        self._times: NDArray[np.float64] = np.empty(0)
+        self._values: NDArray[np.float64] = np.empty((0, len(curves.names)))
+        self._moment: float | None = None
+        box = QVBoxLayout(self)
+        box.setContentsMargins(0, 0, 0, 0)
+        box.setSpacing(0)
+        box.addWidget(self._legend)
+        box.addWidget(self._plot, 1)
+        self._view.sigRangeChangedManually.connect(self._moved)
+        self._plot.scene().sigMouseMoved.connect(self._point)
+        self._plot.viewport().installEventFilter(self)
+        self.dress()
+
+    # ---- looks -------------------------------------------------------------------------------------
+
+    def dress(self) -> None:
+        """Take the colours of the running application's theme."""
+        chosen = colours(is_dark())
+        self._plot.setBackground(chosen.panel)
+        self._unit.setStyleSheet(f"background: {chosen.panel};")
+        font = QFont(self.font())
+        font.setPointSize(_AXIS_PT)
+        for name in ("left", "bottom"):
+            axis = self._plot.getAxis(name)
+            axis.setPen(pg.mkPen(chosen.line))
+            axis.setTextPen(pg.mkPen(chosen.muted))
+            axis.setTickFont(font)
+        self._plot.getAxis("left").setWidth(_AXIS_PX)
+        self._plot.showGrid(x=True, y=True, alpha=0.15)
+        for line, colour, stroke in zip(self._lines, self._colours(), _STROKES, strict=False):
+            line.setPen(pg.mkPen(colour, width=1, style=stroke))
+        self._cursor.setPen(pg.mkPen(QColor(chosen.muted), width=1))
+        self._write()
+
+    def _colours(self) -> Sequence[str]:
+        series, first = colours(is_dark()).series, self.curves.first_colour
+        return [series[(first + index) % len(series)] for index in range(len(self.curves.names))]
+
+    # ---- what is shown -----------------------------------------------------------------------------
+
+    def show_data(
+        self, times: NDArray[np.float64], values: NDArray[np.float64], begin: float, end: float
+    ) -> None:
+        """
+        Show values over time.
+
+        Parameters
+        ----------
+        times : (n,)
+            s, relative to the newest sample.
+        values : (n, c)
+        begin, end : float
+            What to show, s.
+        """
+        self._times, self._values = times, values
+        drawn, points = decimate(times, values, begin, end, max(self._plot.width() - _AXIS_PX, _LEAST_BINS))
+        for index, line in enumerate(self._lines):
+            line.setData(drawn, points[:, index])
+        self._low_high = steady_range(points, self.curves.least, self._low_high)
+        self._view.setRange(xRange=(begin, end), yRange=self._low_high, padding=0, disableAutoRange=False)
+        self._write()
+
+    def show_cursor(self, moment: float | None) -> None:
+        """Read the lines at a moment, s relative to the newest sample; None: read the newest values."""
+        self._moment = moment
+        self._cursor.setVisible(moment is not None)
+        if moment is not None:
+            self._cursor.setValue(moment)
+        self._write()
+
+    @property
+    def plot_widget(self) -> QWidget:
+        """What the lines are painted on."""
+        painted: QWidget = self._plot.viewport()
+        return painted
+
+    @property
+    def read_out(self) -> str:
+        """What is written above the lines, without its looks."""
+        parts = [f"{name} {value}" for name, value in zip(self.curves.names, self._numbers(), strict=True)]
+        when = "" if self._moment is None else f", {self._moment:+.2f} s"
+        return f"{self.curves.title}: {'  '.join(parts)} {self.curves.unit}{when}"
+
+    def _numbers(self) -> list[str]:
+        row = nearest(self._times, 0.0 if self._moment is None else self._moment)
+        if row is None:
+            return ["–"] * len(self.curves.names)
+        digits = self.curves.digits - (self.width() < _NARROW_PX)
+        return [f"{value:z.{digits}f}" if np.isfinite(value) else "–" for value in self._values[row]]
+
+    def _write(self) -> None:
+        thin, wide = ("\u2009", "&nbsp;") if self.width() < _NARROW_PX else ("&nbsp;", "&nbsp;&nbsp;")
+        parts = [
+            f'<span style="color:{colour}"><b>{sign}</b>{thin}{escape(name)}</span>{thin}{number}'
+            for name, number, colour, sign in zip(
+                self.curves.names, self._numbers(), self._colours(), _SIGNS, strict=False
+            )
+        ]
+        self._legend.setText(f'<span style="font-size:10pt">{wide.join(parts)}</span>')
+        when = "" if self._moment is None else f"   {self._moment:+.2f} s"
+        self._unit.setText(f"{self.curves.unit}{when}")
+        self._unit.ensurePolished()
+        self._unit.adjustSize()
+
+    # ---- the mouse ---------------------------------------------------------------------------------
+
+    def _moved(self, *_: object) -> None:
+        begin, end = self._view.viewRange()[0]
+        self.taken.emit()
+        self.stretched.emit(float(begin), float(end))
+
+    def _point(self, place: Any) -> None:
+        if self._plot.sceneBoundingRect().contains(place):
+            self.pointed.emit(float(self._view.mapSceneToView(place).x()))
+
+    def eventFilter(self, watched: Any, event: Any) -> bool:
+        """Take the cursor away when the mouse leaves."""
+        if event.type() == event.Type.Leave:
+            self.pointed.emit(None)
+        return bool(super().eventFilter(watched, event))

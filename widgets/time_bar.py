@@ -1,0 +1,185 @@
+"""What time is looked at: a window of it, and a playhead that runs through the window at a chosen speed."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QTimer, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from widgets.icons import icon
+from widgets.range_slider import RangeSlider
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
+WINDOWS = (0.5, 1.0, 2.0, 5.0, 10.0, 30.0)  # s
+_TICK = 33  # ms
+
+
+class TimeBar(QWidget):
+    """
+    A bar of time with a window, and what plays it.
+
+    At rest the whole window counts. While the playhead is shown, what counts ends at it: all since the window's
+    start, or only the last seconds.
+    """
+
+    changed = Signal()  # what is looked at
+    played = Signal(bool)  # it plays, or no longer
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.slider = RangeSlider(self, playhead=True)
+        self.slider.setAccessibleName(self.tr("Time window"))
+        self.slider.setToolTip(
+            self.tr(
+                "Time in seconds. Drag the handles, or what is between them; above the line, the moment shown.\n"
+                "Keys: left and right, Space for the other handle."
+            )
+        )
+        self.play = QPushButton(self)
+        self.play.setProperty("primary", "true")
+        self.whole = QPushButton(self.tr("All at once"), self)
+        self.whole.setIcon(icon("stop"))
+        self.whole.setToolTip(self.tr("Stop, and show the whole time window at once."))
+        self.speed, self.last = QComboBox(self), QComboBox(self)
+        for each in SPEEDS:
+            self.speed.addItem(self.tr("{speed:g}x").format(speed=each), each)
+        self.speed.setCurrentIndex(SPEEDS.index(1.0))
+        self.speed.setAccessibleName(self.tr("Speed"))
+        self.speed.setToolTip(self.tr("Seconds of the recording that pass in one second."))
+        self.last.addItem(self.tr("touches stay"), None)
+        for seconds in WINDOWS:
+            self.last.addItem(self.tr("last {seconds:g} s").format(seconds=seconds), seconds)
+        self.last.setAccessibleName(self.tr("What is shown while playing"))
+        self.last.setToolTip(self.tr("While playing: all since the start, or only the last seconds."))
+        self.label = QLabel(self)
+        self._timer = QTimer(self)
+        self._timer.setInterval(_TICK)
+        self._before = 0.0
+        self._lay_out()
+        self._connect()
+        self._show()
+
+    def _lay_out(self) -> None:
+        for each in (self.play, self.whole, self.speed, self.last):
+            each.setMinimumHeight(36)
+        self.play.setMinimumWidth(112)
+        row = QHBoxLayout()
+        for each in (self.play, self.whole, self.speed, self.last):
+            row.addWidget(each)
+        row.addStretch(1)
+        row.addWidget(self.label)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(12, 6, 12, 8)
+        column.addWidget(self.slider)
+        column.addLayout(row)
+
+    def _connect(self) -> None:
+        self.slider.changed.connect(lambda _low, _high: self._told())
+        self.slider.moved.connect(lambda _at: self._told())
+        self.play.clicked.connect(self.toggle)
+        self.whole.clicked.connect(self.show_all)
+        self.last.currentIndexChanged.connect(lambda _index: self._told())
+        self._timer.timeout.connect(self._tick)
+
+    # ---- what is looked at -------------------------------------------------------------------------
+
+    def set_duration(self, seconds: float, profile: NDArray[np.float64] | None = None) -> None:
+        """Begin again with another length, s, and how much there is at each part of it."""
+        self.stop()
+        self.slider.set_limits(0.0, seconds)
+        self.slider.set_profile(profile)
+        self._show()
+
+    def chosen(self) -> tuple[float | None, float | None]:
+        """Return start and end of what counts now, s; None: no limit."""
+        low, high = self.slider.values()
+        at, seconds = self.slider.playhead(), self.seconds()
+        if at is None:
+            return (None, None) if self.slider.whole() else (low, high)
+        return (low if seconds is None else max(low, at - seconds)), at
+
+    def played_range(self) -> tuple[float | None, float | None]:
+        """Return start and end of what is played, s; None: no limit."""
+        return (None, None) if self.slider.whole() else self.slider.values()
+
+    def seconds(self) -> float | None:
+        """Return how long what was touched is shown while playing, s; None: it stays."""
+        chosen = self.last.currentData()
+        return None if chosen is None else float(chosen)
+
+    def speed_value(self) -> float:
+        """Return the speed."""
+        return float(self.speed.currentData())
+
+    # ---- playing -----------------------------------------------------------------------------------
+
+    def playing(self) -> bool:
+        """Whether it plays."""
+        return self._timer.isActive()
+
+    def toggle(self) -> None:
+        """Play, or pause."""
+        if self.playing():
+            self.stop()
+            return
+        low, high = self.slider.values()
+        at = self.slider.playhead()
+        if at is None or at >= high:
+            self.slider.set_playhead(low)
+        self._before = time.monotonic()
+        self._timer.start()
+        self._told()
+        self.played.emit(True)
+
+    def stop(self) -> None:
+        """Pause."""
+        if self.playing():
+            self._timer.stop()
+            self._show()
+            self.played.emit(False)
+
+    def show_all(self) -> None:
+        """Stop, and look at the whole window."""
+        self.stop()
+        self.slider.set_playhead(None)
+        self._told()
+
+    def _tick(self) -> None:
+        now = time.monotonic()
+        passed, self._before = (now - self._before) * self.speed_value(), now
+        at = (self.slider.playhead() or 0.0) + passed
+        self.slider.set_playhead(at)
+        if at >= self.slider.values()[1]:
+            self.stop()
+        self._told()
+
+    def _told(self) -> None:
+        self._show()
+        self.changed.emit()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Say the time only where there is some."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.EnabledChange:
+            self._show()
+
+    def _show(self) -> None:
+        self.play.setText(self.tr("Pause") if self.playing() else self.tr("Play"))
+        self.play.setIcon(icon("pause" if self.playing() else "play", "panel"))
+        self.whole.setEnabled(self.slider.playhead() is not None)
+        start, end = self.chosen()
+        most = self.slider.limits()[1]
+        low, high = (0.0 if start is None else start), (most if end is None else end)
+        self.label.setText(
+            ""
+            if not self.isEnabled()
+            else self.tr("{start:.1f} to {end:.1f} s of {whole:.1f} s").format(
+                start=low, end=high, whole=most
+            )
+        )

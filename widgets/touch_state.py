@@ -1,0 +1,164 @@
+"""Where a touch is, large enough to be read from a metre away: icon, word, colour, and the force against its window."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from widgets.icons import icon
+from widgets.theme import colours, is_dark
+
+if TYPE_CHECKING:
+    from PySide6.QtGui import QPaintEvent
+
+# State -> icon, colour of the theme.
+_LOOKS = {
+    "idle": ("pause", "muted"),
+    "armed": ("ready", "accent"),
+    "touching": ("down", "warning"),
+    "settled": ("running", "warning"),
+    "accepted": ("done", "good"),
+    "rejected": ("failed", "bad"),
+}
+_GAUGE = 74
+
+
+class TouchState(QWidget):
+    """The state of a touch, and |F| as a vertical gauge beside it."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.state, self.detail = "idle", ""
+        self.force, self.window_N = math.nan, (8.0, 10.0)
+        self.setMinimumHeight(150)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self._name()
+
+    def sizeHint(self) -> QSize:
+        """Return the size that it likes."""
+        return QSize(340, 160)
+
+    @property
+    def word(self) -> str:
+        """The state in a word."""
+        return {
+            "idle": self.tr("not started"),
+            "armed": self.tr("ready: touch"),
+            "touching": self.tr("hold still"),
+            "settled": self.tr("measuring"),
+            "accepted": self.tr("accepted"),
+            "rejected": self.tr("not counted"),
+        }[self.state]
+
+    def show_state(
+        self, state: str, detail: str = "", force: float = math.nan, window: tuple[float, float] = (8.0, 10.0)
+    ) -> None:
+        """
+        Show another moment.
+
+        Parameters
+        ----------
+        state : {"idle", "armed", "touching", "settled", "accepted", "rejected"}
+        detail : str
+            A short sentence below the word.
+        force : float
+            |F|, N; NaN: not known.
+        window : (low, high)
+            Where it should be, N.
+        """
+        shown = force if math.isnan(force) else round(force, 1)
+        same = shown == self.force or (math.isnan(shown) and math.isnan(self.force))
+        if same and (state, detail, window) == (self.state, self.detail, self.window_N):
+            return
+        changed = state != self.state or detail != self.detail
+        self.state, self.detail, self.force, self.window_N = state, detail, shown, window
+        if changed:
+            self._name()
+        self.update()
+
+    def _name(self) -> None:
+        self.setAccessibleName(
+            self.tr("Touch state: {word}. {detail}").format(word=self.word, detail=self.detail)
+        )
+
+    # ---- drawing -----------------------------------------------------------------------------
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002
+        """Draw it."""
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            self._draw(painter)
+
+    def _draw(self, painter: QPainter) -> None:
+        theme = colours(is_dark())
+        name, role = _LOOKS[self.state]
+        colour = QColor(getattr(theme, role))
+        box = QRectF(self.rect()).adjusted(1.5, 1.5, -1.5, -1.5)
+        painter.setPen(QPen(colour, 3))
+        painter.setBrush(QColor(theme.panel))
+        painter.drawRoundedRect(box, 8, 8)
+        text = box.adjusted(14, 12, -_GAUGE, -10)
+        size = 40
+        icon(name, role).paint(painter, int(text.left()), int(text.top()), size, size)
+        painter.setPen(colour)
+        self._fitted(
+            painter, self.word, QRectF(text.left() + size + 10, text.top(), text.width() - size - 10, size)
+        )
+        painter.setPen(QColor(theme.text))
+        painter.setFont(self._font(11.5))
+        below = QRectF(text.left(), text.top() + size + 8, text.width(), text.height() - size - 8)
+        painter.drawText(below, Qt.TextFlag.TextWordWrap, self.detail)
+        self._gauge(painter, QRectF(box.right() - _GAUGE + 8, box.top() + 12, _GAUGE - 18, box.height() - 24))
+
+    def _font(self, points: float, bold: bool = False) -> QFont:
+        font = QFont(self.font())
+        font.setPointSizeF(points)
+        font.setBold(bold)
+        return font
+
+    def _fitted(self, painter: QPainter, text: str, box: QRectF) -> None:
+        points = 20.0
+        while points > 12:
+            painter.setFont(self._font(points, bold=True))
+            if painter.fontMetrics().horizontalAdvance(text) <= box.width():
+                break
+            points -= 1
+        painter.drawText(box, Qt.AlignmentFlag.AlignVCenter, text)
+
+    def _gauge(self, painter: QPainter, box: QRectF) -> None:
+        """Draw |F| from 0 to half as much again as the window's end; the window is a hatched band."""
+        theme, (low, high) = colours(is_dark()), self.window_N
+        top, bar = 1.5 * high, QRectF(box.left() + 30, box.top() + 4, 18, box.height() - 30)
+
+        def height(force: float) -> float:
+            return bar.bottom() - bar.height() * min(max(force / top, 0.0), 1.0)
+
+        painter.setPen(QPen(QColor(theme.line), 1))
+        painter.setBrush(QColor(theme.background))
+        painter.drawRect(bar)
+        band = QRectF(bar.left() - 5, height(high), bar.width() + 10, height(low) - height(high))
+        inside = not math.isnan(self.force) and low <= self.force <= high
+        if not math.isnan(self.force):
+            painter.setPen(Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(theme.good if inside else theme.accent))
+            painter.drawRect(
+                QRectF(bar.left(), height(self.force), bar.width(), bar.bottom() - height(self.force))
+            )
+        painter.setPen(QPen(QColor(theme.text), 1.5))
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.drawRect(band)
+        painter.setFont(self._font(9.5))
+        for force in (low, high):
+            side = QRectF(box.left() - 6, height(force) - 9, 28, 18)
+            painter.drawText(side, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, f"{force:g}")
+        painter.setFont(self._font(11, bold=True))
+        known = "–" if math.isnan(self.force) else f"{self.force:.1f}"
+        painter.drawText(
+            QRectF(box.left() - 10, bar.bottom() + 4, box.width() + 16, 24),
+            Qt.AlignmentFlag.AlignHCenter | Qt.AlignmentFlag.AlignVCenter,
+            self.tr("{force} N").format(force=known),
+        )

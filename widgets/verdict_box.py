@@ -1,0 +1,110 @@
+"""A verdict with its reasons, and a number that shrinks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
+
+from widgets.icons import Sign, icon
+from widgets.theme import colours, is_dark
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+GOOD, USABLE, REFUSE, LOCKED = "good", "usable", "refuse", "locked"
+_LOOK = {
+    GOOD: ("done", "good"),
+    USABLE: ("warning", "warning"),
+    REFUSE: ("failed", "bad"),
+    LOCKED: ("locked", "muted"),
+}
+
+
+class VerdictBox(QFrame):
+    """An icon, a word and sentences."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._icon, self._word, self._text = Sign(26), QLabel(), QLabel()
+        self._word.setStyleSheet("font-weight: 600;")
+        self._text.setWordWrap(True)
+        self._text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        words = QVBoxLayout()
+        words.setSpacing(2)
+        words.addWidget(self._word)
+        words.addWidget(self._text)
+        box = QHBoxLayout(self)
+        box.setContentsMargins(8, 6, 8, 6)
+        box.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
+        box.addLayout(words, 1)
+        self._word.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.level = ""
+
+    @property
+    def text(self) -> str:
+        """All that it says."""
+        return f"{self._word.text()}: {self._text.text()}"
+
+    def show_verdict(self, level: str, reasons: Sequence[str], word: str = "") -> None:
+        """Show a level (good, usable, refuse or locked) and why; `word`: instead of the usual one."""
+        usual = {
+            GOOD: self.tr("Good"),
+            USABLE: self.tr("Usable"),
+            REFUSE: self.tr("Refused: it must not be used"),
+            LOCKED: self.tr("Not yet"),
+        }
+        name, colour = _LOOK[level]
+        self.level = level
+        self._icon.show_icon(icon(name, colour))
+        self._word.setText(word or usual[level])
+        self._text.setText("\n".join(reasons))
+        self.setAccessibleName(self.text)
+
+
+class Shrinking(QWidget):
+    """A small curve of a number over the steps that it took; logarithmic, with the limit for good."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._values: tuple[float, ...] = ()
+        self._limit = 0.0
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.setAccessibleName(self.tr("How the contact error shrank"))
+
+    def sizeHint(self) -> QSize:
+        """Return a size beside a number."""
+        return QSize(60, 44)
+
+    def show_values(self, values: Sequence[float], limit: float) -> None:
+        """Show values above 0, and a limit."""
+        self._values, self._limit = tuple(values), limit
+        self.update()
+
+    def paintEvent(self, _: QPaintEvent) -> None:
+        """Draw it."""
+        import math
+
+        if not self._values:
+            return
+        c = colours(is_dark())
+        logs = [math.log10(max(value, 1e-9)) for value in self._values]
+        bar = math.log10(self._limit)
+        low, high = min(*logs, bar) - 0.1, max(*logs, bar) + 0.1
+        room = QRectF(5, 4, self.width() - 10, self.height() - 8)
+
+        def at(step: int, value: float) -> QPointF:
+            x = room.left() + room.width() * step / max(len(logs) - 1, 1)
+            return QPointF(x, room.bottom() - room.height() * (value - low) / (high - low))
+
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(QColor(c.muted), 1, Qt.PenStyle.DashLine))
+        painter.drawLine(QPointF(room.left(), at(0, bar).y()), QPointF(room.right(), at(0, bar).y()))
+        painter.setPen(QPen(QColor(c.accent), 2))
+        painter.drawPolyline(QPolygonF([at(step, value) for step, value in enumerate(logs)]))
+        painter.setBrush(QColor(c.accent))
+        painter.drawEllipse(at(len(logs) - 1, logs[-1]), 3, 3)
+        painter.end()

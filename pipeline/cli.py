@@ -16,15 +16,23 @@ import typer
 from typer.core import TyperGroup
 
 from pipeline import __version__
+from pipeline.commands.bench import bench_app
+from pipeline.commands.config import config_app
+from pipeline.commands.control import control_app
 from pipeline.commands.emulate import emulate_app
 from pipeline.commands.gravity import gravity_app
+from pipeline.commands.heatmap import heatmap_app
 from pipeline.commands.locate import locate_app
 from pipeline.commands.poses import poses_app
 from pipeline.commands.probe import probe_app
 from pipeline.commands.record import record_app
 from pipeline.commands.recording import recording_app
 from pipeline.commands.region import region_app
+from pipeline.commands.report import report_app
+from pipeline.commands.reproduce import reproduce_app
+from pipeline.commands.run import run_app
 from pipeline.commands.session import session_app
+from pipeline.commands.verify import markers_app, verify_app
 from pipeline.console import JsonOption, print_json, report_error, say, wants_json
 from pipeline.errors import InputError
 from pipeline.study.commands import study_app
@@ -169,16 +177,17 @@ def _plain(value: object) -> str:
 
 @app.command(
     help=(
-        "Simulate touches of the bundled probes, locate them, and check the errors against the known truth.\n\n"
-        "Needs no hardware and no files. Writes meshes, wrenches, contacts, a table of errors and a picture."
-        " Exit code 1: the errors are larger than noise explains."
+        "Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.\n\n"
+        "Needs no hardware and no files. Writes recordings, meshes, contacts, reports, a runtime bundle, a table of"
+        " errors and a picture. Exit code 1: the errors are larger than noise explains, a verification failed, or a"
+        " bundle is refused."
     ),
     epilog="Example: contactbench demo --out my-demo",
 )
 def demo(
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-demo"),
     probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Which probe.")] = "all",
-    touches: Annotated[int, typer.Option(help="Touches per probe, at least 10.")] = 1_000,
+    touches: Annotated[int, typer.Option(help="Drawn touches per probe, at least 10.")] = 1_000,
     seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same CSV files.")] = 0,
     as_json: JsonOption = False,
 ) -> None:
@@ -202,15 +211,24 @@ def demo(
 # Their modules take options and output from pipeline.console and pipeline.commands, never from this one, and
 # import nothing heavy at their top.
 app.add_typer(locate_app)
+app.add_typer(heatmap_app)
+app.add_typer(report_app)
 app.add_typer(gravity_app)
 app.add_typer(poses_app)
 app.add_typer(probe_app, name="probe")
 app.add_typer(region_app, name="region")
 app.add_typer(emulate_app)
+app.add_typer(bench_app, name="bench")
 app.add_typer(record_app)
 app.add_typer(recording_app, name="recording")
 app.add_typer(session_app, name="session")
+app.add_typer(verify_app)
+app.add_typer(markers_app, name="markers")
+app.add_typer(config_app, name="config")
+app.add_typer(run_app)
+app.add_typer(control_app, name="control")
 app.add_typer(study_app, name="study")
+app.add_typer(reproduce_app, name="reproduce")
 
 
 if __name__ == "__main__":

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _JSON = "contactbench.json"
 _PATIENCE_S = 0.5
+_CONTROLS = {code: "\N{REPLACEMENT CHARACTER}" for code in (*range(0x20), *range(0x7F, 0xA0)) if code != 0x0A}
 
 
 _running: ContextVar[typer.Context] = ContextVar("running")
@@ -60,7 +61,12 @@ def say(text: str, style: str = "") -> None:
 
     # File names need be neither printable nor UTF-8.
     line = " ".join(text.encode("utf-8", "replace").decode().splitlines())
-    Console(stderr=True).print(Text(line, style=style), soft_wrap=True)
+    Console(stderr=True).print(Text(printable(line), style=style), soft_wrap=True)
+
+
+def printable(text: str) -> str:
+    """Replace control characters, all but the line feed: a name in a stranger's file shall not steer a terminal."""
+    return text.translate(_CONTROLS)
 
 
 def show_tables(*tables: Table) -> None:

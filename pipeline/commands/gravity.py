@@ -94,9 +94,10 @@ def calibrate(
     noise, task = pose_noise(noise_force, noise_torque), contact_task(tip, contact_force)
     from pipeline.calibration import calibrate as fit
     from pipeline.calibration.files.calibration_file import Source, creation_time, save_calibration
-    from pipeline.calibration.files.pose_csv import read_poses
+    from pipeline.calibration.files.capture_recording import read_any_poses
 
-    table = read_poses(poses, written_as, R_ES=mount_rotation(mount))
+    R_ES = mount_rotation(mount)
+    table = read_any_poses(poses, written_as, R_ES=R_ES)
     for sentence in table.warnings:
         say(f"warning: {sentence}", "yellow")
     mounted = None
@@ -109,7 +110,7 @@ def calibrate(
         calibration = fit(table.poses, noise, task=task)
     created = creation_time()
     source = Source.of(poses)
-    save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted))
+    save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
     if report:
         from pipeline.calibration.report.page import write_report
 
@@ -121,17 +122,13 @@ def calibrate(
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-def _mount_record(mounted: MountCalibration | None) -> Any:
-    if mounted is None:
-        return None
-    from scipy.spatial.transform import Rotation
-
+def _mount_record(mounted: MountCalibration | None, R_ES: Any) -> Any:
+    """Return the mounting that was found, or given: what a file must know, for poses are the flange's."""
     from pipeline.calibration.files.calibration_file import Mount
 
-    x, y, z, w = Rotation.from_matrix(mounted.R_SE).as_quat(canonical=True)
-    import numpy as np
-
-    return Mount(np.array([w, x, y, z]), mounted.rotation_covariance)
+    if mounted is not None:
+        return Mount.of(mounted.R_SE, mounted.rotation_covariance)
+    return None if R_ES is None else Mount.of(R_ES.T)
 
 
 def _facts(
@@ -307,11 +304,11 @@ def verify_still(
 ) -> None:
     """Check a calibration on poses that it has not seen."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.files.pose_csv import read_poses
+    from pipeline.calibration.files.capture_recording import read_any_poses
     from pipeline.calibration.verify import verify_still as check
 
     fitted, R_ES = _calibration(calibration, mount)
-    table = read_poses(poses, written_as, R_ES=R_ES)
+    table = read_any_poses(poses, written_as, R_ES=R_ES)
     found = check(fitted, table.poses)
     for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")

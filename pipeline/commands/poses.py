@@ -7,7 +7,7 @@ import sys
 from csv import writer
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -152,17 +152,20 @@ def plan_poses(
 @poses_app.command(
     help=(
         "Find in a recording where the sensor stood still, and write the poses for calibrate.\n\n"
-        "RECORDING has the columns t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the"
-        " orientation at the same time, written as for calibrate; - is standard input. Captures that were bumped"
+        "RECORDING is what contactbench record wrote of a sensor and a robot, or a table with the columns"
+        " t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the orientation at the same time, written"
+        " as for calibrate; - is a table on standard input. In a recording, poses are interpolated to the wrenches,"
+        " never across more than 0.25 s. Captures that were bumped"
         " or did not settle are left out, with the reason. A preliminary calibration also shows steady"
         " touches.\n\n"
+        "calibrate takes a recording of a sensor and a robot as well, and does this by itself, with a delay of 0.\n\n"
         "Exit code 1: fewer than three poses were found."
     ),
-    epilog="Example: contactbench captures recording.csv --euler xyz --out poses.csv",
+    epilog="Example: contactbench captures recording.mcap --delay auto --out poses.csv",
 )
 def captures(
     recording: Annotated[
-        Path, typer.Argument(metavar="RECORDING", help="CSV file, or - for standard input.")
+        Path, typer.Argument(metavar="RECORDING", help="MCAP or CSV file, or - for standard input.")
     ],
     out: Annotated[Path, typer.Option(help="CSV file of poses to write.")],
     calibration: Annotated[
@@ -174,24 +177,34 @@ def captures(
     inverse: InverseOption = False,
     robot: RobotOption = None,
     mount: MountOption = None,
+    delay: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SECONDS|auto",
+            help="How much later a wrench is heard than its pose; auto: as the motion in the recording shows [0].",
+        ),
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Find in a recording where the sensor stood still."""
     refuse_overwriting(out, [recording] if calibration is None else [recording, calibration])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from pipeline.calibration.files.calibration_file import load_calibration
-    from pipeline.calibration.files.capture_file import capture_file
+    from pipeline.calibration.files.capture_recording import capture_any
     from pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model
     with Bar("looking for still poses") as bar:
-        found = capture_file(
+        found = capture_any(
             sys.stdin.buffer if recording == Path("-") else recording,
             written_as,
             R_ES=mount_rotation(mount),
             model=model,
+            delay=_delay(delay),
             progress=bar,
         )
+    for sentence in found.warnings:
+        say(f"warning: {sentence}", "yellow")
     enough = len(found.poses) >= _FEWEST_POSES
     if enough:
         write_poses(out, found.poses)
@@ -202,6 +215,8 @@ def captures(
         print_json(
             {
                 "out": str(out) if enough else None,
+                "delay_s": found.delay,
+                "warnings": list(found.warnings),
                 "poses": [
                     {"name": pose.name, "start": capture.start, "stop": capture.stop, "count": capture.count}
                     for pose, capture in zip(found.poses, found.report.captures, strict=True)
@@ -214,6 +229,15 @@ def captures(
         )
     if not enough:
         raise typer.Exit(1)
+
+
+def _delay(text: str | None) -> float | Literal["auto"] | None:
+    if text is None or text == "auto":
+        return "auto" if text else None
+    try:
+        return float(text)
+    except ValueError:
+        raise typer.BadParameter(f"--delay {text}: give seconds, or auto.") from None
 
 
 def _write(out: Path, planned: Plan) -> None:

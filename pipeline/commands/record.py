@@ -2,35 +2,39 @@
 
 from __future__ import annotations
 
+import math
 import signal
 import threading
 import time
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from pipeline.console import JsonOption, print_json, say
-from pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Iterator, Mapping
 
     from pipeline.devices.drive import Health
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.recording import RecordingWriter
+    from pipeline.recording.recorder import Recorder
+    from pipeline.streams import Pair
 
 record_app = typer.Typer(rich_markup_mode=None)
 
-_FLUSH_S = 0.5
+_LOOK_S = 0.05  # how soon the end of a replay is noticed
+_STEPS = 500  # samples between looks at Ctrl-C
 
 
 @record_app.command(
     help=(
         "Record a force/torque sensor until Ctrl-C, or for some seconds.\n\n"
-        "ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and where it is. Nothing"
-        " but what it takes to stream is sent: no sensor is zeroed. A lost line is opened again; a gap stays a gap."
-        " Exit code 1: not one sample came."
+        "ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and where it is; or"
+        " replay:///recording.mcap?speed=4 (or speed=step: as fast as it can be read), which ends by itself and"
+        " keeps its times. Nothing but what it takes to stream is sent: no sensor is zeroed. A lost line is opened"
+        " again; a gap stays a gap. Exit code 1: one of them gave not one sample, a stream failed, or a replay"
+        " could not be read to its end; without a sample no file is kept."
     ),
     epilog="Example: contactbench record sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60",
 )
@@ -39,44 +43,66 @@ def record(
     out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
     pose: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="Also the flange of a robot: elfin+tcp:// or ur+tcp://."),
+        typer.Option(
+            metavar="ADDRESS",
+            help="Also the flange of a robot: elfin+tcp://, ur+tcp://, the same replay:// address,"
+            " poses:///file.csv, or one that stays: still://?rpy=0,90,0 (degrees).",
+        ),
     ] = None,
     seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
     note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
     as_json: JsonOption = False,
 ) -> None:
     """Record a force/torque sensor."""
-    from contextlib import ExitStack
-
-    from pipeline.devices.drive import SensorStream, poses_from
-    from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+    from pipeline.recording import RecordingWriter
+    from pipeline.recording.recorder import Recorder
+    from pipeline.streams import open_pair
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
-    taken: _Taken
-    sensor = SensorStream(
-        address, lambda samples: taken.samples(samples), lambda health: taken.health("sensor", health)
+    recorder: Recorder
+    pair = open_pair(
+        address,
+        pose,
+        lambda samples: recorder.samples(samples),
+        lambda samples: recorder.poses(samples),
+        lambda health: recorder.health("sensor", health),
+        lambda health: recorder.health("robot", health),
     )
-    devices = [DeviceInfo("wrench", "/wrench", str(sensor.address), rate=sensor.address.rate)]
-    robot = None
-    if pose is not None:
-        robot = poses_from(
-            pose, lambda samples: taken.poses(samples), lambda health: taken.health("robot", health)
-        )
-        devices.append(DeviceInfo("flange", "/flange", str(robot.address), rate=robot.address.rate))
-    with RecordingWriter(out, RecordingInfo.now(tuple(devices), note)) as writer:
-        taken = _Taken(writer)
-        with ExitStack() as streams:
-            streams.enter_context(sensor)
-            if robot is not None:
-                streams.enter_context(robot)
-            _wait(seconds, taken.failed)
-    if taken.error is not None:
-        raise taken.error
-    given = {"sensor": sensor.health} | ({} if robot is None else {"robot": robot.health})
-    _tell(out, given, as_json)
-    if not all(health.samples for health in given.values()):
+    # Until all is written: a second Ctrl-C must not cut the end off.
+    with ended_by_signals() as ended:
+        try:
+            with RecordingWriter(out, pair.about(note)) as writer:
+                recorder = Recorder(writer, _say_change, clock=pair.now)
+                with recorder, pair:
+                    wait(pair, seconds, ended, recorder.failed)
+        finally:
+            pair.stop()  # a replay has its file open before it begins
+    given = dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
+    _end(out, given, recorder, as_json)
+    if broken(pair) or not all(health.samples for health in given.values()):
         raise typer.Exit(1)
+
+
+def _end(out: Path, given: Mapping[str, Health], recorder: Recorder, as_json: bool) -> None:
+    """Say what was written; nothing is kept where nothing came: an empty file would stand in the next one's way."""
+    kept = any(health.samples for health in given.values())
+    if not kept:
+        out.unlink(missing_ok=True)
+    if recorder.error is not None:
+        raise recorder.error
+    _tell(out, given, recorder, kept)
+    if as_json:
+        facts = {device: _facts(health) for device, health in given.items()}
+        suspicions = [what for _, what in recorder.suspicions]
+        print_json(
+            {
+                "out": str(out) if kept else None,
+                **facts,
+                "suspicions": suspicions,
+                "skipped": recorder.skipped,
+            }
+        )
 
 
 @record_app.command(
@@ -97,80 +123,75 @@ def ports(as_json: JsonOption = False) -> None:
         print_json({"ports": rows})
 
 
-class _Taken:
-    """Writes what a stream gives, in the stream's thread."""
-
-    def __init__(self, writer: RecordingWriter) -> None:
-        self._writer = writer
-        self._flushed = time.monotonic()
-        self.failed = threading.Event()
-        self.error: InputError | None = None
-
-    def samples(self, samples: Sequence[WrenchSample]) -> None:
-        self._do(lambda: self._write(samples))
-        if time.monotonic() - self._flushed > _FLUSH_S:
-            self._do(self._writer.flush)
-            self._flushed = time.monotonic()
-
-    def _write(self, samples: Sequence[WrenchSample]) -> None:
-        for sample in samples:
-            self._writer.wrench(sample)
-
-    def poses(self, samples: Sequence[FlangeSample]) -> None:
-        self._do(lambda: self._write_poses(samples))
-
-    def _write_poses(self, samples: Sequence[FlangeSample]) -> None:
-        for sample in samples:
-            self._writer.flange(sample)
-
-    def health(self, device: str, health: Health) -> None:
-        """Keep changes of a stream with the samples, and say them."""
-        found = " ".join(health.findings)
-        words = f"{device}: {health.state}"
-        say(f"{words}: {found}" if found else words, "yellow" if found else "")
-        fields = {"device": device, "state": health.state.value, "findings": list(health.findings)}
-        self._do(lambda: self._writer.event("stream", fields, time.monotonic()))
-
-    def _do(self, write: Callable[[], None]) -> None:
-        if self.error is not None:
+def wait(pair: Pair, seconds: float | None, *ends: threading.Event) -> None:
+    """Wait until the time or the source is over, a stream has failed, or one of the events is set."""
+    deadline = math.inf if seconds is None else time.monotonic() + seconds
+    while not (pair.finished or broken(pair) or any(end.is_set() for end in ends)):
+        left = deadline - time.monotonic()
+        if left <= 0:
             return
-        try:
-            write()
-        except InputError as error:  # such as a full disk: what is written stays, and the command ends
-            self.error = error
-            self.failed.set()
+        if pair.stepwise:
+            pair.step(_STEPS)
+        else:
+            ends[0].wait(min(left, _LOOK_S))
 
 
-def _wait(seconds: float | None, failed: threading.Event) -> None:
-    """Wait until the time is over, Ctrl-C, or something failed; Ctrl-C ends a recording well."""
-    before = signal.signal(signal.SIGINT, lambda *_: failed.set())
+def broken(pair: Pair) -> bool:
+    """Tell whether a stream has ended before its end: it failed, or its recording cannot be read on."""
+    from pipeline.devices.drive import State
+
+    return any(
+        stream.health.failure is not None or (stream.done.is_set() and stream.health.state is State.LOST)
+        for stream in pair.streams
+    )
+
+
+@contextmanager
+def ended_by_signals() -> Iterator[threading.Event]:
+    """Let Ctrl-C, a polite kill and a closed terminal end a recording well; only the main thread may ask for that."""
+    ended = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield ended
+        return
+    signals = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {each: signal.signal(each, lambda *_: ended.set()) for each in signals}
     try:
-        failed.wait(seconds)
+        yield ended
     finally:
-        signal.signal(signal.SIGINT, before)
+        for each, handler in before.items():
+            # Once asked to end, the process is about to: one more signal must not kill it while it says what it wrote.
+            signal.signal(each, signal.SIG_IGN if ended.is_set() else handler)
 
 
-def _tell(out: Path, given: Mapping[str, Health], as_json: bool) -> None:
+def _say_change(device: str, health: Health) -> None:
+    found = " ".join((*health.findings, *health.suspicions))
+    words = f"{device}: {health.state}"
+    with suppress(OSError, SystemExit):  # a closed terminal is no reason to lose samples
+        say(f"{words}: {found}" if found else words, "yellow" if found else "")
+
+
+def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool) -> None:
     for device, health in given.items():
         counters = health.counters
         rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"
         jitter = "" if health.jitter is None else f", jitter {1e3 * health.jitter:.2f} ms"
+        if health.lateness is not None:
+            jitter += f", at worst {1e3 * health.lateness[1]:.1f} ms late"
         say(
             f"{device}: {health.samples:,} samples at {rate}{jitter}; lost {counters.lost}, damaged"
             f" {counters.bad_checksums}, reconnected {health.reconnected} times."
         )
-    say(f"Wrote {out}.")
-    if as_json:
-        print_json({"out": str(out), **{device: _facts(health) for device, health in given.items()}})
+        if health.failure is not None:
+            say(f"{device}: {health.failure}", "red")
+    for _, what in recorder.suspicions:
+        say(what, "yellow")
+    if recorder.skipped:
+        say(f"{recorder.skipped} batches hold a sample that cannot be recorded.", "yellow")
+    say(f"Wrote {out}." if kept else "Not one sample came: nothing is kept.", "" if kept else "red")
 
 
 def _facts(health: Health) -> dict[str, Any]:
-    return {
-        "samples": health.samples,
-        "rate_hz": health.rate,
-        "jitter_s": health.jitter,
-        "lost": health.counters.lost,
-        "bad_checksums": health.counters.bad_checksums,
-        "skipped_bytes": health.counters.skipped_bytes,
-        "reconnected": health.reconnected,
-    }
+    from pipeline.recording.recorder import health_facts
+
+    usual, worst = health.lateness or (None, None)
+    return {**health_facts(health), "lateness_p99_s": usual, "lateness_max_s": worst}

@@ -109,7 +109,7 @@ def convert(
     help=(
         "Estimate how much later the sensor is heard than the robot, from a stretch in which it was turned.\n\n"
         "Needs no mount and no calibration: the weight must turn with the flange, touching nothing. Exit code 1: the"
-        " motion does not show it."
+        " motion does not show it, or shows it doubtfully."
     ),
     epilog="Example: contactbench recording delay poses.mcap",
 )
@@ -121,15 +121,22 @@ def delay(file: FileArgument, as_json: JsonOption = False) -> None:
     found = _read(file)
     if len(found.wrenches) != 1 or len(found.flanges) != 1:
         raise RecordingError(
-            f"{file}: there are {len(found.wrenches)} sensors and {len(found.flanges)} robots in it: record one of"
-            " each."
+            f"{file}: one sensor and one robot are needed, and it holds {len(found.wrenches)} and"
+            f" {len(found.flanges)}: record one of each."
         )
     (wrenches,), (poses,) = found.wrenches.values(), found.flanges.values()
     estimate = estimate_delay(wrenches, poses)
-    say(estimate.sentence)
+    say(estimate.sentence, "yellow" if estimate.doubt else "")
     if as_json:
-        print_json({"seconds": estimate.seconds, "sigma": estimate.sigma, "sentence": estimate.sentence})
-    if estimate.seconds is None:
+        print_json(
+            {
+                "seconds": estimate.seconds,
+                "sigma": estimate.sigma,
+                "sentence": estimate.sentence,
+                "doubt": estimate.doubt,
+            }
+        )
+    if estimate.seconds is None or estimate.doubt:
         raise typer.Exit(1)
 
 
@@ -199,7 +206,7 @@ def _warn(warnings: tuple[str, ...]) -> None:
 def _facts(topic: str, kind: str, track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
     times = track.times
     duration = float(times.max() - times.min())
-    rate = (len(times) - 1) / duration if duration > 0 else None
+    rate = (len(times) - 1) / duration if duration > 1e-9 else None
     return {"topic": topic, "kind": kind, "samples": len(times), "seconds": duration, "rate": rate}
 
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from pipeline.commands.session_keep import add_keeping_commands
+from pipeline.commands.session_record import FolderArgument, add_record_command
 from pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
@@ -22,8 +24,6 @@ session_app = typer.Typer(
 )
 
 _WRONG = 1
-
-FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the session.")]
 
 
 @session_app.command(epilog="Example: contactbench session new bench-1")
@@ -50,17 +50,31 @@ def add(
     sensor: Annotated[
         str | None, typer.Option(help="Serial number of the sensor that it was recorded with.")
     ] = None,
+    companion: Annotated[
+        list[Path] | None,
+        typer.Option(
+            metavar="FILE",
+            help="File that belongs beside it; may be repeated. The JSON file of a probe is found by itself.",
+        ),
+    ] = None,
+    name: Annotated[
+        str | None, typer.Option(metavar="NAME", help="What it is called in the session [as the file].")
+    ] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Copy a raw input into a session; what was computed from one that it replaces becomes stale."""
     from pipeline.session.actions import files_of
+    from pipeline.session.companions import about_of, companions_of
 
+    beside, about = companions_of(file, companion or []), about_of(file)
     with _writing(folder) as session:
         before = _stale_titles(session)
-        record = session.add_input(file, kind, sensor=sensor)
+        record = session.add_input(file, kind, name=name, sensor=sensor, companions=beside, about=about)
         newly = _stale_titles(session) - before
-    ref = files_of(record.action)[0]
+    ref, *others = files_of(record.action)
     say(f"{file} is kept as {ref.path}.")
+    for name, other in zip(beside, others, strict=True):
+        say(f"{name}, which belongs to it, is kept as {other.path}.")
     for title in sorted(newly):
         say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
     if as_json:
@@ -70,6 +84,7 @@ def add(
                 "file": ref.path,
                 "sha256": ref.sha256,
                 "size": ref.size,
+                "companions": {name: other.path for name, other in zip(beside, others, strict=True)},
                 "stale": sorted(newly),
             }
         )
@@ -81,48 +96,66 @@ def add(
 def compute(
     folder: FolderArgument,
     kind: Annotated[
-        str, typer.Argument(metavar="KIND", help="calibration, from poses; or probe, from the mesh.")
+        str,
+        typer.Argument(
+            metavar="KIND",
+            help="captures, from a recording; calibration, from poses; probe, from the mesh and an alignment, if"
+            " there is one.",
+        ),
     ],
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the result's file.")],
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="Parameter, as JSON or text; may be repeated."),
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE",
+            help="Parameter, as JSON or text; may be repeated. Others are those that `session set` or the window"
+            " left for this kind.",
+        ),
+    ] = None,
+    inputs: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--input",
+            metavar="ROLE=NAME",
+            help="Not the newest recording, poses or alignment, but this one; without a name: none.",
+        ),
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Compute a result from the newest poses or the mesh in use, and record it with all it follows from."""
+    """Compute a result from the newest inputs of its kind, raw or computed, and record it with all it follows from."""
     from pipeline.session.actions import files_of
     from pipeline.session.recompute import compute as run
+    from pipeline.session.recompute import newest_inputs, settings_of
 
-    given = dict(_setting(text) for text in settings or [])
+    chosen = dict(_choice(text) for text in inputs or [])
     with _writing(folder) as session:
-        record = run(session, kind, name, _newest_inputs(session.state, kind), given)
+        given = settings_of(session.state, kind) | dict(_setting(text) for text in settings or [])
+        record = run(session, kind, name, newest_inputs(session.state, kind, chosen), given)
+        stale = session.stale()[kind, name]
     files = [ref.path for ref in files_of(record.action)]
     say(f"{kind} {name} is kept as {', '.join(files)}.")
+    for reason in stale:
+        say(f"it is stale already: {reason}", "yellow")
     if as_json:
-        print_json({"record": record.number, "files": files})
+        print_json({"record": record.number, "files": files, "stale": list(stale)})
+
+
+def _choice(text: str) -> tuple[str, str]:
+    role, equals, name = text.partition("=")
+    if not role or not equals:
+        raise typer.BadParameter(f"--input needs ROLE=NAME, not {text!r}.")
+    return role, name
 
 
 def _setting(text: str) -> tuple[str, Any]:
     name, equals, value = text.partition("=")
     if not name or not equals:
-        raise typer.BadParameter(f"--set needs NAME=VALUE, not {text!r}.")
+        raise typer.BadParameter(f"a parameter is written NAME=VALUE, not {text!r}.")
     try:
         return name, json.loads(value)
     except (ValueError, RecursionError):
         return name, value
-
-
-def _newest_inputs(state: State, kind: str) -> dict[str, str]:
-    from pipeline.session import SessionError
-
-    role = {"calibration": "poses", "probe": "mesh"}.get(kind)
-    if role is None:
-        raise SessionError(f"{kind}: nothing here computes this kind of result: give calibration or probe.")
-    found = [each for each in state.current_inputs.values() if each.kind == role]
-    if not found:
-        raise SessionError(f"there are no {role} in this session: add them with --kind {role}.")
-    return {role: max(found, key=lambda each: each.number).file.sha256}
 
 
 @session_app.command(epilog="Example: contactbench session info bench-1 --json")
@@ -138,14 +171,20 @@ def info(folder: FolderArgument, as_json: JsonOption = False) -> None:
     for each in state.current_inputs.values():
         say(f"{each.kind} {each.name}: {each.file.size} bytes, {each.at}.")
     for slot, result in state.current_results.items():
-        say(
-            f"{result.title}: {'STALE' if stale[slot] else 'holds'}, {result.at}.",
-            "yellow" if stale[slot] else "",
-        )
+        say(f"{result.title}: {_word(result, stale[slot])}, {result.at}.", "yellow" if stale[slot] else "")
         for reason in stale[slot]:
             say(f"  {reason}")
     if as_json:
         print_json(_facts(state, stale, notes))
+
+
+def _word(result: Result, reasons: tuple[str, ...]) -> str:
+    mark = "" if result.mark is None else result.mark.mark
+    if mark == "rejected":
+        return "REJECTED"
+    if reasons:
+        return "STALE"
+    return "holds, accepted" if mark == "accepted" else "holds"
 
 
 def _facts(
@@ -160,6 +199,8 @@ def _facts(
                 "name": each.name,
                 "sensor": each.sensor,
                 "at": each.at,
+                "companions": {name: ref.path for name, ref in each.companions.items()},
+                "about": dict(each.about),
                 **each.file.model_dump(),
             }
             for each in state.current_inputs.values()
@@ -178,39 +219,75 @@ def _result(result: Result, reasons: tuple[str, ...]) -> dict[str, Any]:
         "tool": result.tool,
         "content": result.content,
         "files": {name: ref.path for name, ref in result.action.files.items()},
-        "mark": result.marks[-1].mark if result.marks else None,
+        "mark": None if result.mark is None else result.mark.mark,
         "stale": list(reasons),
     }
 
 
-@session_app.command(epilog="Example: contactbench session verify bench-1")
-def verify(folder: FolderArgument, as_json: JsonOption = False) -> None:
-    """Check the hash chain, every record, and size and content of every file. Exit code 1: something is wrong."""
-    from pipeline.session.check import check
-
-    with Bar("checking files", counted=True) as bar:
-        found = check(folder, bar)
-    for note in found.notes:
-        say(f"note: {note}")
-    for problem in found.problems:
-        say(f"wrong: {problem}", "red")
-    if found.sound:
-        say(f"{folder}: {found.records} records and {found.files} files are what they were.", "green")
+@session_app.command(epilog="Example: contactbench session note bench-1 'new cable'")
+def note(
+    folder: FolderArgument,
+    text: Annotated[str, typer.Argument(metavar="TEXT", help="A few words.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Write words into a session's journal, with who and when."""
+    with _writing(folder) as session:
+        record = session.note(text)
+    say(f"Noted by {record.entry.by or '-'} at {record.entry.at}.")
     if as_json:
-        print_json({**vars(found), "sound": found.sound})
-    if not found.sound:
-        raise typer.Exit(_WRONG)
+        print_json({"record": record.number, "by": record.entry.by, "at": record.entry.at})
 
 
-@session_app.command(epilog="Example: contactbench session repair bench-1")
-def repair(folder: FolderArgument, as_json: JsonOption = False) -> None:
-    """Cut an unfinished or damaged record off the journal's end, never a whole one; the journal as it was is kept."""
-    from pipeline.session.check import repair as run
+@session_app.command(
+    "set",
+    epilog="Example: contactbench session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]",
+)
+def set_parameters(
+    folder: FolderArgument,
+    settings: Annotated[
+        list[str],
+        typer.Argument(metavar="KIND.NAME=VALUE...", help="Parameters, as JSON or text; null: the default."),
+    ],
+    as_json: JsonOption = False,
+) -> None:
+    """Set parameters that results are computed with, devices are opened with and bundles are exported with.
 
-    done = run(folder)
-    say(done.sentence)
+    What was computed with another value becomes stale.
+    """
+    given = dict(_setting(text) for text in settings)
+    with _writing(folder) as session:
+        before = _stale_titles(session)
+        records = [session.set_parameter(key, value) for key, value in given.items()]
+        newly = sorted(_stale_titles(session) - before)
+    say(f"Set {', '.join(given)}.")
+    for title in newly:
+        say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
     if as_json:
-        print_json(vars(done))
+        print_json({"records": [record.number for record in records], "stale": newly})
+
+
+@session_app.command(
+    epilog="Example: contactbench session rezero bench-1 --sensor M8128-0042 --reason 'new cable'"
+)
+def rezero(
+    folder: FolderArgument,
+    sensor: Annotated[str, typer.Option(help="Serial number of the sensor.")],
+    reason: Annotated[str, typer.Option(help="Why, in a few words.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Record that a sensor's zero was moved, by hand or by its box; what rests on older recordings becomes stale.
+
+    Nothing is sent to the sensor.
+    """
+    with _writing(folder) as session:
+        before = _stale_titles(session)
+        record = session.rezeroed(sensor, reason)
+        newly = sorted(_stale_titles(session) - before)
+    say(f"Noted by {record.entry.by or '-'} at {record.entry.at}: {sensor} was re-zeroed.")
+    for title in newly:
+        say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
+    if as_json:
+        print_json({"record": record.number, "by": record.entry.by, "at": record.entry.at, "stale": newly})
 
 
 @session_app.command(epilog="Example: contactbench session replay bench-1")
@@ -233,40 +310,6 @@ def replay(folder: FolderArgument, as_json: JsonOption = False) -> None:
         raise typer.Exit(_WRONG)
 
 
-@session_app.command(
-    "export-archive", epilog="Example: contactbench session export-archive bench-1 --out bench-1.zip"
-)
-def export(
-    folder: FolderArgument,
-    out: Annotated[Path, typer.Option(help="Zip file to write.")],
-    as_json: JsonOption = False,
-) -> None:
-    """Pack a session into one zip file, after checking it."""
-    from pipeline.session.archive import export_archive
-
-    count = export_archive(folder, out)
-    say(f"{out}: {count} files.")
-    if as_json:
-        print_json({"out": str(out), "files": count})
-
-
-@session_app.command(
-    "import-archive", epilog="Example: contactbench session import-archive bench-1.zip --out bench-1"
-)
-def unpack(
-    archive: Annotated[Path, typer.Argument(metavar="ZIP", help="What export-archive wrote.")],
-    out: Annotated[Path, typer.Option(help="Folder to make.")],
-    as_json: JsonOption = False,
-) -> None:
-    """Unpack a session into a new folder, checking every byte of it first."""
-    from pipeline.session.archive import import_archive
-
-    import_archive(archive, out)
-    say(f"{out}: a whole session.")
-    if as_json:
-        print_json({"out": str(out)})
-
-
 def _writing(folder: Path) -> Session:
     from pipeline.session import Session
 
@@ -278,3 +321,7 @@ def _writing(folder: Path) -> Session:
 
 def _stale_titles(session: Session) -> set[str]:
     return {" ".join(slot) for slot, reasons in session.stale().items() if reasons}
+
+
+add_record_command(session_app)
+add_keeping_commands(session_app)

@@ -33,6 +33,23 @@ _READ, _WRAPPED = 0.02, 0.7
 
 
 @dataclass(frozen=True, eq=False)
+class Dense:
+    """
+    A mesh file's outer surface, before it is aligned and has fewer facets.
+
+    Attributes
+    ----------
+    content : ProbeFile
+        As it lies in the mesh's own frame.
+    shell : Shell
+        What was done.
+    """
+
+    content: ProbeFile
+    shell: Shell
+
+
+@dataclass(frozen=True, eq=False)
 class Preparation:
     """
     A prepared probe, and what was done.
@@ -85,6 +102,63 @@ class Preparation:
         }
 
 
+def make_dense(
+    path: str | os.PathLike[str],
+    units: Units | Literal["auto"] = "auto",
+    closings: Closing | Sequence[Closing] = Closing.AUTO,
+    *,
+    alpha: float | None = None,
+    gap: float | None = None,
+    aligned_later: bool = False,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Dense:
+    """
+    Read a mesh file and close it: the steps that take long, and do not depend on the others.
+
+    Parameters
+    ----------
+    path, units, closings, alpha, gap, progress, cancelled
+        See `prepare`.
+    aligned_later : bool
+        Refuse a mesh that is aligned already before the work is done.
+
+    Raises
+    ------
+    MeshError, AlignmentError, EngineError, Cancelled
+        See the steps.
+    """
+    content = import_mesh(path, units)
+    if aligned_later:
+        refuse_aligned(content, again=False)
+    notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
+    if progress is not None:
+        progress(_READ)
+    content, shell = shell_step(
+        content, closings, alpha=alpha, gap=gap, progress=_part(progress, _READ, 1.0), cancelled=cancelled
+    )
+    # What was wrong with the file is mended by now, and said by the shell; how its unit was found is not.
+    return Dense(replace(content, notes=notes), shell)
+
+
+def place(
+    dense: Dense, alignment: Alignment | None, painted: Callable[[ProbeFile], ProbeFile] | None = None
+) -> ProbeFile:
+    """
+    Move the outer surface into the sensor frame, and put regions on it.
+
+    Parameters
+    ----------
+    dense : Dense
+    alignment : Alignment or None
+        None: it stays in its own frame.
+    painted : callable, optional
+        Takes the aligned shell and gives it with its regions; see `pipeline.preparation.painted`.
+    """
+    content = dense.content if alignment is None else align_step(dense.content, alignment)
+    return content if painted is None else painted(content)
+
+
 def prepare(
     path: str | os.PathLike[str],
     units: Units | Literal["auto"] = "auto",
@@ -128,34 +202,67 @@ def prepare(
     MeshError, AlignmentError, EngineError, Cancelled
         See the steps.
     """
-
-    def part(low: float, high: float) -> Callable[[float], None] | None:
-        if progress is None:
-            return None
-        return lambda share: progress(low + share * (high - low))
-
-    content = import_mesh(path, units)
-    if alignment is not None:
-        refuse_aligned(content, again=False)
-    notes = tuple(note for note in content.notes if note not in content.probe.health.sentences)
-    if progress is not None:
-        progress(_READ)
-    content, shell = shell_step(
-        content, closings, alpha=alpha, gap=gap, progress=part(_READ, _WRAPPED), cancelled=cancelled
+    dense = make_dense(
+        path,
+        units,
+        closings,
+        alpha=alpha,
+        gap=gap,
+        aligned_later=alignment is not None,
+        progress=_part(progress, 0.0, _WRAPPED),
+        cancelled=cancelled,
     )
-    if alignment is not None:
-        content = align_step(content, alignment)
+    return finish(
+        dense,
+        place(dense, alignment),
+        target,
+        engine=engine,
+        region_ratio=region_ratio,
+        progress=_part(progress, _WRAPPED, 1.0),
+        cancelled=cancelled,
+    )
+
+
+def finish(
+    dense: Dense,
+    placed: ProbeFile,
+    target: Callable[[ProbeFile], Chosen],
+    *,
+    engine: Engine = "auto",
+    region_ratio: float = 1.0,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Preparation:
+    """
+    Give the outer surface as few facets as the target allows: the last step of `prepare`.
+
+    Parameters
+    ----------
+    dense : Dense
+    placed : ProbeFile
+        What `place` made of it.
+    target, engine, region_ratio, progress, cancelled
+        See `prepare`.
+    """
     if cancelled is not None and cancelled():
         raise Cancelled("the preparation was cancelled: nothing was written.")
-    wanted, stated = target(content)
+    wanted, stated = target(placed)
     content, simplified, carried = simplify_step(
-        content,
+        placed,
         wanted,
         stated=stated,
         engine=engine,
         region_ratio=region_ratio,
-        progress=part(_WRAPPED, 1.0),
+        progress=progress,
         cancelled=cancelled,
     )
-    # What was wrong with the file is mended by now, and said by the shell; how its unit was found is not.
-    return Preparation(replace(content, notes=notes), shell, simplified, carried)
+    return Preparation(content, dense.shell, simplified, carried)
+
+
+def _part(
+    progress: Callable[[float], None] | None, low: float, high: float
+) -> Callable[[float], None] | None:
+    """Return what takes the progress of a part of the work."""
+    if progress is None:
+        return None
+    return lambda share: progress(low + share * (high - low))

@@ -1,4 +1,4 @@
-"""A robot arm as data: joints, limits, flange, and a rough envelope of its links."""
+"""A robot arm as data: joints, limits, masses, flange, and a rough envelope of its links."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -10,6 +10,7 @@ from pipeline.errors import InputError
 
 Triple = tuple[float, float, float]
 
+_BALL_M = 0.1  # of the ball that stands in for a link whose inertia is not known
 TOOL = "tool"  # the capsule that a clearance check adds; no link may be called that
 
 
@@ -33,11 +34,19 @@ class Joint:
         Largest torque, N·m.
     child_mass : float
         Mass of the link that the joint moves, kg.
+    acceleration : float
+        Largest acceleration, rad/s²; inf where none is known.
+    centre_xyz : (3,) floats
+        Centre of that mass in the joint's frame, m.
+    inertia : (6,) floats, optional
+        Of that mass about its centre, along the axes of the joint's frame: xx, yy, zz, xy, xz, yz, kg·m². Left out, a
+        ball of 0.1 m.
 
     Raises
     ------
     InputError
-        A number is not finite, the limits are in the wrong order, or a speed, torque or mass is not positive.
+        A number is not finite, the limits are in the wrong order, a speed, acceleration, torque or mass is not
+        positive, or no body has such an inertia.
     """
 
     name: str
@@ -48,15 +57,32 @@ class Joint:
     velocity: float
     effort: float
     child_mass: float
+    acceleration: float = np.inf
+    centre_xyz: Triple = (0.0, 0.0, 0.0)
+    inertia: tuple[float, float, float, float, float, float] | None = None
 
     def __post_init__(self) -> None:
         where = f"joint {self.name}"
-        _refuse_triples(where, origin_xyz=self.origin_xyz, origin_rpy=self.origin_rpy)
+        _refuse_triples(
+            where, origin_xyz=self.origin_xyz, origin_rpy=self.origin_rpy, centre_xyz=self.centre_xyz
+        )
         if not (np.isfinite([self.lower, self.upper]).all() and self.lower < self.upper):
             raise InputError(
                 f"{where}: limits must be finite with lower < upper, not {self.lower} .. {self.upper}"
             )
         _refuse_not_positive(where, velocity=self.velocity, effort=self.effort, child_mass=self.child_mass)
+        if not self.acceleration > 0:  # so that NaN is refused; inf says that none is known
+            raise InputError(f"{where}: acceleration must be above 0, not {self.acceleration!r}")
+        if self.inertia is not None:
+            _refuse_inertia(where, self.inertia)
+
+    @property
+    def inertia_matrix(self) -> NDArray[np.float64]:
+        """(3, 3) inertia of the link about its centre of mass, axes of the joint's frame, kg·m²."""
+        if self.inertia is None:
+            return 0.4 * self.child_mass * _BALL_M**2 * np.eye(3)
+        xx, yy, zz, xy, xz, yz = self.inertia
+        return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 @dataclass(frozen=True)
@@ -188,6 +214,18 @@ def _refuse_triples(where: str, **fields: Triple) -> None:
     for field, value in fields.items():
         if np.shape(value) != (3,) or not np.isfinite(value).all():
             raise InputError(f"{where}: {field} must be three finite numbers, not {value!r}")
+
+
+def _refuse_inertia(where: str, inertia: tuple[float, ...]) -> None:
+    """Refuse what no body has: the principal moments are positive, and no one exceeds the sum of the others."""
+    if np.shape(inertia) != (6,) or not np.isfinite(inertia).all():
+        raise InputError(f"{where}: inertia must be six finite numbers, not {inertia!r}")
+    xx, yy, zz, xy, xz, yz = inertia
+    least, middle, most = np.linalg.eigvalsh([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    if least <= 0 or most > (least + middle) * (1 + 1e-9):
+        raise InputError(
+            f"{where}: no body has the inertia {inertia!r}: principal moments {least:.3g}, {middle:.3g}, {most:.3g}"
+        )
 
 
 def _refuse_not_positive(where: str, **fields: float) -> None:

@@ -39,6 +39,7 @@ class Robot:
         self._lower = _constant([joint.lower for joint in joints])
         self._upper = _constant([joint.upper for joint in joints])
         self._velocity_limits = _constant([joint.velocity for joint in joints])
+        self._acceleration_limits = _constant([joint.acceleration for joint in joints])
 
     @classmethod
     def named(cls, name: str) -> "Robot":
@@ -72,6 +73,11 @@ class Robot:
     def velocity_limits(self) -> NDArray[np.float64]:
         """(n,) largest joint speeds, rad/s; read-only."""
         return self._velocity_limits
+
+    @property
+    def acceleration_limits(self) -> NDArray[np.float64]:
+        """(n,) largest joint accelerations, rad/s², inf where none is known; read-only."""
+        return self._acceleration_limits
 
     def flange_pose(self, q: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Pose of the flange.

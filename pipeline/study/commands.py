@@ -10,6 +10,8 @@ import typer
 from pipeline.console import Bar, JsonOption, print_json, say
 from pipeline.durable import write_durably
 from pipeline.errors import InputError
+from pipeline.study.interactive_commands import add_commands
+from pipeline.study.sweep_commands import add_sweep_commands
 
 if TYPE_CHECKING:
     from typing import Any
@@ -248,6 +250,114 @@ def sessions(
     _finish(study.run_sessions(kills, seed=seed, progress=say), out, as_json=as_json)
 
 
+@study_app.command(epilog="Example: contactbench study faults --out faults.md")
+def faults(
+    trials: Annotated[int, typer.Option(help="Re-zeros of each size for the detector's figures.")] = 300,
+    short: Annotated[bool, typer.Option("--short", help="One fault of each kind on two devices.")] = False,
+    seed: Annotated[int, typer.Option(help="Seed of signals and faults.")] = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Give every emulated device every fault on a live line: when it is shown, recovered, and nothing made up.
+
+    Exit code 1 when a fault is not shown in time, or a sample is not one that was sent.
+    """
+    from pipeline.study import faults as study
+
+    _finish(study.run(short=short, trials=trials, seed=seed, progress=say), out, as_json=as_json)
+
+
+@study_app.command(epilog="Example: contactbench study live --seconds 60 --sensors 3")
+def live(
+    seconds: Annotated[float, typer.Option(help="How long, s; 600 is a soak.")] = 600.0,
+    sensors: Annotated[int, typer.Option(help="How many at once.")] = 3,
+    rate: Annotated[float, typer.Option(help="Samples a second of each, Hz.")] = 1000.0,
+    busy: Annotated[
+        bool, typer.Option("--busy", help="Once more beside a process that never rests.")
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Seed of the readings.")] = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Read several sensors at once from serial lines: samples lost, time from byte to sample, load of a core.
+
+    Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study.live import report as study
+
+    _finish(study.run(seconds, sensors, rate=rate, busy=busy, seed=seed, progress=say), out, as_json=as_json)
+
+
+@study_app.command(epilog="Example: contactbench study verification --trials 200")
+def verification(
+    trials: Annotated[int, typer.Option(help="Synthetic verifications for each figure.")] = 1_000,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Verify with known bias, scatter and causes: whether intervals are what they say, and the cause is named.
+
+    Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study import verification as study
+
+    _finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
+
+
+@study_app.command(epilog="Example: contactbench study bundles --count 5000")
+def bundles(
+    count: Annotated[int, typer.Option(help="Mutated bundles.")] = 5_000,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Load runtime configs that were damaged or tampered with: each is refused with a reason.
+
+    Exit code 1 when one is not.
+    """
+    from pipeline.study import bundle_fuzz as study
+
+    _finish(study.run(count, seed).report(), out, as_json=as_json)
+
+
+@study_app.command(epilog="Example: contactbench study runtime --seconds 20 --minutes 2")
+def runtime(
+    seconds: Annotated[float, typer.Option(help="How long a sensor is read live at 1 kHz, s.")] = 60.0,
+    minutes: Annotated[float, typer.Option(help="How much of a 1 kHz recording is replayed, min.")] = 60.0,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Run a bundle on a live sensor and on a long recording: time from byte to contact, memory, nothing lost.
+
+    Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study import runtime as study
+
+    _finish(study.run(seconds, minutes, seed=seed, progress=say), out, as_json=as_json)
+
+
+@study_app.command("control-safety", epilog="Example: contactbench study control-safety --runs 100")
+def control_safety(
+    runs: Annotated[
+        int, typer.Option(help="Random starts; a fifth with each kind of fault, a fifth with none.")
+    ] = 1_000,
+    workers: Annotated[int | None, typer.Option(help="Processes [one for each core].")] = None,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Start motion control at random: tissue, friction, motion, sensor faults; the force's limit, and safe ends.
+
+    Needs MuJoCo. Exit code 1 when a force passed its limit by more than 20 %, an end was not safe, or a loop swung.
+    """
+    from pipeline.study import control_safety as study
+
+    with Bar("starting", counted=True) as bar:
+        report = study.run(runs, seed=seed, workers=workers, progress=bar)
+    _finish(report, out, as_json=as_json)
+
+
 class _Report(Protocol):
     @property
     def passed(self) -> bool: ...
@@ -291,3 +401,7 @@ def _write(path: Path, text: str) -> None:
         write_durably(path, text.encode())
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be written ({error}); choose another --out") from error
+
+
+add_commands(study_app)
+add_sweep_commands(study_app)

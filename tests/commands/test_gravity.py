@@ -108,6 +108,10 @@ def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
     assert (
         invoke("calibrate", file, *written, "--mount", "0,0,30", "--out", tmp_path / "k.json").exit_code == 0
     )
+    kept = load_record(tmp_path / "k.json").mount
+    assert kept is not None
+    assert not kept.covariance.any()
+    np.testing.assert_allclose(kept.R_SE, Rotation.from_euler("z", -30, degrees=True).as_matrix(), atol=1e-12)
     known = load_calibration(tmp_path / "k.json")
     assert known.mass == pytest.approx(found["mass_kg"], abs=4 * found["mass_sigma_kg"])
     with file.open() as stream:

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import dataclasses
+import itertools
 import json
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
 
 import numpy as np
 import pytest
+from recording.recording_cases import record
 from typer.testing import CliRunner
 
 from pipeline import cli
 from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.recording import read_recording
+from pipeline.recording import Event, RecordingError, RecordingReader, RecordingWriter, read_recording
+from pipeline.recording.recorder import Recorder
+from pipeline.study.fault_lines import resting
 
 
 def invoke(*arguments):
@@ -73,6 +84,201 @@ def test_a_sensor_that_is_not_there(tmp_path):
     )
     assert result.exit_code == 1
     assert "cannot be opened" in " ".join(result.stderr.split())
+    assert "Wrote" not in result.stderr
+    assert list(tmp_path.iterdir()) == []  # the next try may have the name
+
+
+def test_a_slow_disk_does_not_hold_the_device_up(tmp_path, monkeypatch):
+    flush = RecordingWriter.flush
+    threads = set()
+
+    def slow(self):
+        threads.add(threading.current_thread().name)
+        time.sleep(0.2)
+        flush(self)
+
+    monkeypatch.setattr(RecordingWriter, "flush", slow)
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
+        result = invoke("record", device.url, "--out", tmp_path / "a.mcap", "--seconds", 1.5, "--json")
+    facts = json.loads(result.stdout)["sensor"]
+    assert threads == {"recorder"}
+    assert 0 <= facts["lateness_p99_s"] <= facts["lateness_max_s"] < 0.15
+    times = read_recording(tmp_path / "a.mcap").wrenches["/wrench"].times
+    assert (np.diff(times) > 0).mean() > 0.9  # none waited for the disk
+
+
+def test_a_stream_that_fails_is_told_and_what_came_is_kept(tmp_path, monkeypatch):
+    taken = Recorder.samples
+
+    def failing(self, samples):
+        taken(self, samples)
+        raise ValueError("of the recorder")
+
+    monkeypatch.setattr(Recorder, "samples", failing)
+    out = tmp_path / "a.mcap"
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
+        result = invoke("record", device.url, "--out", out, "--seconds", 30)
+    assert result.exit_code == 1
+    assert "of the recorder" in " ".join(result.stderr.split())
+    assert read_recording(out).complete
+
+
+def test_a_closed_standard_error_does_not_end_a_recording(tmp_path):
+    out = tmp_path / "a.mcap"
+    read, write = os.pipe()
+    os.close(read)
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
+        run = "from pipeline.cli import main; main()"
+        command = [sys.executable, "-c", run, "record", device.url, "--out", str(out), "--seconds", "1"]
+        subprocess.run(command, stderr=write, check=False, timeout=30)
+    os.close(write)
+    track = read_recording(out)
+    assert track.complete
+    assert len(track.wrenches["/wrench"].times) > 100
+
+
+def test_a_rezero_is_told_at_the_end(tmp_path):
+    script = Script([FaultEvent(0.6, Fault.REZERO, 9.0)])
+    device = emulator("sri", "tcp", rate=200.0, signal=lambda time: resting(time), script=script)
+    with device:
+        result = invoke("record", device.url, "--out", tmp_path / "a.mcap", "--seconds", 1.3, "--json")
+    assert "re-zeroed" in json.loads(result.stdout)["suspicions"][0]
+    assert "re-zeroed" in " ".join(result.stderr.split())
+
+
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM", "SIGHUP"])
+def test_signals_end_a_recording_well_however_often_they_come(tmp_path, number):
+    out = tmp_path / "a.mcap"
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
+        run = "from pipeline.cli import main; main()"
+        command = [sys.executable, "-c", run, "record", device.url, "--out", str(out)]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+            line = process.stderr.readline()
+            while "streaming" not in line:
+                assert line
+                line = process.stderr.readline()
+            time.sleep(0.2)
+            for _ in range(3):
+                process.send_signal(getattr(signal, number))
+                time.sleep(0.001)
+            rest = process.stderr.read()
+    assert process.returncode == 0, rest
+    assert "Traceback" not in rest
+    assert read_recording(out).complete
+
+
+def samples_of(file):
+    with RecordingReader(file) as reader:
+        return [(topic, sample) for topic, sample in reader if not isinstance(sample, Event)]
+
+
+def fields_of(sample):
+    """Return all that a sample holds, to the bit."""
+    values = [getattr(sample, field.name) for field in dataclasses.fields(sample)]
+    return [value.tobytes() if isinstance(value, np.ndarray) else value for value in values]
+
+
+def test_a_replay_is_recorded_to_the_bit(tmp_path):
+    first, again = record(tmp_path / "a.mcap"), tmp_path / "b.mcap"
+    address = f"replay://{first}?speed=step"
+    result = invoke("record", address, "--pose", address, "--out", again, "--json")
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["sensor"]["samples"] == 400
+    one, two = samples_of(first), samples_of(again)
+    assert len(two) == 600
+    for (topic, sample), (other_topic, other) in zip(one, two, strict=True):
+        assert (topic, fields_of(sample)) == (other_topic, fields_of(other))
+    old, new = read_recording(first).info, read_recording(again).info
+    assert (new.started_ns, new.clock) == (old.started_ns, old.clock)
+    assert [device.serial for device in new.devices] == ["SN 1", ""]
+    assert new.devices[0].address == address
+    assert read_recording(again).complete
+
+
+def test_a_replay_at_a_pace_ends_the_command_and_gives_the_same(tmp_path):
+    first, again = record(tmp_path / "a.mcap", 100, 0), tmp_path / "b.mcap"
+    result = invoke("record", f"replay://{first}?speed=10", "--out", again)
+    assert result.exit_code == 0, result.stderr
+    assert [fields_of(s) for _, s in samples_of(again)] == [fields_of(s) for _, s in samples_of(first)]
+    states = [event.fields["state"] for event in read_recording(again).events if event.name == "stream"]
+    assert (states[0], states[-1]) == ("streaming", "closed")
+
+
+def test_a_replay_can_be_cut(tmp_path):
+    first, again = record(tmp_path / "a.mcap"), tmp_path / "b.mcap"
+    result = invoke("record", f"replay://{first}", "--out", again, "--seconds", 0.3)
+    assert result.exit_code == 0, result.stderr
+    assert 0 < len(samples_of(again)) < 400
+
+
+def test_a_replay_beside_a_typed_pose(tmp_path):
+    first, again = record(tmp_path / "a.mcap", 400, 0), tmp_path / "b.mcap"
+    result = invoke("record", f"replay://{first}?speed=step", "--pose", "still://?rpy=0,90,0", "--out", again)
+    assert result.exit_code == 0, result.stderr
+    flanges = read_recording(again).flanges["/flange"]
+    assert flanges.times == pytest.approx(1000 + np.arange(20) / 10)
+
+
+def test_a_sensor_beside_poses_from_a_file(tmp_path):
+    out, poses = tmp_path / "a.mcap", tmp_path / "poses.csv"
+    poses.write_text("t,qw,qx,qy,qz\n" + "".join(f"{t / 100},1,0,0,0\n" for t in range(40)))
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
+        result = invoke("record", device.url, "--pose", f"poses://{poses}", "--out", out, "--seconds", 30)
+    assert result.exit_code == 0, result.stderr
+    recording = read_recording(out)  # the end of the poses ended it
+    assert len(recording.flanges["/flange"].times) == 40
+    wrench = recording.wrenches["/wrench"]
+    assert abs(wrench.times[0] - recording.flanges["/flange"].times[0]) < 5.0  # on one clock
+
+
+def test_a_replay_that_breaks_off_is_kept_and_told(tmp_path, monkeypatch):
+    first, again = record(tmp_path / "a.mcap"), tmp_path / "b.mcap"
+    inner = RecordingReader.__iter__
+
+    def failing(self):
+        yield from itertools.islice(inner(self), 100)
+        raise RecordingError("a.mcap: the disk cannot be read: copy the file.")
+
+    monkeypatch.setattr(RecordingReader, "__iter__", failing)
+    result = invoke("record", f"replay://{first}?speed=step", "--out", again)
+    monkeypatch.undo()
+    assert result.exit_code == 1
+    assert "copy the file" in " ".join(result.stderr.split())
+    assert 0 < len(samples_of(again)) < 100
+
+
+@pytest.mark.parametrize(
+    ("sensor", "pose", "part"),
+    [
+        ("replay://{0}/none.mcap", None, "no such file"),
+        ("replay://{0}/text.mcap", None, "no MCAP file"),
+        ("replay://{0}/poses.mcap?speed=step", None, "no wrenches"),
+        ("replay://{0}/wrenches.mcap", "replay://{0}/wrenches.mcap", "no poses"),
+        ("replay://{0}/wrenches.mcap", "poses://{0}/none.csv", "no such file"),
+        ("replay://{0}/wrenches.mcap", "ur+tcp://127.0.0.1", "different clocks"),
+        ("sri+tcp://127.0.0.1", "replay://{0}/poses.mcap", "different clocks"),
+        ("sri+tcp://127.0.0.1", "still://", "rpy"),
+        ("sri+tcp://127.0.0.1", "still://?robot=hal&joints=1", "hal"),
+        ("still://?rpy=0,0,0", None, "no force/torque sensor"),
+    ],
+)
+def test_sources_that_do_not_give_it_leave_no_file(tmp_path, sensor, pose, part):
+    (tmp_path / "text.mcap").write_text("t,fx\n")
+    record(tmp_path / "wrenches.mcap", 10, 0)
+    record(tmp_path / "poses.mcap", 0, 10)
+    before = sorted(tmp_path.iterdir())
+    arguments = ["record", sensor.format(tmp_path), "--out", tmp_path / "out.mcap"]
+    result = invoke(*arguments, *(["--pose", pose.format(tmp_path)] if pose else []))
+    assert result.exit_code == 2
+    assert part in " ".join(result.stderr.split())
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_a_replay_is_not_recorded_over_itself(tmp_path):
+    file = record(tmp_path / "a.mcap")
+    before = file.read_bytes()
+    assert invoke("record", f"replay://{file}?speed=step", "--out", file).exit_code == 2
+    assert file.read_bytes() == before
 
 
 @pytest.mark.parametrize(

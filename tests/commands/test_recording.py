@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import typer
 from mcap_ros2.writer import Writer
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from pipeline import cli
@@ -125,3 +126,60 @@ def test_wrong_input(
 @pytest.mark.parametrize("command", ["info", "convert", "import-ros2"])
 def test_help_has_an_example(app: typer.Typer, command: str) -> None:
     assert "Example: contactbench recording" in invoke(app, command, "--help").stdout
+
+
+def test_info_of_times_that_are_almost_one_moment(app: typer.Typer, tmp_path: Path) -> None:
+    with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 0.0)) as writer:
+        for time in (0.0, 5e-324):
+            writer.wrench(WrenchSample(time, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    result = invoke(app, "info", tmp_path / "r.mcap", "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["topics"][0]["rate"] is None
+
+
+def test_names_in_a_file_cannot_steer_the_terminal(app: typer.Typer, tmp_path: Path) -> None:
+    device = DeviceInfo("wrench", "/wrench", "\x1b]0;title\x07\x1b[2J", "\x9b31m")
+    with RecordingWriter(
+        tmp_path / "r.mcap", RecordingInfo(10**18, 0.0, (device,), tool="\x1b[31mx")
+    ) as writer:
+        writer.wrench(WrenchSample(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    result = invoke(app, "info", tmp_path / "r.mcap")
+    assert "written by \ufffd[31mx" in result.stderr
+    assert not set("\x1b\x07\x9b") & set(result.stderr)
+
+
+def turning(file: Path, touched: bool = False) -> Path:
+    noise = np.random.default_rng(0).normal(0, 0.05, (1500, 3))
+    with RecordingWriter(file, RecordingInfo(10**18, 0.0)) as writer:
+        for number in range(1500):
+            time = number / 100
+            R = Rotation.from_euler("xyz", [np.sin(time), np.cos(1.3 * time), 0.5 * np.sin(0.7 * time)])
+            fx, fy, fz = (R.inv().apply([0, 0, -9.8]) + noise[number]).tolist()
+            fx += 20.0 * (touched and 500 < number < 600)
+            writer.wrench(WrenchSample(time + 0.02, (fx, fy, fz), (0.0, 0.0, 0.0), number))
+            writer.flange(FlangeSample(time, R.as_matrix(), np.zeros(3)))
+    return file
+
+
+def test_delay(app: typer.Typer, tmp_path: Path) -> None:
+    result = invoke(app, "delay", turning(tmp_path / "r.mcap"), "--json")
+    assert result.exit_code == 0
+    found = json.loads(result.stdout)
+    assert found["seconds"] == pytest.approx(0.02, abs=1e-3)
+    assert found["doubt"] == ""
+
+
+def test_a_doubtful_delay_is_told(app: typer.Typer, tmp_path: Path) -> None:
+    result = invoke(app, "delay", turning(tmp_path / "r.mcap", touched=True), "--json")
+    assert result.exit_code == 1
+    assert "was something touched" in json.loads(result.stdout)["doubt"]
+    assert "was something touched" in result.stderr
+
+
+def test_delay_needs_one_of_each(app: typer.Typer, tmp_path: Path) -> None:
+    with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 0.0)) as writer:
+        writer.wrench(WrenchSample(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
+    result = invoke(app, "delay", tmp_path / "r.mcap")
+    assert result.exit_code == 2
+    shown = " ".join(result.stderr.replace("│", " ").split())
+    assert "one sensor and one robot are needed, and it holds 1 and 0" in shown

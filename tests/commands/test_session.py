@@ -7,7 +7,9 @@ from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 
 from pipeline.commands.session import session_app
+from pipeline.recording import RecordingInfo, RecordingWriter
 from pipeline.session import Session, SessionError
+from pipeline.session.recompute import settings_of
 
 
 def invoke(*arguments):
@@ -102,5 +104,41 @@ def test_what_cannot_be_is_said(folder, arguments, said):
     assert said in str(result.exception)
 
 
+def test_an_input_may_be_called_otherwise(folder, poses):
+    facts("add", folder, poses, "--kind", "poses", "--name", "first.csv")
+    assert facts("info", folder)["inputs"][0]["name"] == "first.csv"
+    result = invoke("add", folder, poses, "--kind", "poses", "--name", "12:30.csv")
+    assert "no control characters and none of" in str(result.exception)
+
+
+def test_a_recording_brings_the_time_of_its_start(folder, tmp_path):
+    with RecordingWriter(tmp_path / "a.mcap", RecordingInfo(1_700_000_000_000_000_000, 0.0)) as writer:
+        writer.event("begun", {}, 0.0)
+    facts("add", folder, tmp_path / "a.mcap", "--kind", "recording")
+    assert facts("info", folder)["inputs"][0]["about"] == {"started": "2023-11-14T22:13:20+00:00"}
+
+
+def test_repair_ends_with_1_when_something_stays(folder):
+    (folder / "raw" / "unfinished-a").mkdir()
+    assert "stays where it is" in facts("repair", folder, code=1)["left"][0]
+
+
 def test_a_setting_needs_a_value(folder):
     assert invoke("compute", folder, "calibration", "c.json", "--set", "euler").exit_code == 2
+
+
+def test_what_was_set_is_what_a_result_is_computed_with(tmp_path):
+    folder = tmp_path / "s"
+    invoke("new", folder)
+    done = invoke(
+        "set", folder, "calibration.tip=[0,0,120]", "calibration.euler=xyz", "devices.serial=A-1", "--json"
+    )
+    assert json.loads(done.stdout) == {"records": [2, 3, 4], "stale": []}
+    with Session.open(folder, write=False) as session:
+        assert settings_of(session.state, "calibration") == {"tip": [0, 0, 120], "euler": "xyz"}
+        assert session.state.settings["devices.serial"].value == "A-1"
+    assert invoke("set", folder, "calibration.euler=null").exit_code == 0
+    with Session.open(folder, write=False) as session:
+        assert settings_of(session.state, "calibration") == {"tip": [0, 0, 120]}
+    assert invoke("set", folder, "euler").exit_code == 2
+    assert isinstance(invoke("set", folder, "euler=xyz").exception, SessionError)

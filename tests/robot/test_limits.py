@@ -26,8 +26,27 @@ def test_limits_are_those_of_the_data_and_read_only():
     np.testing.assert_array_equal(ROBOT.lower, [-3.14, -2.35, -2.61, -3.14, -2.56, -3.14])
     np.testing.assert_array_equal(ROBOT.upper, -ROBOT.lower)
     np.testing.assert_array_equal(ROBOT.velocity_limits, [1.57, 1.27, 1.57, 1.57, 1.57, 1.57])
-    with pytest.raises(ValueError, match="read-only"):
-        ROBOT.lower[0] = 0
+    np.testing.assert_array_equal(ROBOT.acceleration_limits, [12.56] * 6)
+    for each in (ROBOT.lower, ROBOT.acceleration_limits):
+        with pytest.raises(ValueError, match="read-only"):
+            each[0] = 0
+
+
+def test_an_acceleration_that_is_not_known_is_no_limit():
+    unknown = replace(_J, acceleration=np.inf)
+    assert (
+        Robot(replace(ELFIN3, joints=(unknown,), capsules=(), never_touch=())).acceleration_limits == np.inf
+    )
+
+
+def test_the_inertia_of_a_link_is_symmetric_and_about_its_centre_of_mass():
+    joint = ELFIN3.joints[3]
+    np.testing.assert_array_equal(joint.inertia_matrix, joint.inertia_matrix.T)
+    np.testing.assert_allclose(np.diag(joint.inertia_matrix), [7.169e-3, 5.863e-3, 2.296e-3])
+    assert joint.inertia_matrix[1, 2] == pytest.approx(2.083e-3)
+    # Nothing known: a ball of 0.1 m.
+    ball = replace(joint, inertia=None).inertia_matrix
+    np.testing.assert_allclose(ball, 0.4 * joint.child_mass * 0.01 * np.eye(3))
 
 
 @given(q=inside)
@@ -99,6 +118,12 @@ _J = ELFIN3.joints[0]
         (lambda: replace(_J, velocity=0.0), "velocity must be finite and above 0"),
         (lambda: replace(_J, child_mass=-1.0), "child_mass"),
         (lambda: replace(_J, effort=np.inf), "effort"),
+        (lambda: replace(_J, acceleration=np.nan), "acceleration must be above 0"),
+        (lambda: replace(_J, acceleration=0.0), "acceleration must be above 0"),
+        (lambda: replace(_J, centre_xyz=(0, 0, np.nan)), "centre_xyz must be three finite numbers"),
+        (lambda: replace(_J, inertia=(1, 1, 1)), "inertia must be six"),
+        (lambda: replace(_J, inertia=(1, 1, 3, 0, 0, 0)), "no body has the inertia"),
+        (lambda: replace(_J, inertia=(1, 1, 1, 2, 0, 0)), "no body has the inertia"),
         (lambda: replace(_J, origin_xyz=(0, 0)), "origin_xyz must be three finite numbers"),
         (lambda: Capsule("rod", 1, (0, 0, 1), (0, 0, 1), 0.1), "must differ"),
         (lambda: Capsule("rod", 1, (0, 0, 0), (0, 0, 1), 0.0), "radius"),

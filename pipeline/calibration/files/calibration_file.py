@@ -96,11 +96,17 @@ class Mount:
     quaternion_SE : (4,)
         Orientation of E in S, scalar first, of length 1.
     covariance : (3, 3)
-        Of the rotation vector d in ``R_true = exp([d]x) @ R_SE``, in S, rad².
+        Of the rotation vector d in ``R_true = exp([d]x) @ R_SE``, in S, rad²; zero for a mounting that was given.
     """
 
     quaternion_SE: NDArray[np.float64]
     covariance: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, R_SE: NDArray[np.float64], covariance: NDArray[np.float64] | None = None) -> Mount:
+        """Return the mounting of a rotation (3, 3), known exactly if there is no covariance."""
+        x, y, z, w = Rotation.from_matrix(R_SE).as_quat(canonical=True)
+        return cls(np.array([w, x, y, z]), np.zeros((3, 3)) if covariance is None else covariance)
 
     @property
     def R_SE(self) -> NDArray[np.float64]:

@@ -37,11 +37,17 @@ class Captured:
         With what was refused, and why.
     rows : int
         Of the recording.
+    warnings : tuple of str
+        What was noticed, in sentences.
+    delay : float or None
+        That was asked for or estimated, s; see `capture_recording`.
     """
 
     poses: tuple[PoseSample, ...]
     report: CaptureReport
     rows: int
+    warnings: tuple[str, ...] = ()
+    delay: float | None = None
 
 
 def capture_file(
@@ -93,10 +99,17 @@ def capture_file(
             rows_read += len(rows.numbers)
             if progress is not None:
                 progress(reader.bytes_read, size)
+    return captured(detector, rows_read)
+
+
+def captured(
+    detector: StillnessDetector, rows: int, warnings: tuple[str, ...] = (), delay: float | None = None
+) -> Captured:
+    """Return what a detector found in a recording that has ended."""
     detector.finish()
     report = CaptureReport(tuple(detector.captures), tuple(detector.rejected))
     poses = tuple(
         capture.to_pose(name=f"pose {number} at {capture.start:.1f} s")
         for number, capture in enumerate(report.captures, 1)
     )
-    return Captured(poses, report, rows_read)
+    return Captured(poses, report, rows, warnings, delay)

@@ -1,0 +1,290 @@
+"""``contactbench config ...``: the bundle that a robot's runtime loads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import MountOption, numbers
+from pipeline.console import JsonOption, print_json, say, show_tables
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.config.runtime.bench import ExportSettings
+    from pipeline.config.runtime.differ import Differences
+
+config_app = typer.Typer(
+    help="Export, check and compare the bundle that a robot's runtime loads.",
+    epilog="Example: contactbench config export bench-1 --out runtime.zip",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+_NOT_GOOD_ENOUGH = 1
+_SHOWN = 48
+
+BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file.")]
+
+
+@config_app.command(
+    help=(
+        "Write a bundle: from a session's newest calibration and probe, or from files.\n\n"
+        "What is not given for a session is what its settings config.* say, such as config.serial, as in the desktop"
+        " application; the same session then gives the same bytes.\n\n"
+        "Refused, with exit code 1, unless contacts were verified on markers with this calibration and probe, and"
+        " nothing that this rests on is stale. What was at --out stays until the new bundle is complete."
+    ),
+    epilog="Example: contactbench config export bench-1 --sensor M8128 --rate 1000 --out runtime.zip",
+)
+def export(
+    out: Annotated[Path, typer.Option(help="Folder to write, or a zip file if it ends in .zip.")],
+    session: Annotated[Path | None, typer.Argument(metavar="[SESSION]", help="Folder of a session.")] = None,
+    calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate.")] = None,
+    probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
+    verification: Annotated[Path | None, typer.Option(help="JSON file of verify.")] = None,
+    report: Annotated[Path | None, typer.Option(help="HTML report to put into it.")] = None,
+    sensor: Annotated[str | None, typer.Option(help="Model of the sensor [unknown].")] = None,
+    serial: Annotated[str | None, typer.Option(help="Its serial number [the one the session knows].")] = None,
+    rate: Annotated[
+        float | None, typer.Option(help="Readings a second, Hz [as verified, if the verification says it].")
+    ] = None,
+    mount: MountOption = None,
+    settings_file: Annotated[
+        Path | None,
+        typer.Option("--settings", help="JSON file with any of controller, limits, gates, filters."),
+    ] = None,
+    noise_force: Annotated[
+        float | None, typer.Option(help="Standard deviation of one reading, N [from the poses].")
+    ] = None,
+    noise_torque: Annotated[float | None, typer.Option(help="The same, N·m; both or none.")] = None,
+    cutoff: Annotated[float | None, typer.Option(help="Low-pass of the contact point, Hz [none].")] = None,
+    no_filter: Annotated[
+        bool | None, typer.Option("--no-filter/--filter", help="Do not filter the wrench [filter].")
+    ] = None,
+    saturation: Annotated[
+        str | None,
+        typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Where the channels end, N, N·m [none]."),
+    ] = None,
+    region_only: Annotated[
+        bool | None,
+        typer.Option("--region-only/--anywhere", help="Refuse contacts outside every region [anywhere]."),
+    ] = None,
+    max_force: Annotated[
+        float | None, typer.Option(help="What a controller must never exceed, N [30].")
+    ] = None,
+    max_torque: Annotated[float | None, typer.Option(help="The same, N·m [3].")] = None,
+    sensor_frame: Annotated[
+        str | None, typer.Option(help="Frame S, as the robot description names it [ft_sensor].")
+    ] = None,
+    world_frame: Annotated[str | None, typer.Option(help="Frame W, the same [base_link].")] = None,
+    operator: Annotated[
+        str | None, typer.Option(help="Who is answerable [who made the newest of the session's results].")
+    ] = None,
+    unverified: Annotated[
+        bool, typer.Option("--unverified", help="Write it all the same, and mark it: for trials only.")
+    ] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Write a bundle."""
+    files = _inputs(session, calibration, probe, verification, report)
+    from pipeline.calibration.files.calibration_file import creation_time
+    from pipeline.config.runtime import UnverifiedError
+    from pipeline.config.runtime.bench import export_from_files
+
+    if rate is None and cutoff is not None and session is None:
+        raise typer.BadParameter("--cutoff: give --rate too.")
+    given = {
+        "sensor": sensor, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
+        "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only, "max_force": max_force,
+        "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame, "operator": operator,
+        "mount": None if mount is None else numbers(mount, 3, "--mount"),
+        "saturation": None if saturation is None else numbers(saturation, 6, "--saturation"),
+    }  # fmt: skip
+    said = {name: value for name, value in given.items() if value is not None}
+    try:
+        if session is not None:
+            made = _of_session(session, said, settings_file, unverified)
+        else:
+            made = export_from_files(
+                *files,
+                verification,
+                report,
+                _settings({}, said, settings_file),
+                created=creation_time(),
+                unverified=unverified,
+            )
+    except UnverifiedError as error:
+        say(f"error: {error}", "red")
+        if as_json:
+            print_json({"error": str(error), "reasons": list(error.reasons)})
+        raise typer.Exit(_NOT_GOOD_ENOUGH) from None
+    made.write(out)
+    say(f"{out}: {len(made.probe.faces):,} facets, {_standing(made)}.")
+    _say_doubts(made)
+    if as_json:
+        print_json({"out": str(out), **_facts(made)})
+
+
+@config_app.command(
+    help="Load a bundle as a runtime does. Exit code 1: it is sound but not verified; 2: it is refused.",
+    epilog="Example: contactbench config check runtime.zip --json",
+)
+def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
+    """Load a bundle and say what it is."""
+    from pipeline.config.runtime import RuntimeConfig
+
+    found = RuntimeConfig.load(bundle)
+    model = found.model
+    say(
+        f"{bundle}: sound, version {model.version}, {_standing(found)}.",
+        "green" if model.verified else "yellow",
+    )
+    say(
+        f"For the {model.sensor.model} {model.sensor.serial} at {model.sensor.rate_Hz:g} Hz with the probe"
+        f" {model.probe.name} ({model.probe.facets:,} facets); made {model.provenance.created} by"
+        f" {model.provenance.operator}."
+    )
+    _say_doubts(found)
+    if as_json:
+        print_json({"bundle": str(bundle), **_facts(found)})
+    if not model.verified:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+@config_app.command(
+    help="Compare two bundles: the fields that differ, what that means, and how far the surfaces are apart.",
+    epilog="Example: contactbench config diff old.zip new.zip",
+)
+def diff(
+    one: Annotated[Path, typer.Argument(metavar="A", help="Folder or zip file.")],
+    other: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Compare two bundles."""
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.config.runtime.differ import differences
+
+    found = differences(RuntimeConfig.load(one), RuntimeConfig.load(other))
+    _show_differences(found)
+    if as_json:
+        print_json(found.to_json())
+
+
+@config_app.command(
+    help="Print the JSON Schema of contactbench.json on standard output.",
+    epilog="Example: contactbench config schema > runtime-config.schema.json",
+)
+def schema() -> None:
+    """Print the JSON Schema."""
+    from pipeline.config.runtime.canonical import json_schema
+
+    typer.echo(json_schema().decode(), nl=False)
+
+
+# ---- parts -------------------------------------------------------------------------------------
+
+
+def _inputs(
+    session: Path | None, calibration: Path | None, probe: Path | None, *others: Path | None
+) -> tuple[Path, Path]:
+    """Return calibration and probe; any paths if there is a session, which has its own."""
+    if session is not None:
+        if any(each is not None for each in (calibration, probe, *others)):
+            raise typer.BadParameter("give a session, or files, not both.")
+        return session, session
+    if calibration is None or probe is None:
+        raise typer.BadParameter("give a session, or both --calibration and --probe.")
+    return calibration, probe
+
+
+def _of_session(
+    folder: Path, given: Mapping[str, Any], settings_file: Path | None, unverified: bool
+) -> RuntimeConfig:
+    from pipeline.config.runtime.bench import export_from_session
+    from pipeline.session import Session
+
+    with Session.open(folder, write=False) as session:
+        settings = _settings(session.state.settings, given, settings_file)
+        return export_from_session(session, settings, unverified=unverified)
+
+
+def _settings(
+    stored: Mapping[str, Any], given: Mapping[str, Any], settings_file: Path | None
+) -> ExportSettings:
+    """Return settings: what was given, else what a session says; parts of a file take the place of both."""
+    from pipeline.config.runtime.options import ExportOptions
+    from pipeline.config.runtime.settings_file import with_file
+
+    settings = ExportOptions.stored(stored, given).settings()
+    if settings_file is None:
+        return settings
+    try:
+        with settings_file.open("rb") as stream:
+            data = stream.read(2**20 + 1)
+    except (OSError, ValueError) as error:
+        raise typer.BadParameter(f"--settings {settings_file}: the file cannot be read ({error}).") from None
+    return with_file(settings, data, str(settings_file))
+
+
+def _standing(config: RuntimeConfig) -> str:
+    part = config.model.verification
+    if config.model.verified and part is not None:
+        return (
+            f"verified on {part.markers} markers: {1e3 * part.mean_error_m:.2f} mm mean,"
+            f" {1e3 * part.max_error_m:.2f} mm largest error"
+        )
+    return "NOT VERIFIED"
+
+
+def _say_doubts(config: RuntimeConfig) -> None:
+    model = config.model
+    for reason in model.provenance.stale:
+        say(reason, "yellow")
+    if None in model.gates.saturation:
+        say(
+            "NO SATURATION LIMITS: a reading at the end of the sensor's range is taken for a touch: give --saturation,"
+            " or pass NaN for what the sensor flags.",
+            "yellow",
+        )
+    if model.frames.quaternion_ES is None:
+        say("No mounting: the orientations must be the sensor's own, as the calibration's were.", "yellow")
+    if model.verification is not None:
+        say(model.verification.diagnosis)
+
+
+def _facts(config: RuntimeConfig) -> dict[str, Any]:
+    model = config.model.to_json()
+    kept = ("schema", "version", "sensor", "probe", "regions", "verified", "verification", "provenance")
+    return {name: model[name] for name in kept}
+
+
+def _show_differences(found: Differences) -> None:
+    if found.same:
+        say("The two are the same.")
+        return
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None)
+    for heading in ("field", "A", "B", "what it is"):
+        table.add_column(heading, justify="left")
+    for each in found.fields:
+        table.add_row(Text(each.field), Text(_short(each.one)), Text(_short(each.other)), each.meaning)
+    show_tables(table)
+    for name in found.files:
+        say(f"{name} differs.")
+    if found.mesh is not None:
+        one, other = found.mesh["facets"]
+        say(
+            f"The surfaces, of {one:,} and {other:,} facets, are at most {found.mesh['hausdorff_mm']:.3g} mm apart,"
+            f" {found.mesh['rms_mm']:.2g} mm RMS."
+        )
+
+
+def _short(value: Any) -> str:
+    text = str(value)
+    return text if len(text) <= _SHOWN else f"{text[:_SHOWN]}…"

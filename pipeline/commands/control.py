@@ -1,0 +1,275 @@
+"""``contactbench control ...``: gains for a probe, and the closed loop of a bundle on a virtual robot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import MountOption, numbers
+from pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.control.command import Command
+    from pipeline.control.loop import Loop
+    from pipeline.control.settings import Variant
+    from pipeline.control.trace import Trace
+    from pipeline.simulation.scenes import PlatformMotion
+
+control_app = typer.Typer(
+    help="Motion control by touch, in simulation: tune it for a probe, run a bundle on a virtual robot.",
+    epilog="Example: contactbench control run runtime.zip --robot virtual://arm --motion in-plane --period 5",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+_NOT_GOOD_ENOUGH = 1
+_BEGIN_S = 4.0  # by then it tracks
+_END_S = 5.0  # it may take that long to go back
+_MOTIONS = {"none": None, "vertical": "z", "in-plane": "ry", "out-of-plane": "rx"}
+
+
+def variants_of(text: str) -> tuple[Variant, ...]:
+    """
+    Return what ``--variant`` names.
+
+    Raises
+    ------
+    InputError
+        There is none of that name.
+    """
+    from pipeline.control.settings import Variant
+
+    if text == "both":
+        return tuple(Variant)
+    if text not in set(map(str, Variant)):
+        raise InputError(f"--variant {text!r}: give plain, aware or both.")
+    return (Variant(text),)
+
+
+@control_app.command(
+    help=(
+        "Choose gains for a probe: the highest that leave wanted margins on tissue from five times softer to five times"
+        " stiffer.\n\n"
+        "The loop that is looked at has the averaged readings, the delay of a period, the servo's path, and the"
+        " controller that runs; the gains are then tried in simulation. Writes gains.json for config export"
+        " --settings, tables and a plot of the margins. A bundle has one gain for both turns: it gets the slower one."
+        " Exit code 1: a trial in simulation swung, or lost the tissue."
+    ),
+    epilog="Example: contactbench control tune --probe convex --stiffness 2000 --out gains",
+)
+def tune(
+    probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
+    stiffness: Annotated[
+        float | None, typer.Option(help="Of the usual tissue at the wanted force, N/m [soft tissue].")
+    ] = None,
+    scene: Annotated[str, typer.Option(metavar="platform|arm", help="Where it is tried.")] = "platform",
+    variant: Annotated[str, typer.Option(metavar="plain|aware", help="Which the gains are for.")] = "plain",
+    force: Annotated[float, typer.Option(help="Wanted force, N.")] = 7.0,
+    gain_margin: Annotated[float, typer.Option(help="Factor by which each loop may still grow.")] = 2.0,
+    phase_margin: Annotated[float, typer.Option(help="Degrees.")] = 30.0,
+    spread: Annotated[float, typer.Option(help="How many times softer or stiffer tissue may be.")] = 5.0,
+    seed: Annotated[int, typer.Option(help="Of load, calibration and noise of the trials.")] = 0,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("control-gains"),
+    as_json: JsonOption = False,
+) -> None:
+    """Choose gains."""
+    import math
+
+    from pipeline.control.tuning import Wanted
+    from pipeline.study.control_tuning import run as study
+
+    chosen = variants_of(variant)
+    if len(chosen) != 1:
+        raise InputError("--variant both: gains are for one of them: give plain or aware.")
+    with Bar("trying gains", counted=True) as bar:
+        result = study(
+            probe,
+            stiffness=stiffness,
+            scene=scene,
+            variant=chosen[0],
+            force=force,
+            wanted=Wanted(gain_margin, math.radians(phase_margin), spread),
+            seed=seed,
+            progress=bar,
+        )
+    result.write(out)
+    if as_json:
+        print_json(result.to_json())
+    else:
+        show_tables(*(sheet.table() for sheet in result.sheets), result.report.table())
+    say(f"Written to {out}: gains.json is for config export --settings.")
+    if not result.report.passed:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+@control_app.command(
+    help=(
+        "Load a bundle and run its controller on a virtual robot over a phantom that moves: approach, contact, track,"
+        " and back at the end.\n\n"
+        "Everything comes from the bundle: probe, calibration, noise, gates, gains, limits. Motion is never sent to a"
+        " real robot. Ctrl-C has it go back and end. Exit code 1: the force passed the limit, it gave up by itself, or"
+        " did not end in a safe state; 2: the bundle or the robot is refused."
+    ),
+    epilog="Example: contactbench control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv",
+)
+def run(
+    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
+    robot: Annotated[str, typer.Option(metavar="ADDRESS", help="virtual://arm or virtual://platform.")],
+    motion: Annotated[
+        str, typer.Option(metavar="none|vertical|in-plane|out-of-plane", help="Of the phantom.")
+    ] = "in-plane",
+    period: Annotated[float, typer.Option(help="Of that motion, s.")] = 10.0,
+    size: Annotated[float, typer.Option(help="Of that motion, mm or degrees.")] = 10.0,
+    seconds: Annotated[float, typer.Option(help="How long until it goes back, s.")] = 15.0,
+    variant: Annotated[
+        str, typer.Option(metavar="plain|aware", help="The paper's control, or with the motion led.")
+    ] = "aware",
+    method: Annotated[str, typer.Option(help="That locates contacts.")] = "contactbench",
+    stiffness: Annotated[
+        float | None, typer.Option(help="Of the phantom at the wanted force, N/m [soft tissue].")
+    ] = None,
+    friction: Annotated[float, typer.Option(help="Of the phantom.")] = 0.1,
+    mount: MountOption = None,
+    seed: Annotated[int, typer.Option(help="Of noise, and of what the calibration leaves.")] = 0,
+    real_time: Annotated[bool, typer.Option("--real-time", help="No faster than the clock.")] = False,
+    unverified: Annotated[
+        bool, typer.Option("--unverified", help="Also a bundle that is not verified.")
+    ] = False,
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the course.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Run a bundle's controller on a virtual robot."""
+    from pipeline.commands.record import ended_by_signals
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.config.runtime.mounts import mount_of_angles
+    from pipeline.control.loop import run_loop
+    from pipeline.control.virtual import check_address, virtual_robot
+    from pipeline.durable import write_durably
+    from pipeline.runtime.run import check_runnable
+
+    check_address(robot)
+    if not 1 <= seconds <= 3000:
+        raise InputError(f"--seconds {seconds:g}: give 1 to 3000.")
+    chosen = variants_of(variant)
+    config = RuntimeConfig.load(bundle)
+    check_runnable(config, unverified=unverified)
+    made = virtual_robot(
+        config,
+        robot,
+        variant=chosen[-1],
+        method=method,
+        motion=_motion(motion, size, period),
+        stiffness=stiffness,
+        friction=friction,
+        quaternion_ES=mount_of_angles(None if mount is None else numbers(mount, 3, "--mount")),
+        seed=seed,
+    )
+    with ended_by_signals() as ended:
+
+        def watch(command: Command, loop: Loop) -> None:
+            if command.change is not None:
+                change = command.change
+                say(f"{change.time:7.2f} s  {change.before} -> {change.after}: {change.reason}")
+            if ended.is_set():
+                loop.controller.stop()
+
+        paced = _paced(watch) if real_time else watch
+        trace = run_loop(
+            made.scene, made.controller, made.sensor, seconds + _END_S, stop_after=seconds, watch=paced
+        )
+    if out is not None:
+        try:
+            write_durably(out, trace.csv().encode())
+        except (OSError, ValueError) as error:
+            raise InputError(f"{out}: cannot be written ({error}); choose another --out") from error
+    facts = _facts(config, trace)
+    _tell(facts)
+    if as_json:
+        print_json(facts)
+    if facts["faults"]:
+        raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _motion(name: str, size: float, period: float) -> PlatformMotion | None:
+    import math
+
+    from pipeline.simulation.scenes import PlatformMotion
+
+    if name not in _MOTIONS:
+        raise InputError(f"--motion {name!r}: give one of {', '.join(_MOTIONS)}.")
+    axis = _MOTIONS[name]
+    if axis is None:
+        return None
+    if not (0 <= size <= 30 and 0.5 <= period <= 1000):
+        raise InputError(
+            f"--size {size:g}, --period {period:g}: give 0 to 30 mm or degrees, and 0.5 to 1000 s."
+        )
+    return PlatformMotion.along(axis, size / 1000 if axis == "z" else math.radians(size), period, _BEGIN_S)
+
+
+def _paced(watch: Callable[[Command, Loop], None]) -> Callable[[Command, Loop], None]:
+    """Hold the loop back to the clock."""
+    import time
+
+    begin = time.monotonic()
+
+    def paced(command: Command, loop: Loop) -> None:
+        watch(command, loop)
+        time.sleep(max(begin + loop.scene.time - time.monotonic(), 0.0))
+
+    return paced
+
+
+def _facts(config: RuntimeConfig, trace: Trace) -> dict[str, Any]:
+    import numpy as np
+
+    from pipeline.control.states import State
+
+    limit = config.model.limits.max_force_N
+    tracking = trace.was(State.TRACK)
+    faults = []
+    if (peak := float(trace.peak.max())) > limit:
+        faults.append(f"the force reached {peak:.1f} N, over the limit of {limit:g} N.")
+    if trace.ended is not State.SAFE:
+        faults.append(f"it ended in the state {trace.ended}, not safe.")
+    back = [each for each in trace.changes if each.after is State.RETRACT]
+    if back and "stopped" not in back[0].reason:
+        faults.append(f"it gave up after {back[0].time:.1f} s: {back[0].reason}")
+    elif not tracking.any():
+        faults.append("it never tracked.")
+    degrees = np.degrees(np.abs(trace.angles[tracking]))
+    force = trace.force[tracking]
+    return {
+        "seconds": float(trace.time[-1]),
+        "tracked_s": float(tracking.sum() * (trace.time[1] - trace.time[0])) if len(trace) > 1 else 0.0,
+        "force_N": [float(force.min()), float(force.max())] if len(force) else None,
+        "peak_N": peak,
+        "limit_N": limit,
+        "angle_error_deg": [float(each) for each in degrees.mean(axis=0)] if len(force) else None,
+        "step_p99_ms": float(1e3 * np.percentile(trace.step_s, 99)),
+        "ended": str(trace.ended),
+        "states": [
+            {"time_s": c.time, "from": str(c.before), "to": str(c.after), "reason": c.reason}
+            for c in trace.changes
+        ],
+        "faults": faults,
+    }
+
+
+def _tell(facts: dict[str, Any]) -> None:
+    if facts["force_N"]:
+        low, high = facts["force_N"]
+        within, out = facts["angle_error_deg"]
+        say(
+            f"Tracked for {facts['tracked_s']:.1f} s: {low:.2f} to {high:.2f} N, mean angle error {within:.2f} degrees"
+            f" in plane, {out:.2f} out of plane; largest force {facts['peak_N']:.1f} N of {facts['limit_N']:g} N."
+        )
+    say(f"Ended {facts['ended']} after {facts['seconds']:.1f} s.")
+    for fault in facts["faults"]:
+        say(f"Fault: {fault}", "red")

@@ -1,0 +1,304 @@
+"""``contactbench heatmap``: what happened where on the probe."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pipeline.commands.options import MountOption, refuse_overwriting
+from pipeline.console import Bar, JsonOption, print_json, say
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from pipeline.heatmap import Heatmap
+    from pipeline.heatmap.contacts import Contacts
+    from pipeline.heatmap.windowing import Selection
+    from pipeline.mesh.sidecar import ProbeFile
+
+heatmap_app = typer.Typer(rich_markup_mode=None)
+
+_SUFFIXES = (".png", ".ply", ".glb")
+_FILMS = (".mp4", ".gif")
+
+
+class QuantityName(StrEnum):
+    """What to show."""
+
+    density = "density"
+    force = "force"
+    peak = "peak"
+    error = "error"
+    uncertainty = "uncertainty"
+
+
+class NormalisationName(StrEnum):
+    """What the integral of a density over the surface is."""
+
+    contacts = "contacts"
+    seconds = "seconds"
+    rate = "rate"
+
+
+@heatmap_app.command(
+    help=(
+        "Show on the probe's surface where it was touched: how often, how hard, how surely, how wrongly.\n\n"
+        "CONTACTS is a recording (.mcap; with --calibration), what contactbench locate wrote (.csv), what contactbench"
+        " verify wrote (.json), or the folder of a session: its newest recording or, for errors, verification. Errors"
+        " are those of accepted touches, or of samples whose force is steady. Each contact is spread by a Gaussian of"
+        " the distance along the surface; beyond three bandwidths there is no data. The integral of a density over the"
+        " surface is the number of contacts, their seconds, or contacts per second."
+        " The peak is the largest force within one bandwidth. A film, .mp4 or .gif, shows it as time goes by."
+    ),
+    epilog="Example: contactbench heatmap scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png",
+)
+def heatmap(
+    contacts: Annotated[
+        Path,
+        typer.Argument(
+            metavar="CONTACTS", help="Recording, CSV of contacts, verification, or folder of a session."
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option(
+            help="File to write: .png, .ply or .glb with the value at each vertex, or a film: .mp4 or .gif."
+        ),
+    ],
+    probe: Annotated[
+        Path | None,
+        typer.Option(help="Probe that contactbench prepared, .ply [in a session: its newest]."),
+    ] = None,
+    calibration: Annotated[
+        Path | None, typer.Option(help="For a recording: what contactbench calibrate wrote.")
+    ] = None,
+    quantity: Annotated[QuantityName, typer.Option(help="What to show.")] = QuantityName.density,
+    bandwidth: Annotated[
+        float | None,
+        typer.Option(
+            help="Standard deviation of the Gaussian, mm [the contacts' own uncertainty, 1.5 at least]."
+        ),
+    ] = None,
+    normalisation: Annotated[
+        NormalisationName, typer.Option("--per", help="What a density adds up to over the surface.")
+    ] = NormalisationName.contacts,
+    wrenches: Annotated[
+        Path | None,
+        typer.Option(help="For a CSV of contacts: the wrenches they were located from, for forces."),
+    ] = None,
+    markers: Annotated[
+        Path | None,
+        typer.Option(help="For the error: CSV with x_mm,y_mm,z_mm of the points that were touched."),
+    ] = None,
+    marker_distance: Annotated[
+        float, typer.Option(help="A contact further than this from every marker touched none, mm.")
+    ] = 10.0,
+    mount: MountOption = None,
+    delay: Annotated[float, typer.Option(help="How much later a wrench is heard than its pose, s.")] = 0.0,
+    min_force: Annotated[float, typer.Option(help="A recording's touches are above this, N.")] = 0.5,
+    start: Annotated[
+        float | None, typer.Option("--from", help="Only contacts from here on, s after the first sample.")
+    ] = None,
+    end: Annotated[
+        float | None, typer.Option("--to", help="Only contacts up to here, s after the first sample.")
+    ] = None,
+    least_force: Annotated[
+        float | None, typer.Option("--force-from", help="Only contacts with this force or more, N.")
+    ] = None,
+    most_force: Annotated[
+        float | None, typer.Option("--force-to", help="Only contacts with this force or less, N.")
+    ] = None,
+    speed: Annotated[
+        float, typer.Option(help="Of a film: seconds of contacts in each second of it, 0.1 to 50.")
+    ] = 1.0,
+    last: Annotated[
+        float | None,
+        typer.Option(help="Of a film: only the last seconds are shown [what was touched stays], s."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Show where on the probe what happened."""
+    kind = out.suffix.lower()
+    if kind not in (*_SUFFIXES, *_FILMS):
+        raise typer.BadParameter(f"--out {out}: name a file that ends in .png, .ply, .glb, .mp4 or .gif.")
+    if last is not None and kind not in _FILMS:
+        raise typer.BadParameter(
+            "--last is for a film: name a file that ends in .mp4 or .gif, or give --from."
+        )
+    judged = quantity is QuantityName.error and markers is None
+    given = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
+    refuse_overwriting(out, given)
+    from pipeline.commands.heatmap_inputs import chosen, found_contacts, probe_in_sensor_frame
+    from pipeline.heatmap.windowing import Selection, windowed
+
+    metres = None if bandwidth is None else bandwidth / 1000
+    selection = Selection(quantity.value, normalisation.value, metres, start, end, least_force, most_force)
+    with chosen(contacts, probe, calibration, judged=judged) as files:
+        content = probe_in_sensor_frame(files.probe)
+        found = found_contacts(files, content, wrenches, mount, delay, min_force)
+        part = windowed(found, selection)
+        made, left_out, notes = _made(part, content, selection, markers, marker_distance)
+    for sentence in notes:
+        say(f"warning: {sentence}", "yellow")
+    if kind in _FILMS:
+        _write_film(found, content, selection, markers, marker_distance, out, speed, last)
+    else:
+        _write(made, out)
+    _say(made, out, left_out)
+    if as_json:
+        facts = {"out": str(out), **made.facts(), "left_out": left_out, "warnings": notes}
+        print_json({**facts, "noise": _noise(found)})
+
+
+def _noise(found: Contacts) -> dict[str, list[float]] | None:
+    """Return what uncertainties follow from, the calibration's share too; None: the contacts came with theirs."""
+    if found.noise is None:
+        return None
+    sigma = found.noise.covariance.diagonal() ** 0.5
+    return {"force_N": sigma[:3].tolist(), "torque_Nm": sigma[3:].tolist()}
+
+
+def _say(made: Heatmap, out: Path, left_out: dict[str, int]) -> None:
+    say(
+        f"{out}: {made.title}, {made.contacts:,} {made.counted}, largest {made.largest:.3g} {made.unit}, bandwidth"
+        f" {1e3 * made.bandwidth:.3g} mm"
+    )
+    if left_out:
+        said = ", ".join(f"{why} ({count:,})" for why, count in left_out.items())
+        say(f"left out of {made.contacts + sum(left_out.values()):,} {made.counted}: {said}")
+
+
+def _made(
+    found: Contacts,
+    content: ProbeFile,
+    selection: Selection,
+    markers: Path | None,
+    marker_distance: float,
+) -> tuple[Heatmap, dict[str, int], list[str]]:
+    """Return the heatmap, how many were left out for which reason, and what is to be said of it."""
+    from pipeline.heatmap.windowing import drawn
+
+    left_out, notes = dict(found.left_out), list(found.notes)
+    values, use = _values(found, selection, markers, marker_distance, left_out, notes)
+    made = drawn(content.probe, found, selection, values, use)
+    return made, left_out, [*notes, *made.notes]
+
+
+def _values(
+    found: Contacts,
+    selection: Selection,
+    markers: Path | None,
+    marker_distance: float,
+    left_out: dict[str, int],
+    notes: list[str],
+) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_]]:
+    """Return what each contact (n,) has of the quantity, and which of them (n,) count."""
+    from pipeline.heatmap.windowing import shown
+
+    if selection.quantity in (QuantityName.force, QuantityName.peak) and found.forces is None:
+        raise typer.BadParameter(f"--quantity {selection.quantity} needs the forces: give --wrenches.")
+    if selection.quantity == QuantityName.error:
+        return _errors(found, markers, marker_distance, left_out, notes)
+    values, use = shown(found, selection)
+    _count(left_out, "uncertainty unknown", ~use)
+    return values, use
+
+
+def _write_film(
+    found: Contacts,
+    content: ProbeFile,
+    selection: Selection,
+    markers: Path | None,
+    marker_distance: float,
+    out: Path,
+    speed: float,
+    last: float | None,
+) -> None:
+    from dataclasses import replace
+
+    import numpy as np
+
+    from pipeline.heatmap.film import FilmSettings, write_film
+    from pipeline.heatmap.playback import Playback
+    from pipeline.heatmap.windowing import in_order
+
+    if selection.quantity == QuantityName.error:
+        errors, use = _errors(found, markers, marker_distance, {}, [])
+        found = replace(found, known_errors=np.where(use, errors, np.nan))
+    playback = Playback(content.probe, in_order(found), selection.bandwidth)
+    with Bar("drawing") as bar:
+        write_film(
+            out,
+            playback,
+            selection,
+            FilmSettings(speed, last),
+            progress=lambda share: bar(round(1000 * share), 1000),
+        )
+
+
+def _errors(
+    found: Contacts, markers: Path | None, most: float, left_out: dict[str, int], notes: list[str]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the errors (n,), m, and which of them (n,) count: those of touches, or of settled samples at a marker."""
+    import numpy as np
+
+    from pipeline.heatmap import HeatmapError
+    from pipeline.heatmap.contacts import read_points
+
+    if found.known_errors is not None:
+        if markers is not None:
+            raise typer.BadParameter("--markers is not for a verification: it knows what was touched.")
+        return found.known_errors, np.ones(len(found.points), dtype=bool)
+    if markers is None:
+        raise typer.BadParameter(
+            "--quantity error needs the points that were touched: give --markers, or a verification instead of the"
+            " contacts."
+        )
+    errors, near = found.errors(read_points(markers), most / 1000)
+    if found.settled is None:
+        notes.append("The forces are unknown, so samples count that had not settled: give --wrenches.")
+        steady = np.ones(len(near), dtype=bool)
+    else:
+        steady = found.settled
+    _count(left_out, "not settled", ~steady)
+    _count(left_out, f"further than {most:g} mm from every marker", steady & ~near)
+    if far := int((steady & ~near).sum()):
+        notes.append(
+            f"{far:,} of {int(steady.sum()):,} samples are further than {most:g} mm from every marker and not in the"
+            " map: they may be the worst. A verification knows which marker was touched."
+        )
+    if not (steady & near).any():
+        raise HeatmapError(
+            f"no settled sample is within {most:g} mm of a marker: check --markers (mm, sensor frame S), or give what"
+            " `contactbench verify` wrote."
+        )
+    return errors, steady & near
+
+
+def _count(left_out: dict[str, int], why: str, which: NDArray[np.bool_]) -> None:
+    if count := int(which.sum()):
+        left_out[why] = left_out.get(why, 0) + count
+
+
+def _write(made: Heatmap, out: Path) -> None:
+    from pipeline.durable import write_durably
+    from pipeline.errors import InputError
+    from pipeline.heatmap.files import encode_glb, encode_ply
+
+    kind = out.suffix.lower()
+    if kind == ".png":
+        from pipeline.heatmap.picture import encode_png
+
+        data = encode_png(made)
+    else:
+        data = encode_glb(made) if kind == ".glb" else encode_ply(made)
+    try:
+        write_durably(out, data)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{out}: the heatmap cannot be written ({error}): choose a folder that exists and is writable."
+        ) from error

@@ -1,0 +1,240 @@
+"""``contactbench run``: a runtime config on live streams."""
+
+from __future__ import annotations
+
+import math
+import queue
+import time
+from contextlib import ExitStack, suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pipeline.commands.record import broken, ended_by_signals
+from pipeline.console import say
+
+if TYPE_CHECKING:
+    import threading
+
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.devices.drive import Health
+    from pipeline.recording import RecordingInfo
+    from pipeline.runtime import Run
+    from pipeline.runtime.outlet import Target
+    from pipeline.streams import Pair
+
+run_app = typer.Typer(rich_markup_mode=None)
+
+_LOOK_S = 0.05
+_STEPS = 500  # samples between looks at Ctrl-C
+_SETTLED_S = 2.0  # a rate is known after that
+
+
+@run_app.command(
+    help=(
+        "Load a bundle and say at every sample where the probe is touched, until Ctrl-C, for some seconds, or to the"
+        " end of a replay.\n\n"
+        "Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given. A sample takes the"
+        " newest pose that is not later than itself, live as in a replay; without one younger than the bundle's"
+        " max_age_s its reason is stale. A typed pose (still://) never gets old. An output that is too slow loses"
+        " contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came, a stream failed,"
+        " or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
+    ),
+    epilog="Example: contactbench run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2"
+    " --udp 127.0.0.1:9000",
+)
+def run(
+    bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
+    sensor: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the force/torque sensor, or a replay.")],
+    pose: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Of the robot's flange: elfin+tcp://, ur+tcp://, the same replay:// address, poses:///file.csv,"
+            " still://?rpy=0,90,0 (degrees).",
+        ),
+    ],
+    out: Annotated[
+        str | None, typer.Option(metavar="FILE|-", help="New file for the lines; - is standard output.")
+    ] = None,
+    mcap: Annotated[Path | None, typer.Option(help="New MCAP file for the contacts.")] = None,
+    udp: Annotated[
+        str | None, typer.Option(metavar="HOST:PORT", help="Send each contact there as a datagram.")
+    ] = None,
+    seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
+    unverified: Annotated[
+        bool, typer.Option("--unverified", help="Also a bundle that is not verified.")
+    ] = False,
+    other_sensor: Annotated[
+        bool, typer.Option("--other-sensor", help="Also with a sensor of another serial number.")
+    ] = False,
+    allow_remote: Annotated[
+        bool, typer.Option("--allow-remote", help="Datagrams may go to another machine, unprotected.")
+    ] = False,
+) -> None:
+    """Run a runtime config on live streams."""
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.devices.url import DeviceAddress
+    from pipeline.runtime import Outlet, OutputError, Run
+    from pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
+    from pipeline.streams import open_pair
+
+    if seconds is not None and not 0 < seconds < 1e6:
+        raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
+    config = RuntimeConfig.load(bundle)
+    check_runnable(config, unverified=unverified)
+    runner: Run
+    # Said in the main thread: a terminal that hangs must not hang the sensor.
+    changes: queue.SimpleQueue[tuple[str, Health]] = queue.SimpleQueue()
+    poses = DeviceAddress.parse(pose)
+    pair = open_pair(
+        sensor,
+        poses,
+        lambda samples: runner.wrenches(samples),
+        lambda samples: runner.poses(samples),
+        lambda health: changes.put(("sensor", health)),
+        lambda health: changes.put(("robot", health)),
+    )
+    with ended_by_signals() as ended, ExitStack() as stack:
+        stack.callback(pair.stop)  # a replay has its file open before it begins
+        check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
+        targets = _targets(out, mcap, udp, pair.about(), allow_remote=allow_remote)
+        outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
+        runner = Run(config, outlets, hold=hold_for(poses))
+        _say_begin(config, pair)
+        with responsive(), runner, pair:
+            _wait(pair, runner, config, changes, seconds, ended)
+    _say_changes(changes)
+    _say_end(config, pair, runner)
+    for outlet in outlets:
+        if outlet.error is not None and not outlet.gone:
+            # A new one: the thread of an output that hangs would keep this frame, and with it the kernel, for ever.
+            raise OutputError(str(outlet.error))
+    if broken(pair) or not runner.reasons:
+        raise typer.Exit(1)
+
+
+def _targets(
+    out: str | None, mcap: Path | None, udp: str | None, about: RecordingInfo, *, allow_remote: bool
+) -> list[Target]:
+    from pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
+
+    targets: list[Target] = []
+    try:
+        if udp is not None:
+            targets.append(UdpTarget(udp, remote=allow_remote))
+        if out == "-" or (out is None and mcap is None and udp is None):
+            targets.append(LineTarget("standard output", _standard_output()))
+        elif out is not None:
+            targets.append(LineTarget.new(Path(out)))
+        if mcap is not None:
+            targets.append(McapTarget(mcap, about))
+    except BaseException:
+        for target in targets:
+            target.close()
+        raise
+    return targets
+
+
+def _standard_output() -> int:
+    """Return a descriptor of its own: closing it leaves standard output open."""
+    import os
+    import sys
+
+    sys.stdout.flush()
+    return os.dup(sys.stdout.fileno())
+
+
+# ---- while it runs -----------------------------------------------------------------------------
+
+
+def _wait(
+    pair: Pair,
+    runner: Run,
+    config: RuntimeConfig,
+    changes: queue.SimpleQueue[tuple[str, Health]],
+    seconds: float | None,
+    ended: threading.Event,
+) -> None:
+    """Wait until the time or the source is over, a stream or an output has failed, or `ended` is set."""
+    begun = time.monotonic()
+    deadline = math.inf if seconds is None else begun + seconds
+    settled, slow = False, set[str]()
+    while not (
+        pair.finished or broken(pair) or ended.is_set() or any(o.failed.is_set() for o in runner.outlets)
+    ):
+        now = time.monotonic()
+        if now >= deadline:
+            return
+        _say_changes(changes)
+        for outlet in runner.outlets:
+            if outlet.lost and outlet.name not in slow:
+                slow.add(outlet.name)
+                _say(
+                    f"{outlet.name}: too slow, contacts are not published there; they are counted.", "yellow"
+                )
+        if not settled and now - begun > _SETTLED_S:
+            settled = True  # said early, not only at the end
+            _say_rate(config, pair)
+        if pair.stepwise:
+            pair.step(_STEPS)
+        else:
+            ended.wait(min(deadline - now, _LOOK_S))
+
+
+def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
+    from pipeline.runtime.run import sensor_warnings
+
+    model = config.model
+    known = pair.about().devices[0]
+    say(
+        f"{model.probe.name}: {model.probe.facets:,} facets, {'verified' if model.verified else 'NOT VERIFIED'},"
+        f" exported {model.provenance.created}.",
+        "" if model.verified else "red",
+    )
+    for words in sensor_warnings(config, known.model, known.serial):
+        say(words, "yellow")
+    if model.frames.quaternion_ES is None:
+        say(
+            "The bundle does not know the mounting: poses are taken for those of the sensor itself.", "yellow"
+        )
+
+
+def _say_rate(config: RuntimeConfig, pair: Pair) -> None:
+    from pipeline.runtime.run import rate_warning
+
+    words = rate_warning(config, pair.sensor.health.rate)
+    if words is not None:
+        _say(words, "yellow")
+
+
+def _say_changes(changes: queue.SimpleQueue[tuple[str, Health]]) -> None:
+    with suppress(queue.Empty):
+        while True:
+            device, health = changes.get_nowait()
+            found = " ".join((*health.findings, *health.suspicions))
+            words = f"{device}: {health.state}"
+            _say(f"{words}: {found}" if found else words, "yellow" if found else "")
+
+
+def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
+    _say_rate(config, pair)
+    for device, stream in zip(("sensor", "robot"), pair.streams, strict=False):
+        health = stream.health
+        rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"
+        _say(f"{device}: {health.samples:,} samples at {rate}; lost {health.counters.lost}.")
+        if health.failure is not None:
+            _say(f"{device}: {health.failure}", "red")
+    counted = ", ".join(f"{reason} {count:,}" for reason, count in runner.reasons.most_common())
+    _say(f"located: {sum(runner.reasons.values()):,} samples: {counted or 'none'}.")
+    for outlet in runner.outlets:
+        _say(
+            f"{outlet.name}: {outlet.published:,} contacts published, {outlet.lost:,} not.",
+            "yellow" if outlet.lost else "",
+        )
+
+
+def _say(text: str, style: str = "") -> None:
+    with suppress(OSError, SystemExit):  # a closed terminal is no reason to stop
+        say(text, style)

@@ -1,0 +1,261 @@
+"""``contactbench verify`` and ``contactbench markers ...``: tell whether the contact point is right."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pipeline.commands.options import (
+    EulerOption,
+    InverseOption,
+    MountOption,
+    RadiansOption,
+    VectorOption,
+    convention,
+    numbers,
+    refuse_overwriting,
+)
+from pipeline.console import JsonOption, print_json, say, show_tables
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rich.table import Table
+
+    from pipeline.verification import Verification
+    from pipeline.verification.figures import Summary
+
+_FAILED = 1
+
+verify_app = typer.Typer(rich_markup_mode=None)
+markers_app = typer.Typer(
+    help="Make markers for a probe, and move them onto its surface.",
+    epilog="Example: contactbench markers generate probe.ply --region 1 --count 17 --out markers.csv",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+ProbeArgument = Annotated[Path, typer.Argument(metavar="PROBE", help="The probe, aligned with the sensor.")]
+MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z_mm, sensor frame.")]
+
+
+@verify_app.command(
+    help=(
+        "Find the touches of markers in a recording, and judge how far the contact points are off.\n\n"
+        "RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw"
+        " readings) and orientations, as for compensate. Every press is accepted or rejected, with the reason. The file"
+        " of --out is the same for the same input, but for the times of solves (times, and what the verdict says of"
+        " them).\n\n"
+        "Exit code 1: a limit is not kept, or markers are missing. Needs no hardware."
+    ),
+    epilog="Example: contactbench verify --probe probe.ply --calibration calibration.json --markers markers.csv"
+    " touches.mcap",
+)
+def verify(
+    recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="Touches: .mcap or .csv.")],
+    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
+    calibration: Annotated[Path, typer.Option(help="What contactbench calibrate wrote.")],
+    markers: Annotated[Path, typer.Option(help="CSV file: name,x_mm,y_mm,z_mm, sensor frame.")],
+    force: Annotated[
+        list[str] | None,
+        typer.Option(metavar="LOW,HIGH", help="Force window, N; several if repeated [8,10]."),
+    ] = None,
+    touch_force: Annotated[
+        float | None, typer.Option(help="A touch begins at this |F|, N [2, less for windows below].")
+    ] = None,
+    release_force: Annotated[
+        float | None, typer.Option(help="A touch ends below this |F|, N [1, less for windows below].")
+    ] = None,
+    samples: Annotated[int, typer.Option(help="Samples of each touch, once it has settled.")] = 50,
+    repeats: Annotated[int, typer.Option(help="Accepted touches wanted of each marker.")] = 1,
+    order: Annotated[
+        str | None,
+        typer.Option(metavar="NAME,...", help="Markers in the order they must be touched in [any]."),
+    ] = None,
+    limit_mean: Annotated[float, typer.Option(help="Largest mean error, mm.")] = 1.0,
+    limit_max: Annotated[float, typer.Option(help="Largest error, mm.")] = 2.0,
+    limit_time: Annotated[float, typer.Option(help="Largest p99 of the time of a solve, ms.")] = 1.0,
+    noise_force: Annotated[
+        float | None, typer.Option(help="Standard deviation of a sample, N [measured in the touches].")
+    ] = None,
+    noise_torque: Annotated[float | None, typer.Option(help="The same of a torque, N·m.")] = None,
+    reference: Annotated[
+        Path | None, typer.Option(help="CSV file t,force of a reference sensor (s, N).")
+    ] = None,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    mount: MountOption = None,
+    seed: Annotated[int, typer.Option(help="Seed of the bootstrap.")] = 0,
+    out: Annotated[Path | None, typer.Option(help="Also write everything to this file, JSON.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Judge contact points by touches of markers."""
+    inputs = {"probe": probe, "calibration": calibration, "markers": markers, "recording": recording}
+    if reference is not None:
+        inputs["reference"] = reference
+    refuse_overwriting(out, list(inputs.values()))
+    convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
+    from pipeline.verification.result import VerificationParameters, verify_files
+
+    windows = [numbers(text, 2, "--force") for text in force or ["8,10"]]
+    angles = None if mount is None else numbers(mount, 3, "--mount")
+    given = VerificationParameters.checked(
+        {
+            "name": "verification.json" if out is None else out.name,
+            "windows": windows,
+            "touch_force": touch_force,
+            "release_force": release_force,
+            "samples": samples,
+            "repeats": repeats,
+            "order": () if order is None else [name.strip() for name in order.split(",")],
+            "mean_limit_mm": limit_mean,
+            "max_limit_mm": limit_max,
+            "p99_limit_s": limit_time / 1e3,
+            "noise_force": noise_force,
+            "noise_torque": noise_torque,
+            "euler": euler,
+            "rotation_vector": rotation_vector,
+            "radians": radians,
+            "inverse": inverse,
+            "mount": angles,
+            "seed": seed,
+        },
+    )
+    found = verify_files(inputs, given, timed=True)
+    if out is not None:
+        _write(out, found.to_bytes())
+    _show(found)
+    if as_json:
+        print_json(found.to_json())
+    if not found.verdict.passed:
+        raise typer.Exit(_FAILED)
+
+
+@markers_app.command(
+    epilog="Example: contactbench markers generate probe.ply --all --count 17 --out markers.csv"
+)
+def generate(
+    probe: ProbeArgument,
+    out: MarkersOut,
+    region: Annotated[int | None, typer.Option(help="Only on the region of this rank.")] = None,
+    everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
+    count: Annotated[int, typer.Option(help="How many, spread evenly.")] = 17,
+    grid: Annotated[float | None, typer.Option(help="Instead: on a grid of this pitch, mm.")] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Place markers on a probe, spread evenly or on a grid; the same ones on every call."""
+    if (region is None) != everywhere:
+        raise typer.BadParameter("say where: --region N or --all, one of them.")
+    refuse_overwriting(out, [probe])
+    from pipeline.verification import grid_markers, spread_markers
+    from pipeline.verification.result import load_surface
+
+    surface = load_surface(probe)
+    made = (
+        spread_markers(surface, count, region) if grid is None else grid_markers(surface, grid / 1e3, region)
+    )
+    made.save(out)
+    say(f"{len(made)} markers written to {out}.", "green")
+    if as_json:
+        print_json({"markers": len(made), "file": str(out)})
+
+
+@markers_app.command(
+    epilog="Example: contactbench markers snap measured.csv --probe probe.ply --out markers.csv"
+)
+def snap(
+    markers: Annotated[Path, typer.Argument(metavar="MARKERS", help="CSV file: name,x_mm,y_mm,z_mm.")],
+    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
+    out: MarkersOut,
+    limit: Annotated[float, typer.Option(help="Refuse markers further from the surface, mm.")] = 5.0,
+    as_json: JsonOption = False,
+) -> None:
+    """Move markers to the nearest points of a probe's surface, and tell how far each was from it."""
+    refuse_overwriting(out, [markers, probe])
+    from pipeline.verification import load_markers
+    from pipeline.verification import snap as snapped
+    from pipeline.verification.result import load_surface
+
+    found = snapped(load_markers(markers), load_surface(probe), limit / 1e3)
+    found.markers.save(out)
+    moved = dict(zip(found.markers.names, (1e3 * found.distances).tolist(), strict=True))
+    for name, distance in moved.items():
+        say(f"{name}: moved by {distance:.3f} mm")
+    if as_json:
+        print_json({"markers": len(moved), "file": str(out), "moved_mm": moved})
+
+
+# ---- helpers -----------------------------------------------------------------------------------
+
+
+def _write(out: Path, data: bytes) -> None:
+    from pipeline.durable import write_durably
+    from pipeline.errors import InputError
+
+    try:
+        write_durably(out, data)
+    except (OSError, ValueError) as error:
+        raise InputError(f"{out}: cannot be written ({error}): choose another place.") from error
+
+
+def _show(found: Verification) -> None:
+    for sentence in found.warnings:
+        say(f"warning: {sentence}", "yellow")
+    tables = [_table("Errors per marker", found.per_marker), _table("Errors", _groups(found))]
+    show_tables(*tables)
+    for reason, count in found.rejected.items():
+        say(f"rejected: {count} x {reason}", "yellow")
+    if found.unresolved is not None:
+        lost = found.unresolved
+        say(f"settled touches without a marker: {lost.touches} of {lost.settled} ({100 * lost.share:.0f} %)")
+    if found.ci is not None:
+        low, high = found.ci.mean_mm
+        say(f"mean error between {low:.2f} and {high:.2f} mm (95 %)")
+    if found.ratio is not None:
+        say(f"error over what noise and calibration predict: {found.ratio:.1f}")
+    if found.times is not None:
+        say(f"a solve takes {1e6 * found.times.median_s:.1f} µs, p99 {1e6 * found.times.p99_s:.1f} µs")
+    if found.force is not None:
+        size = f"{found.force.mean_N:+.2f} ± {found.force.sd_N:.2f} N"
+        say(f"force against the reference: {size} ({found.force.touches} touches)")
+    refined = found.alignment_refined
+    if refined is not None:
+        say(
+            f"alignment refined on {len(refined.fitted)} markers: on the other {len(refined.judged)} the mean error"
+            f" goes from {refined.judged_before_mm:.2f} to {refined.judged_after_mm:.2f} mm"
+        )
+    if found.diagnosis is not None:
+        say(found.diagnosis.text)
+    for note in found.verdict.notes:
+        say(note, "yellow")
+    if found.verdict.passed:
+        say("passed", "green")
+    else:
+        say(f"FAILED: {'; '.join(found.verdict.reasons)}.", "red")
+
+
+def _groups(found: Verification) -> Sequence[Summary]:
+    overall = () if found.overall is None else (found.overall,)
+    return (*found.per_force, *found.per_angle, *overall)
+
+
+def _table(title: str, rows: Sequence[Summary]) -> Table:
+    from rich.table import Table
+
+    built = Table(title=title)
+    for heading in ("", "touches", "mean mm", "SD mm", "p95 mm", "max mm", "bias mm", "scatter mm"):
+        built.add_column(heading, justify="right" if heading else "left")
+    for row in rows:
+        sizes = (row.mean_mm, row.sd_mm, row.p95_mm, row.max_mm)
+        bias = " ".join(f"{value:+.2f}" for value in row.bias_mm)
+        cells = (_size(size) for size in sizes)
+        built.add_row(row.name, str(row.touches), *cells, bias, _size(row.scatter_mm))
+    return built
+
+
+def _size(value: float | None) -> str:
+    return "–" if value is None else f"{value:.2f}"

@@ -1,0 +1,87 @@
+"""What a controller is built on, and what a step of it decides."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.control.inverse import Step
+    from pipeline.control.sensing import Sensed
+    from pipeline.control.states import Change, State
+
+
+@dataclass(frozen=True, eq=False)
+class Mount:
+    """
+    How the sensor sits on the flange.
+
+    Attributes
+    ----------
+    R_ES : (3, 3)
+    p_ES_E : (3,)
+        m.
+
+    Raises
+    ------
+    InputError
+        It is no rotation, or a number is not finite.
+    """
+
+    R_ES: NDArray[np.float64]
+    p_ES_E: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        R, p = np.array(self.R_ES, dtype=np.float64), np.array(self.p_ES_E, dtype=np.float64)
+        proper = (
+            R.shape == (3, 3)
+            and np.isfinite(R).all()
+            and np.allclose(R @ R.T, np.eye(3), atol=1e-6)
+            and np.linalg.det(R) > 0
+        )
+        if not proper or p.shape != (3,) or not np.isfinite(p).all():
+            raise InputError(
+                "mount: R_ES must be a rotation (3, 3), p_ES_E three finite numbers (m): take both from the drawing"
+                " of the adapter between flange and sensor."
+            )
+        object.__setattr__(self, "R_ES", R)
+        object.__setattr__(self, "p_ES_E", p)
+
+
+@dataclass(frozen=True, eq=False)
+class Command:
+    """
+    What a step decided.
+
+    Attributes
+    ----------
+    q : (n,)
+        Set-point of the joints at the end of the period.
+    state : State
+    change : Change or None
+        What changed in this step, and why.
+    twist : (6,)
+        Wanted velocity of the tip and angular velocity, in B, m/s and rad/s.
+    force : float
+        Pressing force, N; NaN without a fresh sample.
+    offset : (2,)
+        Contact minus wanted contact along S's x and y, m; NaN where it is not known.
+    sensed : Sensed
+    step : Step
+        What the arm makes of the twist.
+    """
+
+    q: NDArray[np.float64]
+    state: State
+    change: Change | None
+    twist: NDArray[np.float64]
+    force: float
+    offset: NDArray[np.float64]
+    sensed: Sensed
+    step: Step

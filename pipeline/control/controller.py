@@ -1,0 +1,356 @@
+"""The controller: samples and joints in, set-points out; the same inputs always give the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.control.admittance import Admittance
+from pipeline.control.axes import pressing
+from pipeline.control.bundle import intake_of, mount_of
+from pipeline.control.command import Command, Mount
+from pipeline.control.foundation import Foundation
+from pipeline.control.inertia import Inertia
+from pipeline.control.inverse import solve_step
+from pipeline.control.probing import StiffnessProbe
+from pipeline.control.settings import ControlSettings, Variant
+from pipeline.control.states import Safety, State
+from pipeline.control.surface import Surface
+from pipeline.control.tare import Tare
+from pipeline.control.tilt import Tilt
+from pipeline.control.upright import Upright
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from pipeline.config.runtime.config import RuntimeConfig
+    from pipeline.control.arms import Arm
+    from pipeline.control.inverse import Step
+    from pipeline.control.sensing import Intake, Sensed
+    from pipeline.devices.sample import WrenchSample
+    from pipeline.mesh import Probe
+
+    Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+_CAREFUL = 1.2  # the step in which it touched may have begun in the air
+_PRESS_N = 0.8  # about what the small press may add to the force
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+class Controller:
+    """
+    Keeps a force, and the probe upright on what it presses; one call of `step` per period.
+
+    Parameters
+    ----------
+    settings : ControlSettings
+    arm : Arm
+    probe : Probe
+        In S, its face towards +z.
+    intake : Intake
+        What is believed of the sensor.
+    mount : Mount
+    q : (n,)
+        Joints at the beginning.
+
+    Attributes
+    ----------
+    safety : Safety
+    surface : Surface
+    """
+
+    def __init__(
+        self,
+        settings: ControlSettings,
+        arm: Arm,
+        probe: Probe,
+        intake: Intake,
+        mount: Mount,
+        q: NDArray[np.float64],
+    ) -> None:
+        self.settings, self._arm, self._intake, self._mount = settings, arm, intake, mount
+        foundation = Foundation(probe)
+        force, torque = settings.calibration_sigma
+        error = float(np.hypot(force * foundation.height, torque)) / settings.desired_force
+        tilts = Tilt(*settings.lean, error), Tilt(*settings.lean, error)
+        self.surface = Surface(foundation, settings.bandwidth, tilts=tilts)
+        self.safety = Safety(settings)
+        wanted = self.surface.press(settings.desired_force)
+        self.wanted_S = np.array([wanted.x, wanted.y, foundation.height])
+        self._lever_S = self.wanted_S + mount.R_ES.T @ mount.p_ES_E
+        self._force = Admittance(settings.force_mass, settings.force_damping, settings.force_stiffness)
+        self._upright = Upright(settings, self.surface)
+        self._inertia = Inertia(intake.gravity, settings.gyration)
+        self._tare = Tare(settings.taring)
+        self._probing = StiffnessProbe(settings.probing)
+        self._probed = settings.probing == 0
+        self._q = np.array(q, dtype=np.float64)
+        self._sent = self._pose(self._q)  # where that is
+        self._speeds = np.zeros_like(self._q)
+        self._last: Step | None = None
+        self._before: Pose | None = None  # at the step before
+        self._travelled = self._began_force = 0.0
+        self._touching: tuple[float, float] | None = None  # where the tip was along its axis, and the force
+        self._unseen = 0.0  # s since the surface was last updated
+
+    @classmethod
+    def from_config(
+        cls,
+        config: RuntimeConfig,
+        arm: Arm,
+        q: NDArray[np.float64],
+        *,
+        p_ES_E: ArrayLike = (0.0, 0.0, 0.0),
+        quaternion_ES: ArrayLike | None = None,
+        method: str = "contactbench",
+        settings: ControlSettings | None = None,
+    ) -> Controller:
+        """
+        Take everything from a bundle: probe, calibration, noise, gates, limits, and gains where it has them.
+
+        Parameters
+        ----------
+        config : RuntimeConfig
+        arm : Arm
+        q : (n,)
+            Joints at the beginning.
+        p_ES_E : (3,)
+            Where the sensor is on the flange, m: a bundle does not say.
+        quaternion_ES : (4,), optional
+            How it is turned, for a bundle that does not say.
+        method : str
+            A name of `pipeline.contact.methods.METHODS`.
+        settings : ControlSettings, optional
+            For what the bundle leaves open; left out, the defaults for its probe.
+
+        Raises
+        ------
+        InputError
+            Something is missing in the bundle, or contradicts it.
+        """
+        part = config.model.controller
+        force = ControlSettings.desired_force if part is None else part.desired_force_N
+        base = settings or ControlSettings.for_probe(Foundation(config.probe), desired_force=force)
+        chosen = ControlSettings.of(part, config.model.limits, base)
+        mount = mount_of(config, p_ES_E, quaternion_ES)
+        return cls(chosen, arm, config.probe, intake_of(config, chosen, method), mount, q)
+
+    @property
+    def state(self) -> State:
+        """What it does."""
+        return self.safety.state
+
+    def stop(self) -> None:
+        """Have it go back and end."""
+        self.safety.stop()
+
+    def step(self, now: float, q_measured: NDArray[np.float64], samples: Sequence[WrenchSample]) -> Command:
+        """
+        Decide on the next set-point.
+
+        Parameters
+        ----------
+        now : float
+            s, on the samples' clock.
+        q_measured : (n,)
+            Where the joints are now.
+        samples : sequence of WrenchSample
+            Raw, those that came since the step before.
+        """
+        dt = self.settings.period
+        here, follows = self._arrived(q_measured)
+        R_BS, tip = self._pose(here)
+        self._inertia.moved(R_BS, tip - R_BS @ self.wanted_S)
+        sensed = self._intake.take(now, samples, R_BS, self._inertia.wrench(R_BS, dt) - self._tare.wrench)
+        force = pressing(sensed.wrench[:3], _UP)
+        offset = self._offset(sensed)
+        R_then, moved = self._moved(now, sensed, R_BS, tip)
+        before, told = self.safety.state, len(self.safety.changes)
+        state = self.safety.update(
+            now,
+            sensed,
+            force,
+            travelled=self._travelled,
+            last=self._last,
+            probed=self._probed,
+            follows=follows,
+            dt=dt,
+        )
+        if state is not before:
+            self._enter(before, state, force, None if follows else here)
+            if (before, state) == (State.APPROACH, State.CONTACT) and not self._probed:
+                self._guess(force, float(moved @ R_then[:, 2]))
+        self._learn(now, sensed, force, offset, moved, R_then, dt)
+        R_cmd = self._sent[0]
+        twist = self._limited(self._twist(now, state, sensed, force, offset, R_cmd, dt))
+        lever = R_cmd @ self._lever_S
+        step = solve_step(self._arm, self._q, lever, twist, dt, self._speeds)
+        self._speeds = (step.q - self._q) / dt
+        self._q, self._last, self._sent = step.q, step, self._pose(step.q)
+        self._travelled += abs(float(twist[:3] @ R_cmd[:, 2])) * step.share * dt
+        change = self.safety.changes[-1] if len(self.safety.changes) > told else None
+        return Command(step.q, state, change, twist, force, offset, sensed, step)
+
+    def _arrived(self, q_measured: NDArray[np.float64]) -> tuple[NDArray[np.float64], bool]:
+        """Return where the arm is, and whether that is near to where the last set-point should have brought it."""
+        here = np.asarray(q_measured, dtype=np.float64)
+        if here.shape != self._q.shape:
+            raise InputError(f"controller: joints {here.shape} of an arm that has {self._q.shape}: give all.")
+        if not np.isfinite(here).all():
+            return self._q, False
+        if (here == self._q).all():
+            return here, True
+        (R, tip), (R_cmd, tip_cmd) = self._pose(here), self._sent
+        off, turned = tip - tip_cmd, R - R_cmd
+        late = self.settings.following
+        # |R - R'|² = 8 sin²(angle / 2), about twice the angle's square.
+        far = float(off @ off) > (late * self.settings.max_speed) ** 2
+        return here, not far and float((turned * turned).sum()) < 2 * (late * self.settings.max_turn) ** 2
+
+    # ---- what is sensed ----------------------------------------------------------------------------
+
+    def _pose(self, q: NDArray[np.float64]) -> Pose:
+        """Return R_BS and where the wanted contact is in B."""
+        R_BE, p_BE_B = self._arm.flange_pose(q)
+        R_BS = R_BE @ self._mount.R_ES
+        return R_BS, p_BE_B + R_BE @ self._mount.p_ES_E + R_BS @ self.wanted_S
+
+    def _offset(self, sensed: Sensed) -> NDArray[np.float64]:
+        point = None if sensed.contact is None else sensed.contact.point
+        return np.full(2, np.nan) if point is None else point[:2] - self.wanted_S[:2]
+
+    def _moved(self, now: float, sensed: Sensed, R_BS: NDArray[np.float64], tip: NDArray[np.float64]) -> Pose:
+        """Return how the probe stood at the mean time of the readings: they are older than the joints."""
+        R_before, before = (R_BS, tip) if self._before is None else self._before
+        self._before = R_BS, tip
+        share = min(max(now - sensed.time, 0.0) / self.settings.period, 1.0) if sensed.fresh else 0.0
+        # In a period it turns by so little that the chord is as good as the arc.
+        return R_BS - share * (R_BS - R_before), tip - share * (tip - before)
+
+    def _enter(self, before: State, state: State, force: float, here: NDArray[np.float64] | None) -> None:
+        """Begin a state; `here` is where the arm stands, if it does not follow: then it goes on from there."""
+        if here is not None:
+            self._q, self._speeds, self._sent = here.copy(), np.zeros_like(here), self._pose(here)
+        self._travelled = self._unseen = 0.0
+        self._force.reset()
+        self._upright.reset()
+        if state is State.APPROACH or before is State.HOLD:
+            self.surface.forget()
+        if before is State.APPROACH:
+            self._tare.over = True  # from now on something may touch
+        self._began_force = max(force, 0.0) if np.isfinite(force) else 0.0
+        self._probing = StiffnessProbe(self.settings.probing)
+
+    def _learn(
+        self,
+        now: float,
+        sensed: Sensed,
+        force: float,
+        offset: NDArray[np.float64],
+        tip: NDArray[np.float64],
+        R_BS: NDArray[np.float64],
+        dt: float,
+    ) -> None:
+        if sensed.fresh and self.state is State.APPROACH:
+            self._tare.take(sensed.wrench, sensed.count, dt)
+            self._touching = float(tip @ R_BS[:, 2]), force
+        self._unseen += dt
+        if not sensed.fresh or force < self.settings.low_force:
+            return
+        known = (float(offset[0]), float(offset[1])) if np.isfinite(offset).all() else None
+        F = sensed.wrench[:3]
+        # Tissue that is turned about +x pushes towards +y, about +y towards -x.
+        leaning = (float(np.arctan2(F[1], -F[2])), float(np.arctan2(-F[0], -F[2])))
+        sigmas = self._intake.sigmas(sensed.count)
+        self.surface.update(self._unseen, tip, R_BS, force, known, leaning, sigmas)
+        self._unseen = 0.0
+        if self.state is not State.CONTACT or self._probed:
+            return
+        self._probing.take(sensed.time, float(tip @ R_BS[:, 2]), force)
+        if self._probing.over(now):
+            found = self._probing.stiffness()
+            if found is not None:
+                self.surface.learn(force, found[0])
+            self._probed = True
+
+    def _guess(self, force: float, where: float) -> None:
+        """Guess the stiffness from how the force grew as it touched, rather too high: then it goes on gently."""
+        if self._touching is None:
+            return
+        travel, grown = where - self._touching[0], force - self._touching[1]
+        if travel > 0 and grown > 0:
+            self.surface.learn(force, _CAREFUL * grown / travel)
+            stiffness = self.surface.press(self.settings.desired_force).stiffness
+            self._probing = StiffnessProbe(min(self.settings.probing, _PRESS_N / stiffness))
+
+    # ---- what is done ------------------------------------------------------------------------------
+
+    def _twist(
+        self,
+        now: float,
+        state: State,
+        sensed: Sensed,
+        force: float,
+        offset: NDArray[np.float64],
+        R_BS: NDArray[np.float64],
+        dt: float,
+    ) -> NDArray[np.float64]:
+        inward = R_BS[:, 2]
+        twist = np.zeros(6)
+        if state is State.APPROACH:
+            if self._tare.over:
+                twist[:3] = self.settings.approach_speed * inward
+        elif state is State.RETRACT:
+            twist[:3] = -self.settings.retract_speed * inward
+        elif state in (State.CONTACT, State.TRACK) and sensed.fresh:
+            lead = now - sensed.time + dt / 2 + self.settings.servo_lag
+            wanted = self._wanted(now)
+            twist[:3] = (self._along(force, wanted, inward, lead, dt) + self._press(now, force)) * inward
+            if state is State.TRACK and self.safety.turning:
+                # About the tip: what is then dragged over the tissue leans the force against the turn. About the
+                # tissue's surface, before the tip, it would lean with it, and the turn would drive itself.
+                twist[3:] = self._upright.speed(offset, R_BS, lead, dt)
+        return twist
+
+    def _wanted(self, now: float) -> float:
+        """Return the wanted force, which grows at first touch."""
+        if self.state is not State.CONTACT:
+            return self.settings.desired_force
+        share = min((now - self.safety.since) / self.settings.ramp, 1.0)
+        return self._began_force + share * (self.settings.desired_force - self._began_force)
+
+    def _press(self, now: float, force: float) -> float:
+        """Return the speed of the small press that measures the stiffness, once the force is there."""
+        if self._probed or self.state is not State.CONTACT:
+            return 0.0
+        if self._ready(now, force):
+            self._probing.begin(now)
+        return self._probing.speed(now)
+
+    def _ready(self, now: float, force: float) -> bool:
+        grown = now - self.safety.since > self.settings.ramp + 0.1
+        begun = self._probing.begun
+        return grown and not begun and abs(force - self.settings.desired_force) < 1.0
+
+    def _along(
+        self, force: float, wanted: float, inward: NDArray[np.float64], lead: float, dt: float
+    ) -> float:
+        """Eq. 7 with its sign: pressed too little it goes in. Aware, it leads the tissue by its speed."""
+        if self.settings.variant is Variant.PLAIN:
+            return self._force.step(wanted - force, dt)
+        stiffness = self.surface.press(force).stiffness
+        # As Eq. 7, with the damping that gives the usual gain on what is touched.
+        scale = self.settings.force_damping * self.settings.force_gain / stiffness
+        led = self.surface.speed_along(inward, lead) if self.state is State.TRACK else 0.0
+        return led + self._force.step((wanted - force) * scale, dt)
+
+    def _limited(self, twist: NDArray[np.float64]) -> NDArray[np.float64]:
+        for part, most in ((slice(0, 3), self.settings.max_speed), (slice(3, 6), self.settings.max_turn)):
+            size = float(np.linalg.norm(twist[part]))
+            if size > most:
+                twist[part] *= most / size
+        return twist

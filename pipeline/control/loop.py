@@ -1,0 +1,198 @@
+"""The closed loop in simulation: scene, sensor, faults and controller, period by period."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.control.arms import CartesianMount
+from pipeline.control.faults import FaultyLine, ScriptedFault
+from pipeline.control.states import State
+from pipeline.control.trace import STATES, Trace
+from pipeline.devices.sample import Status, WrenchSample
+from pipeline.errors import InputError
+from pipeline.simulation.scenes import ArmScene
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.control.arms import Arm
+    from pipeline.control.command import Command
+    from pipeline.control.controller import Controller
+    from pipeline.simulation.scenes import MovedScene
+    from pipeline.simulation.sensor_model import SensorModel
+
+WARM_S = 3600.0  # a sensor is used warm
+_LONGEST_S = 3600.0
+Watch = Callable[["Command", "Loop"], bool | None]
+
+
+def arm_of(scene: MovedScene) -> Arm:
+    """Return what carries the probe of a scene, as a controller sees it."""
+    return scene.robot if isinstance(scene, ArmScene) else CartesianMount()
+
+
+class Loop:
+    """
+    A scene and its controller; `step` goes on by one period.
+
+    Parameters
+    ----------
+    scene : MovedScene
+    controller : Controller
+    sensor : SensorModel
+    faults : sequence of ScriptedFault, optional
+        On the way from the sensor to the controller.
+    switched_on : float
+        How long before the scene began the sensor was switched on, s.
+    """
+
+    def __init__(
+        self,
+        scene: MovedScene,
+        controller: Controller,
+        sensor: SensorModel,
+        faults: Sequence[ScriptedFault] = (),
+        switched_on: float = WARM_S,
+    ) -> None:
+        self.scene, self.controller, self.sensor = scene, controller, sensor
+        self._line, self._on = FaultyLine(faults), switched_on
+        self._arm = arm_of(scene)
+        self._period, self._rate = controller.settings.period, sensor.settings.rate
+        self._periods = self._read = 0
+        self._begin = scene.time
+        self._rows: list[dict[str, Any]] = []
+
+    def step(self) -> Command:
+        """
+        Go on by one period: read, decide, and give the servo its set-point.
+
+        Raises
+        ------
+        PhysicsError
+            See `Scene.step`.
+        """
+        self._periods += 1
+        end = self._begin + self._periods * self._period
+        samples, peak = [], 0.0
+        while (due := self._begin + (self._read + 1) / self._rate) < end + 1e-9:
+            self._read += 1
+            sample, force = self._sample(due)
+            peak = max(peak, force)
+            if sample is not None:
+                samples.append(sample)
+        self.scene.advance(max(end - self.scene.time, 0.0))
+        began = time.perf_counter()
+        command = self.controller.step(self.scene.time, self.scene.joints, samples)
+        took = time.perf_counter() - began
+        self._note(command, peak, took)
+        self.scene.command(command.q)
+        return command
+
+    def trace(self) -> Trace:
+        """
+        Return what happened until now.
+
+        Raises
+        ------
+        InputError
+            There was no step yet.
+        """
+        if not self._rows:
+            raise InputError("closed loop: nothing happened yet: go on by at least one step.")
+        columns = {name: np.array([row[name] for row in self._rows]) for name in self._rows[0]}
+        return Trace(**columns, changes=tuple(self.controller.safety.changes))
+
+    def _sample(self, due: float) -> tuple[WrenchSample | None, float]:
+        """Read the sensor at a time, s; returns what arrives of it, and the true |F|."""
+        self.scene.advance(max(due - self.scene.time, 0.0))
+        moment = self.scene.moment()
+        read = self.sensor.read([self._on + self.scene.time], moment.reading)
+        row = read.wrenches[0].tolist()
+        status = Status.OVERRANGE if read.saturated[0] else Status(0)
+        sample = WrenchSample(
+            self.scene.time, (row[0], row[1], row[2]), (row[3], row[4], row[5]), self._read, status
+        )
+        return self._line.carry(sample), moment.force
+
+    def _note(self, command: Command, peak: float, took: float) -> None:
+        scene = self.scene
+        moment = scene.moment()
+        contact = moment.contact
+        self._rows.append(
+            {
+                "time": scene.time,
+                "force": -float(contact[2]),
+                "peak": max(peak, float(np.linalg.norm(contact[:3]))),
+                "sensed": command.force,
+                "offset": command.offset,
+                "place": moment.centroid_S[:2] - self.controller.wanted_S[:2],
+                "angles": scene.angles(),
+                "phantom": self._in_P(*scene.surface()),
+                "probe": self._in_P(*self._tip()),
+                "joints": command.q,
+                "state": STATES.index(command.state),
+                "share": command.step.share,
+                "step_s": took,
+            }
+        )
+
+    def _tip(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return where the middle of the face is in B, and the axis that points out of the tissue."""
+        R_BE, p_BE_B = self._arm.flange_pose(self.scene.true_joints)
+        axis = R_BE @ self.scene.R_ES[:, 2]
+        return p_BE_B + R_BE @ self.scene.p_ES_E + self.scene.top * axis, -axis
+
+    def _in_P(self, point: NDArray[np.float64], up: NDArray[np.float64]) -> tuple[float, float, float]:
+        """Return the height of a point (3,) in B, and the tilts of an axis, in the frame where the phantom rests."""
+        R_BP, p_BP = self.scene.T_BP[:3, :3], self.scene.T_BP[:3, 3]
+        x, y, z = (R_BP.T @ up).tolist()
+        return float((point - p_BP) @ R_BP[:, 2]), float(np.arctan2(x, z)), float(np.arctan2(-y, z))
+
+
+def run_loop(
+    scene: MovedScene,
+    controller: Controller,
+    sensor: SensorModel,
+    seconds: float,
+    *,
+    faults: Sequence[ScriptedFault] = (),
+    stop_after: float | None = None,
+    watch: Watch | None = None,
+) -> Trace:
+    """
+    Run a controller on a scene, as fast as it goes.
+
+    Parameters
+    ----------
+    scene, controller, sensor, faults
+        As of `Loop`.
+    seconds : float
+        How long, s; it ends before, once the controller stands still for good.
+    stop_after : float, optional
+        s after which the controller is told to end; left out, it is not.
+    watch : callable, optional
+        Told each command and the loop; True ends it at once.
+
+    Raises
+    ------
+    InputError
+        A time is out of range.
+    PhysicsError
+        See `Scene.step`.
+    """
+    if not 0 < seconds <= _LONGEST_S:
+        raise InputError(f"closed loop: {seconds} s: give a time above 0, up to {_LONGEST_S:g} s.")
+    loop = Loop(scene, controller, sensor, faults)
+    begin = scene.time
+    while scene.time < begin + seconds - 1e-9:
+        if stop_after is not None and scene.time - begin >= stop_after:
+            controller.stop()
+        command = loop.step()
+        ended = watch is not None and bool(watch(command, loop))
+        if ended or command.state is State.SAFE:
+            break
+    return loop.trace()

@@ -1,0 +1,273 @@
+"""How far the loops are from swinging: gain and phase margin against the stiffness of the tissue."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from pipeline.control.admittance import Admittance
+from pipeline.control.following import Follower
+from pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.control.foundation import Foundation
+    from pipeline.control.settings import ControlSettings
+
+Axis = Literal["force", "about x", "about y"]
+AXES: tuple[Axis, ...] = ("force", "about x", "about y")
+_READINGS = 4  # in a period
+_STEPS = 300  # of an impulse response: 6 s at 50 Hz
+_MOST = 1e3
+
+
+@dataclass(frozen=True)
+class Loop:
+    """
+    One loop, in the path that it controls: m along the axis, or rad about one.
+
+    Attributes
+    ----------
+    gain : float
+        1/s: speed per path that is missing, in the steady state.
+    settling : float
+        Mass over damping, s.
+    spring : float
+        Stiffness over damping, 1/s.
+    ratio : float
+        What is sensed over what there is: true over assumed stiffness, or gain of the place.
+    bandwidth : float
+        1/s, of the estimate that is led by; 0: nothing leads.
+    smoothing : float
+        s, of what is led by; 0: none.
+    inertia : float
+        s²: path that is sensed too little for each unit of acceleration: the share of the tool's inertia that was not
+        taken off.
+    lag : float
+        How late the arm is, s.
+    period : float
+        s.
+    """
+
+    gain: float
+    settling: float
+    spring: float = 0.0
+    ratio: float = 1.0
+    bandwidth: float = 0.0
+    smoothing: float = 0.0
+    inertia: float = 0.0
+    lag: float = 0.0
+    period: float = 0.02
+
+
+@dataclass(frozen=True)
+class Margins:
+    """
+    What a loop has left.
+
+    Attributes
+    ----------
+    stable : bool
+    gain : float
+        Factor by which the loop may grow before it swings; below 1: it swings, and must shrink by that much.
+    phase : float
+        rad, smallest at a frequency where the loop's gain is 1; 0 if it swings.
+    crossover : float
+        rad/s, the largest such frequency.
+    """
+
+    stable: bool
+    gain: float
+    phase: float
+    crossover: float
+
+
+def loop_of(
+    settings: ControlSettings,
+    foundation: Foundation,
+    modulus: float,
+    axis: Axis,
+    *,
+    assumed: float | None = None,
+    unknown: float = LEFT,
+) -> Loop:
+    """
+    Return a loop of a controller on tissue.
+
+    Parameters
+    ----------
+    settings : ControlSettings
+    foundation : Foundation
+        Of the probe.
+    modulus : float
+        Of the tissue, N/m³.
+    axis : {"force", "about x", "about y"}
+    assumed : float, optional
+        What the aware variant takes the modulus to be; left out, it has measured it. The plain one does not ask.
+    unknown : float
+        Share of the tool's inertia (0.45 kg, 80 mm from the tip) that compensation misses; negative: that it takes off
+        too much.
+
+    Raises
+    ------
+    InputError
+        A number is out of range.
+    """
+    if not (0 < modulus < math.inf and -1 <= unknown <= 1):
+        raise InputError(
+            f"margins: modulus {modulus} N/m³, unknown {unknown}: give a positive one, and -1 to 1."
+        )
+    force = settings.desired_force
+    true = foundation.at(force, modulus)
+    told = foundation.at(force, assumed or modulus)
+    aware = settings.variant is Variant.AWARE
+    if axis == "force":
+        mass, damping, spring = settings.force_mass, settings.force_damping, settings.force_stiffness
+        real, believed, wanted, bandwidth = (
+            true.stiffness,
+            told.stiffness,
+            settings.force_gain,
+            settings.bandwidth[0],
+        )
+        drive, smoothing, felt = 1.0, 0.0, unknown * TOOL_KG / real
+    else:
+        which = AXES.index(axis) - 1
+        mass, damping = settings.angle_inertia[which], settings.angle_damping[which]
+        spring = settings.angle_stiffness[which]
+        real, believed = ((each.gain_y, each.gain_x)[which] for each in (true, told))
+        wanted, bandwidth = settings.angle_gains[which], settings.bandwidth[1 + which]
+        drive, smoothing = force, settings.smoothing
+        lever = TO_TIP_M if aware else TO_TIP_M**2 / real  # by the lean of the force, or by the place
+        felt = unknown * TOOL_KG * lever / force
+    common = Loop(
+        gain=drive * real / damping,
+        settling=mass / damping,
+        spring=spring / damping,
+        inertia=felt,
+        lag=settings.servo_lag,
+        period=settings.period,
+    )
+    if not aware:
+        return common
+    # What is sensed is divided by what is assumed: the gain is the wanted one times what was assumed wrongly. The tilt
+    # comes mostly from the lean of the force, which no modulus spoils; the place would be the worst case.
+    return replace(common, gain=wanted, ratio=real / believed, bandwidth=bandwidth, smoothing=smoothing)
+
+
+def margins(loop: Loop) -> Margins:
+    """
+    Return the margins of a loop, from its discrete-time response L(exp(i w T)).
+
+    The servo goes through its set-points by cubics, the sensor's readings of a period are averaged, and the controller
+    is the one that runs: its impulse responses are taken from `Admittance` and `Follower` themselves. It is stable if
+    1 + L turns by +90° from w = 0 to the Nyquist frequency: L has one pole at z = 1, the others inside.
+    """
+    w = np.concatenate([np.geomspace(0.05, 5.0, 100), np.linspace(5.0, math.pi / loop.period, 500)[1:]])
+    L = response(loop, w)
+    if not _stable(L):
+        least = _limit(L, 1.0 / _MOST, 1.0)
+        return Margins(stable=False, gain=least, phase=0.0, crossover=_crossover(w, L)[0])
+    last, phase = _crossover(w, L)
+    return Margins(stable=True, gain=_limit(L, 1.0, _MOST), phase=phase, crossover=last)
+
+
+def sweep(
+    settings: ControlSettings,
+    foundation: Foundation,
+    moduli: Sequence[float],
+    *,
+    measured: bool = True,
+) -> list[tuple[float, Axis, Margins]]:
+    """
+    Return the margins of all three loops on tissue of each modulus, N/m³.
+
+    With `measured` the aware variant knows the modulus; without, it takes the usual one for it, as before its press.
+    """
+    usual = None if measured else moduli[len(moduli) // 2]
+    return [
+        (modulus, axis, margins(loop_of(settings, foundation, modulus, axis, assumed=usual)))
+        for modulus in moduli
+        for axis in AXES
+    ]
+
+
+def response(loop: Loop, w: NDArray[np.float64]) -> NDArray[np.complex128]:
+    """Return L at angular frequencies (n,), rad/s."""
+    T = loop.period
+    late = np.exp(-1j * w * T)  # z^-1
+    # The set-point that a speed leads to is reached at the next step, by cubics whose speed at each set-point is the
+    # mean speed towards it; the mean of the readings on the way:
+    u = np.arange(1, _READINGS + 1) / _READINGS
+    fresh, old = float(np.mean(2 * u**2 - u**3)), float(np.mean(u - 2 * u**2 + u**3))
+    place = late**2 / (1 - late)  # where the arm was a period ago, in speeds times T
+    sensed = T * (place + old * late**2 + fresh * late)
+    steps = loop.lag / T
+    whole, part = int(steps), steps - int(steps)
+    behind = late**whole * (1 - part + part * late)
+    sensed = sensed * behind
+    felt = loop.inertia * (late - late**2) / T * behind
+    push, led = _controller(loop, w)
+    L = (push + led) * loop.ratio * (sensed + felt)
+    if loop.bandwidth:
+        # The estimate adds where the probe was at the mean time of the readings, from where the joints were.
+        mean = 1 - float(np.mean(u))
+        L = L - led * T * (place + (1 - mean) * late) * behind
+    return np.asarray(L)
+
+
+def _controller(
+    loop: Loop, w: NDArray[np.float64]
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128] | float]:
+    """Return speed per path that is missing, and speed that is led by per path that is seen, at w."""
+    T = loop.period
+    pull = Admittance(loop.settling / loop.gain, 1.0 / loop.gain, loop.spring / loop.gain)
+    pulse = np.zeros(_STEPS)
+    pulse[0] = 1.0
+    waves = np.exp(-1j * T * np.outer(w, np.arange(_STEPS)))
+    push = waves @ np.array([pull.step(each, T) for each in pulse])
+    if not loop.bandwidth:
+        return push, 0.0
+    follower = Follower([loop.bandwidth])
+    follower.update(np.zeros(1), T)
+    ahead = T * (0.5 - 0.5 / _READINGS) + T / 2 + loop.lag + loop.smoothing
+    share = 1.0 if loop.smoothing == 0 else 1 - math.exp(-T / loop.smoothing)
+    speed, speeds = 0.0, []
+    for each in pulse:
+        follower.update(np.array([each]), T)
+        speed += share * (float(follower.speed(ahead)[0]) - speed)
+        speeds.append(speed)
+    return push, waves @ np.array(speeds)
+
+
+def _stable(L: NDArray[np.complex128]) -> bool:
+    turned = np.unwrap(np.angle(1 + L))
+    # It begins at -90° less what it has turned until the lowest frequency, and ends on the real axis.
+    return bool(abs((turned[-1] - turned[0]) - math.pi / 2) < 1.0)
+
+
+def _limit(L: NDArray[np.complex128], low: float, high: float) -> float:
+    """Return the factor between two at which a loop begins to swing; the far one, if it does not."""
+    stable_at_low = _stable(low * L)
+    if stable_at_low == _stable(high * L):
+        return high if stable_at_low else low
+    for _ in range(40):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if _stable(middle * L) == stable_at_low else (low, middle)
+    return math.sqrt(low * high)
+
+
+def _crossover(w: NDArray[np.float64], L: NDArray[np.complex128]) -> tuple[float, float]:
+    """Return the largest frequency where |L| is 1, and the smallest distance from -1 in phase there."""
+    size = np.abs(L)
+    there = np.flatnonzero((size[:-1] - 1) * (size[1:] - 1) <= 0)
+    if not len(there):
+        return 0.0, math.pi
+    phase = math.pi - np.abs(np.angle(L[there]))
+    return float(w[there[-1]]), float(phase.min())

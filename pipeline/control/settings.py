@@ -1,0 +1,265 @@
+"""What a controller is told: wanted force, gains, speeds and limits."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.control.foundation import USUAL_MODULUS
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from pipeline.config.runtime.model import ControllerPart, LimitsPart
+    from pipeline.control.foundation import Foundation
+
+USUAL_STIFFNESS = 2000.0  # N/m, of a convex probe at 7 N on soft tissue
+_SETTLING_S = 0.04
+_STIFFEST = 5.0  # times the usual modulus
+_STOPPING_S, _TOUCH_SHARE, _FASTEST_APPROACH = 0.05, 0.6, 0.01
+USUAL_GAIN = 6.0  # 1/s, of force and angle: the paper's figures follow from about this
+
+
+TOOL_KG, TO_TIP_M = 0.45, 0.08  # a usual tool, and how far its centre of mass is from its tip
+LEFT = 0.35  # share of its inertia that compensation leaves, measured in `PlatformScene`
+
+
+class Variant(StrEnum):
+    """How the tissue's motion is met."""
+
+    PLAIN = "plain"  # Eq. 7 and 8 alone: what moves steadily is followed behind
+    AWARE = "aware"  # the tissue's motion is estimated and led
+
+
+@dataclass(frozen=True)
+class ControlSettings:
+    """
+    All that a controller needs beside a probe, an arm and a calibration.
+
+    Attributes
+    ----------
+    desired_force : float
+        N.
+    force_mass, force_damping, force_stiffness : float
+        Of Eq. 7: kg, N·s/m, N/m. A tissue of k N/m is followed with a gain of k / damping, per s.
+    angle_inertia, angle_damping, angle_stiffness : (about x, about y)
+        Of Eq. 8, with the torque ``desired_force`` times the contact's offset: kg·m², N·m·s/rad, N·m/rad.
+    period : float
+        s between set-points.
+    servo_lag : float
+        How much later than its set-point the arm is there, s.
+    max_force : float
+        N that must never be passed; the probe is drawn back from 80 % of it on.
+    max_speed, max_turn : float
+        Of the tip, m/s and rad/s.
+    approach_speed, retract_speed : float
+        m/s.
+    approach_travel, retract_travel : float
+        m: so far it looks for tissue, and so far it goes back.
+    touch_force, low_force : float
+        N: above the first it has met tissue, below the second it has lost it.
+    ramp : float
+        s in which the wanted force grows at first touch.
+    stale : float
+        s without a fresh sample after which nothing moves any more; after `give_up` it goes back the way it came.
+    give_up : float
+        s.
+    attempts : int
+        How often it approaches again after tissue was lost.
+    probing : float
+        m, the small press by which the stiffness is measured before tracking; 0: not at all.
+    variant : Variant
+    bandwidth : (place, tilt about x, tilt about y)
+        1/s, of the estimate of the tissue's motion. Of the tilt about x, out of plane, the contact's place tells little
+        on a narrow face.
+    smoothing : float
+        s, time constant of the turns that the aware variant leads by: they shake the tool, and the sensor feels that.
+    lean : (rad, s)
+        What friction does to the direction of the tissue's force, and for how long: see `Tilt`.
+    calibration_sigma : (N, N·m)
+        What is left of a sensor's bias after gravity and `taring`.
+    taring : float
+        s that it waits in the air and takes off what the sensor still reads; 0: not at all.
+    gyration : float
+        m, radius of gyration of the tool about its centre of mass, from its drawing: a tool of 0.45 kg needs it to
+        a third. 0: what turning it takes is left out.
+    following : float
+        s, by how much an arm may be late at the largest speeds before it counts as not following.
+    max_torque : float
+        N·m about the sensor's origin that must never be passed; as `max_force`.
+    settling : float
+        s, mass over damping of the aware variant's turns: it gets its tilt from more than the place, and needs less.
+    angle_gains : (about x, about y)
+        1/s, how fast the aware variant turns towards what it knows.
+    force_gain : float
+        1/s, how fast it goes towards the wanted force.
+
+    Raises
+    ------
+    InputError
+        A number is out of range.
+    """
+
+    desired_force: float = 7.0
+    force_mass: float = 13.0
+    force_damping: float = USUAL_STIFFNESS / USUAL_GAIN
+    force_stiffness: float = 0.0
+    angle_inertia: tuple[float, float] = (0.0003, 0.0027)
+    angle_damping: tuple[float, float] = (0.0075, 0.067)
+    angle_stiffness: tuple[float, float] = (0.0, 0.0)
+    period: float = 0.02
+    servo_lag: float = 0.0
+    max_force: float = 30.0
+    max_speed: float = 0.1
+    max_turn: float = 1.0
+    approach_speed: float = 0.006
+    retract_speed: float = 0.06
+    approach_travel: float = 0.05
+    retract_travel: float = 0.03
+    touch_force: float = 0.7
+    low_force: float = 0.7
+    ramp: float = 0.5
+    stale: float = 0.06
+    give_up: float = 0.2
+    attempts: int = 3
+    probing: float = 0.00015
+    variant: Variant = Variant.AWARE
+    bandwidth: tuple[float, float, float] = (20.0, 13.0, 13.0)
+    smoothing: float = 0.08
+    lean: tuple[float, float] = (0.025, 0.8)
+    calibration_sigma: tuple[float, float] = (0.01, 0.0005)
+    taring: float = 0.5
+    gyration: float = 0.035
+    following: float = 0.05
+    max_torque: float = 6.0
+    settling: float = _SETTLING_S
+    angle_gains: tuple[float, float] = (6.0, 6.0)
+    force_gain: float = 6.0
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            value = getattr(self, each.name)
+            numbers = np.atleast_1d(value) if not isinstance(value, str) else np.ones(1)
+            low_ok = numbers >= 0 if each.name in _MAY_BE_ZERO else numbers > 0
+            if not (np.isfinite(numbers).all() and low_ok.all()):
+                raise InputError(f"control settings: {each.name} is {value}: give positive, finite numbers.")
+        if not self.touch_force < self.desired_force < 0.8 * self.max_force:
+            raise InputError(
+                f"control settings: a wanted force of {self.desired_force:g} N must be above {self.touch_force:g} N and"
+                f" below 80 % of the limit of {self.max_force:g} N: change one of them."
+            )
+
+    @classmethod
+    def for_probe(
+        cls,
+        foundation: Foundation,
+        *,
+        desired_force: float = 7.0,
+        modulus: float = USUAL_MODULUS,
+        force_gain: float = USUAL_GAIN,
+        angle_gains: tuple[float, float] = (USUAL_GAIN, USUAL_GAIN),
+    ) -> ControlSettings:
+        """
+        Return the defaults for a probe: what it does to the loops' gains is taken out by the damping.
+
+        Where Eq. 7 turns a force into a speed, tissue of k N/m turns a path into a force: the loop's gain is
+        k / damping. Of Eq. 8 it is desired force times the place's change per rad over the damping. A narrow face
+        gets less gain and more mass than wanted in the plain variant: what is left of the tool's own inertia looks
+        like a contact far off, and would shake it (see `margins`).
+
+        Parameters
+        ----------
+        foundation : Foundation
+            Of the probe.
+        desired_force : float
+            N.
+        modulus : float
+            Of the tissue that the gains are meant for, N/m³; others get others, as `margins` shows.
+        force_gain : float
+            1/s.
+        angle_gains : (about x, about y)
+            1/s.
+
+        Raises
+        ------
+        InputError
+            A number is out of range.
+        """
+        press = foundation.at(desired_force, modulus)
+        damping = press.stiffness / force_gain
+        about = [
+            _turning(desired_force, gain, wanted)
+            for gain, wanted in zip((press.gain_y, press.gain_x), angle_gains, strict=True)
+        ]
+        stiffest = _STIFFEST * press.stiffness
+        return cls(
+            desired_force=desired_force,
+            # What comes in the time that it takes to stop must not be the wanted force already.
+            approach_speed=min(_FASTEST_APPROACH, _TOUCH_SHARE * desired_force / (stiffest * _STOPPING_S)),
+            force_mass=damping * _SETTLING_S,
+            force_damping=damping,
+            force_gain=force_gain,
+            angle_inertia=(about[0][0], about[1][0]),
+            angle_damping=(about[0][1], about[1][1]),
+            angle_gains=angle_gains,
+        )
+
+    @classmethod
+    def of(
+        cls, controller: ControllerPart | None, limits: LimitsPart, base: ControlSettings | None = None
+    ) -> ControlSettings:
+        """
+        Return the settings of a bundle; its limits always count, gains are those of `base` where it has none.
+
+        Its turns have one inertia and one damping for both axes: with them a probe that is long and narrow turns much
+        faster about one than about the other.
+
+        Raises
+        ------
+        InputError
+            They contradict each other.
+        """
+        base = base or cls()
+        base = replace(
+            base,
+            max_force=limits.max_force_N,
+            max_torque=limits.max_torque_Nm,
+            max_speed=limits.max_speed_mps or base.max_speed,
+            max_turn=limits.max_turn_radps or base.max_turn,
+        )
+        if controller is None:
+            return base
+        return replace(
+            base,
+            desired_force=controller.desired_force_N,
+            force_mass=controller.force_mass_kg,
+            force_damping=controller.force_damping_Nspm,
+            force_stiffness=controller.force_stiffness_Npm,
+            angle_inertia=(controller.angle_inertia,) * 2,
+            angle_damping=(controller.angle_damping,) * 2,
+            angle_stiffness=(controller.angle_stiffness,) * 2,
+        )
+
+
+def _turning(force: float, gain: float, wanted: float) -> tuple[float, float]:
+    """Return inertia and damping of Eq. 8 about one axis, for a gain of the place, m/rad, and of the loop, 1/s."""
+    # At the highest frequency, where it alternates, the loop's gain is K J / settling: it may be a third.
+    felt = 3 * LEFT * TOOL_KG * TO_TIP_M**2 / (gain * force)
+    # A quarter of the phase at the crossover may go to the settling.
+    loop = min(wanted, math.sqrt(0.25 / felt))
+    damping = force * gain / loop
+    return damping * max(_SETTLING_S, loop * felt), damping
+
+
+_MAY_BE_ZERO = {
+    "force_stiffness",
+    "angle_stiffness",
+    "servo_lag",
+    "probing",
+    "attempts",
+    "taring",
+    "gyration",
+}

@@ -1,0 +1,267 @@
+"""
+What a controller does, and when it does something else.
+
+====================  =======================================================================================
+approach              goes along the probe's axis until it meets tissue, no farther than it may
+contact               the wanted force grows; then one small press measures how stiff the tissue is
+track                 keeps the force and stays upright
+hold                  stands still: the readings are not to be believed, or the place is lost
+retract               goes back the way it came
+safe                  stands still for good, away from the tissue; the end
+====================  =======================================================================================
+
+==========================================  ====================  ==================================================
+what happens                                in                    what follows
+==========================================  ====================  ==================================================
+saturation                                  any but safe          retract
+no fresh sample for `stale` s, or stuck     approach to track     hold; after `give_up` s retract
+fresh samples again                         hold                  contact, if it touches; else approach
+force over `touch_force`                    approach              contact
+farther than `approach_travel`              approach              retract
+wanted force reached                        contact               track
+force under `low_force` for 0.1 s           contact, track        approach again; after `attempts` of them retract
+place of contact lost for 0.3 s             track                 it no longer turns, and keeps the force
+... for 2 s                                 track                 retract
+joint limit or singularity for 0.3 s        approach to track     retract
+arm not where it was sent for 0.06 s        approach to track     hold, and on from there; after `attempts` retract
+clock that goes back                        approach to track     as no fresh sample
+force or torque from any side over 80 %     any but safe          retract
+stopped                                     any but safe          retract
+gone back, nothing touches                  retract               safe
+==========================================  ====================  ==================================================
+
+To go back is the one motion that needs no fresh sample: the probe came that way, and nothing was there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from pipeline.control.inverse import Held
+from pipeline.control.sensing import Fault
+
+if TYPE_CHECKING:
+    from pipeline.control.inverse import Step
+    from pipeline.control.sensing import Sensed
+    from pipeline.control.settings import ControlSettings
+
+_LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05
+_NEAR, _STEADY_S = 0.15, 0.2  # of the wanted force, and for how long, before tracking
+_ALARM = 0.8  # of the largest force
+_LITTLE = 0.5  # of a step: less is no going on
+
+
+class State(StrEnum):
+    """What the controller does."""
+
+    APPROACH = "approach"
+    CONTACT = "contact"
+    TRACK = "track"
+    HOLD = "hold"
+    RETRACT = "retract"
+    SAFE = "safe"
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change of state: when (s), from and to what, and why, in a sentence."""
+
+    time: float
+    before: State
+    after: State
+    reason: str
+
+
+class Safety:
+    """
+    The state machine; it moves nothing, and knows nothing of geometry.
+
+    Parameters
+    ----------
+    settings : ControlSettings
+
+    Attributes
+    ----------
+    state : State
+    changes : list of Change
+    turning : bool
+        While tracking: whether the place of the contact is known well enough to turn by it.
+    """
+
+    def __init__(self, settings: ControlSettings) -> None:
+        self.settings = settings
+        self.state = State.APPROACH
+        self.changes: list[Change] = []
+        self.turning = True
+        self.since = 0.0
+        self._elapsed = 0.0  # s in this state, by the periods: it goes on when a clock does not
+        self._now = 0.0
+        self._low = self._lost = self._blocked = self._steady = self._late = 0.0
+        self._attempts = 0
+        self._stop = False
+
+    def stop(self) -> None:
+        """Have it end: it goes back."""
+        self._stop = True
+
+    def update(
+        self,
+        now: float,
+        sensed: Sensed,
+        force: float,
+        *,
+        travelled: float,
+        last: Step | None,
+        probed: bool,
+        dt: float,
+        follows: bool = True,
+    ) -> State:
+        """
+        Decide what to do in this step.
+
+        Parameters
+        ----------
+        now : float
+            s.
+        sensed : Sensed
+        force : float
+            How hard the tissue is pressed, N; NaN without a fresh sample.
+        travelled : float
+            m since the state began: into the tissue in `approach`, back in `retract`.
+        last : Step or None
+            What became of the motion of the step before.
+        probed : bool
+            Whether the stiffness is known.
+        dt : float
+            s.
+        """
+        self._now = now
+        self._elapsed += dt
+        self._count(sensed, force, last, follows, dt)
+        if self.state is not State.SAFE and self._alarm(sensed):
+            return self.state  # what was travelled until now is not the way back
+        late = self._late > _LATE_S
+        match self.state:
+            case State.APPROACH | State.CONTACT | State.TRACK if sensed.fault is not None:
+                self._to(State.HOLD, f"the sensor is {sensed.fault.value}: nothing moves on old readings.")
+            case State.APPROACH | State.CONTACT | State.TRACK if late:
+                self._behind()
+            case State.APPROACH:
+                self._approach(force, travelled)
+            case State.CONTACT:
+                self._contact(force, probed, dt)
+            case State.TRACK:
+                self._track()
+            case State.HOLD:
+                self._hold(sensed, force)
+            case State.RETRACT:
+                self._retract(sensed, force, travelled, last)
+            case State.SAFE:
+                pass
+        return self.state
+
+    # ---- what is counted -------------------------------------------------------------------------
+
+    def _count(self, sensed: Sensed, force: float, last: Step | None, follows: bool, dt: float) -> None:
+        def longer(so_far: float, holds: bool) -> float:
+            return so_far + dt if holds else 0.0
+
+        if sensed.fresh:
+            self._low = longer(self._low, force < self.settings.low_force)
+            self._lost = longer(self._lost, sensed.contact is None)
+        self._late = longer(self._late, not follows)
+        self._blocked = longer(self._blocked, last is not None and _blocked(last))
+        self.turning = self._lost < _LOST_S
+
+    def _alarm(self, sensed: Sensed) -> bool:
+        """Have it go back at once, if it must; tell whether it does from now on."""
+        reason = None if self.state is State.RETRACT else self._danger(sensed)
+        if reason is not None:
+            self._to(State.RETRACT, reason)
+        return reason is not None
+
+    def _danger(self, sensed: Sensed) -> str | None:
+        if self._stop:
+            return "it was stopped."
+        if sensed.fault is Fault.SATURATED:
+            return "the sensor is at the end of its range: the force may be anything."
+        if self._blocked > _STOPPED_S and self.state is not State.HOLD:
+            return "the arm can go no farther: a joint limit or a singularity."
+        return self._overload(sensed) if sensed.fresh else None
+
+    def _overload(self, sensed: Sensed) -> str | None:
+        """Return why a load is too near to its limit, or None; from whatever side it comes."""
+        limits = ("N", self.settings.max_force), ("N·m", self.settings.max_torque)
+        for (unit, most), load in zip(limits, (sensed.wrench[:3], sensed.wrench[3:]), strict=True):
+            size = math.sqrt(float(load @ load))
+            if size > _ALARM * most:
+                return f"{size:.1f} {unit} come too near to the limit of {most:g} {unit}."
+        return None
+
+    # ---- one state each --------------------------------------------------------------------------
+
+    def _approach(self, force: float, travelled: float) -> None:
+        if force > self.settings.touch_force:
+            self._to(State.CONTACT, f"it touches, with {force:.1f} N.")
+        elif travelled > self.settings.approach_travel:
+            far = 1000 * self.settings.approach_travel
+            self._to(State.RETRACT, f"there was no tissue within {far:.0f} mm.")
+
+    def _contact(self, force: float, probed: bool, dt: float) -> None:
+        if self._again():
+            return
+        near = abs(force - self.settings.desired_force) < _NEAR * self.settings.desired_force
+        self._steady = self._steady + dt if near else 0.0
+        if self._steady >= _STEADY_S and probed and self._elapsed > self.settings.ramp:
+            self._to(State.TRACK, f"the force is {force:.1f} N.")
+
+    def _track(self) -> None:
+        if not self._again() and self._lost > _GIVEN_UP_S:
+            self._to(State.RETRACT, f"where it touches was not known for {_GIVEN_UP_S:g} s.")
+
+    def _again(self) -> bool:
+        if self._low < _LOW_S:
+            return False
+        self._attempts += 1
+        if self._attempts > self.settings.attempts:
+            self._to(State.RETRACT, f"the tissue was lost {self._attempts} times.")
+        else:
+            self._to(State.APPROACH, "the tissue was lost: it looks for it again.")
+        return True
+
+    def _behind(self) -> None:
+        self._attempts += 1
+        if self._attempts > self.settings.attempts:
+            self._to(State.RETRACT, f"the arm was not where it was sent {self._attempts} times.")
+        else:
+            self._to(State.HOLD, "the arm is not where it was sent: nothing moves until it is.")
+
+    def _hold(self, sensed: Sensed, force: float) -> None:
+        if sensed.fresh and self._late == 0:
+            touches = force > self.settings.touch_force
+            after = State.CONTACT if touches else State.APPROACH
+            self._to(after, "the readings are fresh, and the arm is where it should be.")
+        elif self._elapsed > self.settings.give_up:
+            self._to(
+                State.RETRACT, f"{self.settings.give_up:g} s did not help: it goes back the way it came."
+            )
+
+    def _retract(self, sensed: Sensed, force: float, travelled: float, last: Step | None) -> None:
+        away = travelled >= self.settings.retract_travel
+        free = not sensed.fresh or force < self.settings.low_force
+        stuck = self._elapsed > 1.0 and (self._late > 1.0 or (last is not None and last.share < _LITTLE))
+        if (away and free) or travelled >= 2 * self.settings.retract_travel or stuck:
+            self._to(State.SAFE, "it has gone back." if not stuck else "it can go back no farther.")
+
+    def _to(self, state: State, reason: str) -> None:
+        self.changes.append(Change(self._now, self.state, state, reason))
+        self.state, self.since, self._elapsed = state, self._now, 0.0
+        self._low = self._lost = self._blocked = self._steady = self._late = 0.0
+        self.turning = True
+
+
+def _blocked(step: Step) -> bool:
+    return Held.SINGULAR in step.held or (Held.LIMIT in step.held and step.share < _LITTLE)

@@ -1,0 +1,134 @@
+"""What happened in a closed loop: one row for each period, with the truth beside what was sensed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.control.states import State
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.control.states import Change
+
+STATES = tuple(State)
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """
+    A closed loop, a row per period.
+
+    Attributes
+    ----------
+    time : (n,)
+        s, of the scene, at the end of the period.
+    force : (n,)
+        How hard the tissue is truly pressed along the probe's axis, N.
+    peak : (n,)
+        Largest |F| of the true contact in the period, N.
+    sensed : (n,)
+        What the controller took the force for, N; NaN without a fresh sample.
+    offset : (n, 2)
+        Sensed place of the contact less the wanted one, S, m; NaN where it was not known.
+    place : (n, 2)
+        Where it truly was at the end of the period, the same way; NaN in the air.
+    angles : (n, 2)
+        Between the probe's axis and the phantom's normal, in plane and out of plane, rad.
+    phantom, probe : (n, 3)
+        Height of the phantom's middle and of the probe's tip, m, and their tilts in plane and out of plane, rad, in the
+        frame P where the phantom rests.
+    joints : (n, k)
+        Set-points, rad or m.
+    state : (n,) int
+        Index in `STATES`.
+    share : (n,)
+        What the arm's limits left of the wanted motion.
+    step_s : (n,)
+        How long the controller took, s; the only thing here that is not the same each time.
+    changes : tuple of Change
+    """
+
+    time: NDArray[np.float64]
+    force: NDArray[np.float64]
+    peak: NDArray[np.float64]
+    sensed: NDArray[np.float64]
+    offset: NDArray[np.float64]
+    place: NDArray[np.float64]
+    angles: NDArray[np.float64]
+    phantom: NDArray[np.float64]
+    probe: NDArray[np.float64]
+    joints: NDArray[np.float64]
+    state: NDArray[np.int_]
+    share: NDArray[np.float64]
+    step_s: NDArray[np.float64]
+    changes: tuple[Change, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def between(self, start: float, end: float = np.inf) -> Trace:
+        """Return the rows from a time on, up to another, s; all changes stay."""
+        rows = (self.time >= start) & (self.time < end)
+        cut = {each.name: getattr(self, each.name)[rows] for each in fields(self) if each.name != "changes"}
+        return replace(self, **cut)
+
+    def was(self, state: State) -> NDArray[np.bool_]:
+        """Return when it was in a state, (n,)."""
+        return np.asarray(self.state == STATES.index(state))
+
+    @property
+    def tilt(self) -> NDArray[np.float64]:
+        """Whole angle between the probe's axis and the phantom's normal, (n,), rad."""
+        return np.asarray(np.arctan(np.linalg.norm(np.tan(self.angles), axis=1)))
+
+    @property
+    def ended(self) -> State:
+        """The state at the end."""
+        return STATES[int(self.state[-1])]
+
+    def csv(self) -> str:
+        """Write it as CSV, in the units of the names, without `step_s`."""
+        joints = [f"joint_{k + 1}" for k in range(self.joints.shape[1])]
+        heads = [*_HEADS, *joints, "state"]
+        columns = [
+            self.time,
+            self.force,
+            self.peak,
+            self.sensed,
+            *(1e3 * self.offset).T,
+            *(1e3 * self.place).T,
+        ]
+        columns += [*np.degrees(self.angles).T]
+        for body in (self.phantom, self.probe):
+            columns += [1e3 * body[:, 0], *np.degrees(body[:, 1:]).T]
+        columns += [self.share, *self.joints.T]
+        rows = (
+            ",".join([*("" if np.isnan(value) else f"{value:.6g}" for value in row), STATES[state]])
+            for row, state in zip(np.column_stack(columns).tolist(), self.state.tolist(), strict=True)
+        )
+        return "\n".join([",".join(heads), *rows]) + "\n"
+
+
+_HEADS = (
+    "time_s",
+    "force_N",
+    "peak_N",
+    "sensed_force_N",
+    "offset_x_mm",
+    "offset_y_mm",
+    "true_offset_x_mm",
+    "true_offset_y_mm",
+    "in_plane_deg",
+    "out_of_plane_deg",
+    "phantom_height_mm",
+    "phantom_in_plane_deg",
+    "phantom_out_of_plane_deg",
+    "probe_height_mm",
+    "probe_in_plane_deg",
+    "probe_out_of_plane_deg",
+    "share_of_motion",
+)

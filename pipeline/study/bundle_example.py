@@ -1,0 +1,94 @@
+"""An example of a runtime config: the bundled T-shape, weighed and verified in simulation."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+import assets
+from pipeline.calibration import GravityModel, PoseNoise, calibrate
+from pipeline.config.runtime import Filters, RuntimeConfig, build_config
+from pipeline.config.runtime.model import ControllerPart, LimitsPart, SensorPart, SourcePart, VerificationPart
+from pipeline.contact.gates import Gates
+from pipeline.contact.noise import WrenchNoise
+from pipeline.filtering import KalmanFilter, LowPass
+from pipeline.mesh import Probe
+from pipeline.mesh.regions import Region, RegionSet
+from pipeline.mesh.sidecar import ProbeFile
+from pipeline.simulation.weighing import weigh
+
+
+def example_config(
+    facets: int = 1_000, *, rate: float = 1_000.0, seed: int = 1, verified: bool = True
+) -> RuntimeConfig:
+    """
+    Make a config of the bundled T-shape; the same arguments give the same bytes.
+
+    Parameters
+    ----------
+    facets : int
+    rate : float
+        Hz.
+    seed : int
+        Of the readings that the calibration is made from.
+    verified : bool
+        Left out, the verification is missing.
+    """
+    rng = np.random.default_rng(seed)
+    truth = GravityModel(
+        np.array([0.1, -0.05, -6.2]),
+        np.array([1.5, -2.0, 0.7]),
+        np.array([0.004, -0.002, 0.09]),
+        np.array([0.03, 0.05, -0.02]),
+    )
+    noise = PoseNoise(0.02, 0.0008)
+    calibration = calibrate(weigh(truth, Rotation.random(12, rng).as_matrix(), noise, rng).poses, noise)
+    vertices, faces = assets.make("t-shape", facets)
+    region = assets.contact_region("t-shape", vertices, faces)
+    probe = Probe.from_arrays(vertices, faces, region, name="t-shape")
+    regions = RegionSet.from_labels(probe.region, (Region("acoustic face", "#1f77b4"),))
+    return build_config(
+        calibration,
+        ProbeFile(probe, regions, "S"),
+        sensor=SensorPart(model="virtual", serial="V-0001", rate_Hz=rate),
+        noise=WrenchNoise(0.05, 0.002),
+        filters=Filters(KalmanFilter(rate), LowPass(20.0, rate)),
+        gates=Gates(saturation=(200.0, 200.0, 200.0, 8.0, 8.0, 8.0)),
+        mount=(1.0, 0.0, 0.0, 0.0),
+        limits=LimitsPart(max_force_N=30.0, max_torque_Nm=3.0, max_speed_mps=0.1, max_turn_radps=None),
+        controller=ControllerPart(
+            desired_force_N=5.0,
+            force_mass_kg=1.0,
+            force_damping_Nspm=80.0,
+            force_stiffness_Npm=0.0,
+            angle_inertia=0.05,
+            angle_damping=1.0,
+            angle_stiffness=0.0,
+        ),
+        verification=_verification() if verified else None,
+        report=b"<!doctype html><title>Verification</title><p>Simulated.</p>\n",
+        operator="simulation",
+        session=None,
+        created=datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC),
+        sources=[SourcePart(role="mesh", name="t-shape", sha256="0" * 64)],
+        unverified=not verified,
+    )
+
+
+def _verification() -> VerificationPart:
+    return VerificationPart(
+        touches=60,
+        markers=20,
+        mean_error_m=0.0004,
+        sd_error_m=0.0002,
+        p95_error_m=0.0008,
+        max_error_m=0.0011,
+        ratio=1.1,
+        p99_time_s=2e-5,
+        limit_mean_m=0.001,
+        limit_max_m=0.002,
+        passed=True,
+        diagnosis="The errors are what the noise explains.",
+    )

@@ -1,0 +1,47 @@
+"""What the processes of the study write down while they run, and how it is read back."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.devices.protocols.sri import Layout
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+FRAME_BYTES = Layout().frame_bytes
+SENT = struct.Struct(f"<d{FRAME_BYTES}s")
+"""When a frame was given to the line, seconds of the monotonic clock that all processes share; the frame."""
+GIVEN = struct.Struct("<dq6d")
+"""When a sample was given to whoever reads, on the same clock; its sequence; N and N·m."""
+
+SENT_TYPE = np.dtype([("at", "<f8"), ("head", "S4"), ("number", ">u2"), ("values", "<f4", 6), ("sum", "u1")])
+GIVEN_TYPE = np.dtype([("at", "<f8"), ("sequence", "<i8"), ("values", "<f8", 6)])
+
+
+def read_back(path: Path, kind: np.dtype[np.void]) -> NDArray[np.void]:
+    """
+    Return the records of a file.
+
+    Parameters
+    ----------
+    path : Path
+    kind : SENT_TYPE or GIVEN_TYPE
+
+    Raises
+    ------
+    InputError
+        It does not hold whole records: the process that wrote it was ended.
+    """
+    data = path.read_bytes()
+    if len(data) % kind.itemsize:
+        raise InputError(
+            f"{path.name}: the last record is cut off: the process that wrote it was ended. Run again."
+        )
+    return np.frombuffer(data, dtype=kind)

@@ -1,0 +1,100 @@
+"""The probes of a sweep: what is touched, and the mesh that it is located on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+import assets
+from pipeline.errors import InputError
+from pipeline.mesh import Probe
+from pipeline.mesh.sidecar import load_probe_file
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.simulation.touches import Sampled
+
+_ABOVE_M = 0.02  # of a bundled probe: what is nearer to the flange is not touched
+_KEPT = 8  # meshes of a process
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """
+    A probe that is touched.
+
+    Attributes
+    ----------
+    surface : Sampled
+        As it truly is.
+    above : float
+        Only what lies higher than this is touched, z in S, m.
+    """
+
+    surface: Sampled
+    above: float
+
+
+class MeshSurface:
+    """
+    A mesh as a true surface.
+
+    Parameters
+    ----------
+    probe : Probe
+    """
+
+    def __init__(self, probe: Probe) -> None:
+        self._corners = probe.vertices[probe.faces]
+        areas = np.linalg.norm(
+            np.cross(self._corners[:, 1] - self._corners[:, 0], self._corners[:, 2] - self._corners[:, 0]),
+            axis=1,
+        )
+        self._normals = probe.normals
+        self._shares = np.cumsum(areas) / areas.sum()
+
+    def sample(self, count: int, rng: np.random.Generator) -> Sequence[NDArray[np.float64]]:
+        """Give points (count, 3), m, spread evenly by area, and outward normals (count, 3)."""
+        faces = np.minimum(np.searchsorted(self._shares, rng.random(count)), len(self._shares) - 1)
+        u, v = np.sqrt(rng.random(count)), rng.random(count)
+        weights = np.column_stack([1 - u, u * (1 - v), u * v])
+        return np.einsum("nk,nkd->nd", weights, self._corners[faces]), self._normals[faces]
+
+
+@lru_cache(maxsize=_KEPT)
+def body_of(name: str) -> Body:
+    """Return what is touched: a bundled probe's exact surface, or the file's own mesh; InputError."""
+    if name in assets.PROBE_NAMES:
+        return Body(assets.surface(name), _ABOVE_M)
+    probe = _file(name)
+    low, high = probe.bounds
+    return Body(MeshSurface(probe), float(low[2] + 0.15 * (high[2] - low[2])))
+
+
+@lru_cache(maxsize=_KEPT)
+def mesh_of(name: str, facets: int) -> Probe:
+    """Return the mesh of about so many facets that contacts are located on; InputError."""
+    if name in assets.PROBE_NAMES:
+        vertices, faces = assets.make(name, facets)
+        return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
+    from pipeline.mesh.simplify import Count, simplify
+
+    probe = _file(name)
+    return probe if facets >= len(probe.faces) else simplify(probe, Count(facets)).probe
+
+
+@lru_cache(maxsize=_KEPT)
+def _file(name: str) -> Probe:
+    content = load_probe_file(Path(name))
+    if content.history and content.frame != "S":
+        raise InputError(
+            f"{name}: the probe is not aligned with the sensor: `contactbench probe align` does it."
+        )
+    return content.probe

@@ -1,0 +1,152 @@
+"""Computing a sweep: on this machine or on a cluster, through Dask."""
+
+from __future__ import annotations
+
+import os
+from contextlib import ExitStack
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+from pipeline.errors import InputError
+from pipeline.study.sweep.cell import run_cell
+from pipeline.study.sweep.store import RESULTS, Store, environment, write_results
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from pipeline.study.sweep.plan import Cell, Plan
+
+_TOGETHER = 24  # cells of a task: few enough that little is lost when it is cancelled
+
+
+@dataclass(frozen=True)
+class Swept:
+    """
+    What a run did.
+
+    Attributes
+    ----------
+    results : Path or None
+        The Parquet file; None: it was cancelled before all was done.
+    cells, computed, failed : int
+        All of them, those computed now, and those that could not be.
+    """
+
+    results: Path | None
+    cells: int
+    computed: int
+    failed: int
+
+
+def run(
+    plan: Plan,
+    out: Path,
+    *,
+    scheduler: str | None = None,
+    workers: int | None = None,
+    timed: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+    cancelled: Callable[[], bool] = lambda: False,
+) -> Swept:
+    """
+    Compute every cell that is not done yet, and write the results.
+
+    Errors do not depend on `workers` or `scheduler`: each cell has a seed of its own. Times are those of a busy machine
+    where several workers share it: for times, give one worker.
+
+    Parameters
+    ----------
+    plan : Plan
+    out : Path
+        Folder; what is done in it is not done again.
+    scheduler : str, optional
+        Address of a Dask scheduler, tcp://...; left out, a cluster of processes on this machine.
+    workers : int, optional
+        Processes on this machine; left out, one for each core. 1: in this process, without a cluster.
+    timed : bool
+        Whether to measure times.
+    progress : callable, optional
+        Gets the number of cells that are done, and of all.
+    cancelled : callable
+        Asked between cells.
+
+    Raises
+    ------
+    InputError
+        The folder or the scheduler cannot be used.
+    """
+    cells = plan.cells()
+    count = workers or os.cpu_count() or 1
+    with Store(out) as store:
+        todo = [cell for cell in cells if cell.key not in store.rows]
+        done = len(cells) - len(todo)
+        for row in _rows(todo, scheduler, count, timed, cancelled):
+            store.keep(row)
+            done += 1
+            if progress is not None:
+                progress(done, len(cells))
+        rows = [store.rows[cell.key] for cell in cells if cell.key in store.rows]
+    computed = len(todo) - (len(cells) - len(rows))
+    failed = sum(bool(row["failed"]) for row in rows)
+    if len(rows) < len(cells):
+        return Swept(None, len(cells), computed, failed)
+    file = out / RESULTS
+    write_results(file, plan, rows, environment(count, scheduler or "local"))
+    return Swept(file, len(cells), computed, failed)
+
+
+def tasks_of(cells: list[Cell]) -> list[list[Cell]]:
+    """Return cells in parts that share a mesh: making one may take longer than locating on it."""
+    parts = []
+    for _, group in groupby(sorted(cells, key=lambda cell: cell.group), key=lambda cell: cell.group):
+        alike = list(group)
+        parts += [alike[first : first + _TOGETHER] for first in range(0, len(alike), _TOGETHER)]
+    return parts
+
+
+def run_task(cells: list[Cell], timed: bool) -> list[dict[str, Any]]:
+    """Compute cells one after the other; what a worker does."""
+    return [run_cell(cell, timed=timed) for cell in cells]
+
+
+def _rows(
+    cells: list[Cell], scheduler: str | None, workers: int, timed: bool, cancelled: Callable[[], bool]
+) -> Iterator[dict[str, Any]]:
+    if not cells:
+        return
+    if scheduler is None and workers == 1:
+        for cell in (cell for part in tasks_of(cells) for cell in part):
+            if cancelled():
+                return
+            yield run_cell(cell, timed=timed)
+        return
+    yield from _by_dask(tasks_of(cells), scheduler, workers, timed, cancelled)
+
+
+def _by_dask(
+    parts: list[list[Cell]],
+    scheduler: str | None,
+    workers: int,
+    timed: bool,
+    cancelled: Callable[[], bool],
+) -> Iterator[dict[str, Any]]:
+    from distributed import Client, LocalCluster, as_completed
+
+    with ExitStack() as stack:
+        try:
+            address: Any = scheduler or stack.enter_context(
+                LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None, processes=True)
+            )
+            client = stack.enter_context(Client(address, timeout="10s"))
+        except (OSError, ValueError, TimeoutError) as error:
+            raise InputError(
+                f"scheduler {scheduler or 'on this machine'}: no connection ({error}): check the address."
+            ) from error
+        futures = client.map(run_task, parts, timed=timed, pure=False, retries=1)
+        for future in as_completed(futures):
+            if cancelled():
+                client.cancel(futures)
+                return
+            yield from future.result()

@@ -1,0 +1,178 @@
+"""From a recording of a sensor and a robot to poses, as from a table."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from calibration.streams import Recording, stream
+from scipy.spatial.transform import Rotation
+from typer.testing import CliRunner
+
+from pipeline import cli
+from pipeline.calibration import calibrate
+from pipeline.calibration.files.capture_file import capture_file
+from pipeline.calibration.files.capture_recording import (
+    Delay,
+    capture_any,
+    capture_recording,
+    is_recording,
+    read_any_poses,
+)
+from pipeline.calibration.orientation import Convention
+from pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from pipeline.errors import InputError
+from pipeline.recording import RecordingError, RecordingInfo, RecordingWriter, read_recording
+from pipeline.recording.convert import write_csv
+
+MOUNT = Rotation.from_euler("xyz", (10, -20, 70), degrees=True).as_matrix()  # R_ES
+LATE = 0.0413
+NOWHERE = np.full(3, np.nan)
+
+
+@pytest.fixture(scope="module")
+def taken() -> Recording:
+    return stream(5, poses=6, bumps=0.2, vertical=0.0)
+
+
+def write(file: Path, taken: Recording, *, late: float = 0.0, gap: tuple[float, float] = (0, 0)) -> Path:
+    """Write it with a flange at about 50 Hz, heard `late` seconds before the wrench of the same moment."""
+    step = round(taken.rate / 50)
+    about = RecordingInfo(1_700_000_000_000_000_000, float(taken.t[0]))
+    with RecordingWriter(file, about, chunk_seconds=1e9, sync_seconds=1e9) as writer:
+        for row, (t, w) in enumerate(zip(taken.t.tolist(), taken.wrenches.tolist(), strict=True)):
+            # One reading in a thousand is none, and says so.
+            status = Status.INVALID if row % 1000 == 500 else Status.OK
+            writer.wrench(WrenchSample(t, (w[0], w[1], w[2]), (w[3], w[4], w[5]), row, status))
+            if row % step == 0 and not gap[0] < t < gap[1]:
+                writer.flange(FlangeSample(t - late, taken.R_WS[row] @ MOUNT.T, NOWHERE))
+    return file
+
+
+@pytest.fixture(scope="module")
+def file(taken: Recording, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write(tmp_path_factory.mktemp("recording") / "a.mcap", taken)
+
+
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(cli.app, list(map(str, arguments)))
+
+
+def said(result: Any) -> str:
+    return " ".join(result.stderr.split())
+
+
+def test_it_gives_bit_for_bit_what_the_converted_table_gives(file: Path, tmp_path: Path) -> None:
+    write_csv(tmp_path / "a.csv", read_recording(file))
+    table = capture_file(tmp_path / "a.csv", R_ES=MOUNT)
+    found = capture_recording(file, R_ES=MOUNT)
+    assert len(found.poses) >= 5
+    assert found.rows == table.rows
+    for one, other in zip(found.poses, table.poses, strict=True):
+        assert (one.name, one.force.tolist(), one.torque.tolist()) == (
+            other.name,
+            other.force.tolist(),
+            other.torque.tolist(),
+        )
+        np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=1e-15)
+    assert "no good" in found.warnings[0]
+
+
+def test_the_poses_lead_to_the_load(file: Path, taken: Recording) -> None:
+    off = calibrate(capture_recording(file, R_ES=MOUNT).poses).model.vector - taken.model.vector
+    assert np.abs(off[:3]).max() < 0.05
+    assert np.abs(off[6:9]).max() < 0.001
+
+
+def test_a_delay_is_estimated_and_said(taken: Recording, tmp_path: Path) -> None:
+    late = write(tmp_path / "late.mcap", taken, late=LATE)
+    result = invoke(
+        "captures", late, "--delay", "auto", "--mount", "10,-20,70", "--out", tmp_path / "p.csv", "--json"
+    )
+    assert result.exit_code == 0, result.stderr
+    facts = json.loads(result.stdout)
+    assert facts["delay_s"] == pytest.approx(LATE, abs=0.005)
+    assert "ms later than the robot" in said(result)
+    given = capture_recording(late, R_ES=MOUNT, delay=LATE)
+    assert given.delay == LATE
+    assert len(given.poses) == len(facts["poses"])
+
+
+def test_no_pose_is_carried_over_a_gap(taken: Recording, tmp_path: Path) -> None:
+    dwell = taken.dwells[2]
+    gap = (dwell.start - 0.2, dwell.stop + 0.2)
+    found = capture_recording(write(tmp_path / "gap.mcap", taken, gap=gap), R_ES=MOUNT)
+    for capture in found.report.captures:
+        assert capture.stop < gap[0] + 0.3 or capture.start > gap[1] - 0.3
+    assert "no pose within 0.25 s" in " ".join(found.warnings)
+
+
+def test_calibrate_takes_a_recording(file: Path, tmp_path: Path) -> None:
+    out = tmp_path / "c.json"
+    result = invoke("calibrate", file, "--mount", "10,-20,70", "--out", out, "--json")
+    assert result.exit_code == 0, result.stderr
+    assert json.loads(result.stdout)["poses"] >= 5
+    assert "no good" in said(result)
+    poses = tmp_path / "p.csv"
+    assert invoke("captures", file, "--mount", "10,-20,70", "--out", poses).exit_code == 0
+    assert invoke("calibrate", poses, "--out", tmp_path / "d.json").exit_code == 0
+    one, other = (json.loads((tmp_path / name).read_bytes()) for name in ("c.json", "d.json"))
+    assert one["mass_kg"] == pytest.approx(other["mass_kg"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--euler", "xyz"), "leave the convention out"),
+        (("--delay", "soon"), "seconds, or auto"),
+        (("--delay", "99"), "at most 10"),
+        (("--delay", "nan"), "at most 10"),
+    ],
+)
+def test_what_does_not_fit_is_said(file: Path, tmp_path: Path, options: tuple[str, ...], words: str) -> None:
+    result = invoke("captures", file, *options, "--out", tmp_path / "p.csv")
+    assert result.exit_code == 2
+    assert words in said(result) + " " + str(result.exception)
+    assert not (tmp_path / "p.csv").exists()
+
+
+def test_a_delay_needs_a_recording() -> None:
+    with pytest.raises(InputError, match="a delay needs a recording"):
+        capture_any(io.BytesIO(b"t\n"), delay=0.1)
+    assert not is_recording(Path("none"))
+
+
+def flat(file: Path, *, robot: bool, shift: float = 0.0) -> Path:
+    with RecordingWriter(file, RecordingInfo(1_700_000_000_000_000_000, 0.0)) as writer:
+        for row in range(400):
+            writer.wrench(WrenchSample(row / 100, (0.0, 0.0, float(row % 2)), (0.0, 0.0, 0.0)))
+            if robot:
+                writer.flange(FlangeSample(row / 100 + shift, np.eye(3), NOWHERE))
+    return file
+
+
+@pytest.mark.parametrize(
+    ("robot", "shift", "delay", "words"),
+    [
+        (False, 0.0, None, "1 sensors and 0 robots"),
+        (True, 100.0, None, "no wrench with a pose beside it"),
+        (True, 0.0, "auto", "hardly turned"),
+    ],
+)
+def test_recordings_that_show_nothing(
+    tmp_path: Path, robot: bool, shift: float, delay: Delay, words: str
+) -> None:
+    with pytest.raises(RecordingError, match=words):
+        capture_recording(flat(tmp_path / "a.mcap", robot=robot, shift=shift), delay=delay)
+
+
+def test_a_damaged_recording_is_named(file: Path, tmp_path: Path) -> None:
+    (tmp_path / "b.mcap").write_bytes(file.read_bytes()[:30])
+    with pytest.raises(RecordingError, match=r"b\.mcap"):
+        capture_any(tmp_path / "b.mcap")
+    with pytest.raises(InputError, match="leave the convention out"):
+        read_any_poses(file, Convention())

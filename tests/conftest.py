@@ -1,0 +1,56 @@
+"""What tests of windows need: a screen of their own, so that no other test's window takes the focus."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+_screen = None
+
+
+def pytest_configure(config):  # noqa: ARG001 - the hook's name
+    """Start a screen for this process, where it has none or would share one with another worker."""
+    global _screen
+    shared = "PYTEST_XDIST_WORKER" in os.environ
+    if shutil.which("Xvfb") is None or (os.environ.get("DISPLAY") and not shared):
+        return
+    read, write = os.pipe()
+    _screen = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", "2560x1440x24", "-nolisten", "tcp"],
+        pass_fds=[write],
+        stderr=subprocess.DEVNULL,
+    )
+    os.close(write)
+    with os.fdopen(read) as numbers:
+        number = numbers.readline().strip()
+    if number:
+        os.environ["DISPLAY"] = f":{number}"
+        os.environ["QT_QPA_PLATFORM"] = "xcb"
+
+
+def pytest_unconfigure(config):  # noqa: ARG001 - the hook's name
+    """Take it down again."""
+    if _screen is not None:
+        _screen.terminate()
+        _screen.wait(10)
+
+
+@pytest.fixture(autouse=True)
+def _as_it_was():
+    """Give every test of windows an application without a theme or language that another one chose."""
+    yield
+    widgets = sys.modules.get("PySide6.QtWidgets")
+    application = widgets and widgets.QApplication.instance()
+    if not application:
+        return
+    from PySide6.QtCore import QTranslator
+    from PySide6.QtGui import QPalette
+
+    for translator in application.findChildren(QTranslator):
+        application.removeTranslator(translator)
+    application.setStyleSheet("")
+    application.setPalette(QPalette())

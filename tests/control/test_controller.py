@@ -1,0 +1,220 @@
+import numpy as np
+import pytest
+from config.runtime.bundles import example
+from control.closed_loop import Ramp, gravity, loop, settings_for
+
+from pipeline.contact import Gates, WrenchNoise
+from pipeline.control.arms import CartesianMount
+from pipeline.control.controller import Controller, Mount
+from pipeline.control.foundation import USUAL_MODULUS, Foundation
+from pipeline.control.margins import loop_of, margins
+from pipeline.control.sensing import Intake
+from pipeline.control.settings import Variant
+from pipeline.control.states import State
+from pipeline.errors import InputError
+from pipeline.simulation.scenes.platform_motion import PlatformMotion
+from pipeline.study.reproduce.touching import model_of
+
+BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
+
+
+def turning(axis, period=2.0, start=2.8):
+    return PlatformMotion.along(axis, np.radians(10), period, start=start)
+
+
+@pytest.mark.parametrize(("name", "stiffer"), [("convex", 1), ("t-shape", 1), ("t-shape", 5)])
+def test_first_touch_does_not_swing(name, stiffer):
+    run = loop(name, modulus=stiffer * USUAL_MODULUS, bias=BIAS).until(State.TRACK)
+    assert max(run.forces) < 1.15 * 7.0
+    run.run(0.6)
+    assert np.std(run.forces[-20:]) < 0.1
+    assert np.mean(run.forces[-20:]) == pytest.approx(7.0, abs=0.1)
+
+
+@pytest.mark.parametrize("axis", ["rx", "ry"])
+def test_tissue_that_turns_in_two_seconds_is_followed(axis):
+    run = loop("t-shape", motion=turning(axis), bias=BIAS).run(4.8)
+    late = np.array(run.times) > 3.3
+    off = np.degrees(np.abs(np.array(run.angles)[late]))
+    assert off.mean(axis=0).max() < 4.0
+    forces = np.array(run.forces)[late]
+    assert 5.5 < forces.min() < forces.max() < 8.0
+    assert run.controller.state is State.TRACK
+
+
+def test_the_aware_variant_follows_better_than_the_plain_one():
+    off = {}
+    for variant in Variant:
+        run = loop("t-shape", settings_for(variant=variant), motion=turning("ry", period=4.0, start=2.4)).run(
+            3.8
+        )
+        off[variant] = np.abs(np.array(run.angles)[-50:, 0]).mean()
+    assert off[Variant.AWARE] < 0.6 * off[Variant.PLAIN]
+
+
+def test_what_a_calibration_leaves_is_taken_off_in_the_air():
+    off = {}
+    for taring in (0.0, 0.5):
+        run = loop("convex", settings_for("convex", taring=taring), bias=BIAS, noise=(0.01, 0.0003))
+        run.until(State.TRACK).run(0.2)
+        wanted = run.controller.wanted_S[:2]
+        moment = run.scene.moment()
+        off[taring] = np.linalg.norm(run.commands[-1].offset - (moment.point_S[:2] - wanted))
+    assert off[0.5] < 0.5 * off[0.0]
+
+
+def test_the_same_inputs_give_the_same_bytes():
+    first, second = (loop("t-shape", motion=turning("ry", start=1.0)).run(2.2) for _ in range(2))
+    one, two = (
+        b"".join(each.q.tobytes() + each.twist.tobytes() for each in run.commands) for run in (first, second)
+    )
+    assert one == two
+
+
+def test_signs_a_contact_off_in_x_turns_the_probe_about_y():
+    for axis, which in (("ry", 0), ("rx", 1)):
+        run = loop("t-shape", settings_for(variant=Variant.PLAIN), noise=(1e-3, 1e-5)).until(State.TRACK)
+        run.scene.motion = Ramp(
+            0.02 * np.eye(6)[3 + (axis == "ry")], run.scene.time
+        )  # a lasting tilt of 1.1 degrees
+        before = abs(run.scene.angles()[which])
+        run.run(1.5)
+        tilted = np.abs(np.array(run.angles)[:, which]).max()
+        assert before < 0.005 < 0.009 < tilted
+        assert abs(run.scene.angles()[which]) < 0.3 * tilted
+
+
+def test_no_motion_on_old_data():
+    run = loop().until(State.TRACK)
+    q = run.commands[-1].q
+    held = [run.step(samples=[]) for _ in range(5)]
+    np.testing.assert_array_equal(held[0].twist, np.zeros(6))
+    assert held[-1].state is State.HOLD
+    assert np.abs(held[-1].q - q).max() < 3e-4
+    run.run(1.5)
+    assert [each.after for each in run.controller.safety.changes][-3:] == [
+        State.HOLD,
+        State.CONTACT,
+        State.TRACK,
+    ]
+
+
+def test_silence_ends_safe_and_away():
+    run = loop().until(State.TRACK)
+    for _ in range(60):
+        run.step(samples=[])
+    assert run.controller.state is State.SAFE
+    assert run.forces[-1] == 0.0
+
+
+def test_an_arm_that_does_not_move_is_not_pushed_on():
+    run = loop(settings=settings_for(attempts=1, approach_speed=0.02)).until(State.TRACK)
+    run.scene.command = lambda _: None
+    run.scene.motion = Ramp(np.array([0, 0, -0.003, 0, 0, 0]), run.scene.time)  # away: it would go after it
+    run.run(2.6)
+    assert any("where it was sent" in each.reason for each in run.controller.safety.changes)
+    assert run.controller.state is State.SAFE
+    # What was sent stays near to where it stands: should it let go, it would not jump.
+    tips = np.array([each.q[2] for each in run.commands])
+    assert np.abs(tips[-100:] - run.scene.joints[2]).max() < 0.1
+
+
+def test_joints_that_are_no_numbers_move_nothing():
+    run = loop().until(State.TRACK)
+    for _ in range(120):
+        run.step(joints=np.full(6, np.nan))
+    assert State.HOLD in [each.after for each in run.controller.safety.changes]
+    assert run.controller.state in (State.RETRACT, State.SAFE)
+    assert max(run.forces) < 12.0
+    assert all(np.isfinite(each.q).all() for each in run.commands)
+
+
+def test_a_jump_of_the_force_makes_it_go_back():
+    run = loop().until(State.TRACK)
+    run.bias = np.array([0, 0, -20.0, 0, 0, 0])
+    for _ in range(3):
+        command = run.step()
+    assert command.state is State.RETRACT
+    run.bias = np.zeros(6)
+    run.run(1.5)
+    assert run.controller.state is State.SAFE
+
+
+def test_a_stop_goes_back_and_ends():
+    run = loop().until(State.CONTACT)
+    run.controller.stop()
+    assert run.step().state is State.RETRACT
+    run.run(1.5)
+    assert run.controller.state is State.SAFE
+    assert run.forces[-1] == 0.0
+    q = run.commands[-1].q
+    np.testing.assert_array_equal(run.step().q, q)
+
+
+def test_joints_of_another_arm_are_refused():
+    run = loop()
+    with pytest.raises(InputError, match="give all"):
+        run.controller.step(0.0, np.zeros(7), [])
+
+
+def test_the_model_of_the_force_loop_says_where_the_simulation_swings():
+    base = settings_for(variant=Variant.PLAIN, probing=0.0, taring=0.0, approach_speed=0.002, max_speed=0.5)
+    foundation = Foundation(model_of("t-shape", 1000))
+    room = margins(loop_of(base, foundation, USUAL_MODULUS, "force", unknown=0.0)).gain
+    spread = {}
+    for share in (0.6, 1.7):
+        gains = {
+            "force_damping": base.force_damping / (room * share),
+            "force_mass": base.force_mass / (room * share),
+        }
+        settings = settings_for(
+            variant=Variant.PLAIN, probing=0.0, taring=0.0, approach_speed=0.002, max_speed=0.5, **gains
+        )
+        # Without the damping of the tissue, which the model leaves out.
+        run = loop("t-shape", settings, noise=(0.01, 0.0002), damping=1e-3).run(2.6)
+        spread[share] = max(run.forces) - 7.0
+    assert spread[0.6] < 2.0
+    assert spread[1.7] > 5.0
+
+
+def test_a_bundle_is_all_it_takes():
+    config, arm = example(), CartesianMount()
+    told = config.model.frames.quaternion_ES
+    more = {} if told is not None else {"quaternion_ES": (1.0, 0.0, 0.0, 0.0)}
+    controller = Controller.from_config(config, arm, np.zeros(6), p_ES_E=(0, 0, 0.01), **more)
+    settings = controller.settings
+    assert settings.max_force == config.model.limits.max_force_N
+    if config.model.controller is not None:
+        assert settings.desired_force == config.model.controller.desired_force_N
+    assert controller.wanted_S[2] == pytest.approx(config.probe.vertices[:, 2].max())
+    assert controller.step(0.0, np.zeros(6), []).state is State.HOLD
+    with pytest.raises(InputError, match="no method"):
+        Controller.from_config(config, arm, np.zeros(6), method="guess", **more)
+    if told is None:
+        with pytest.raises(InputError, match="how the sensor sits"):
+            Controller.from_config(config, arm, np.zeros(6))
+    else:
+        with pytest.raises(InputError, match="calibrate anew"):
+            Controller.from_config(config, arm, np.zeros(6), quaternion_ES=(0.0, 1.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [(2 * np.eye(3), np.zeros(3)), (np.diag([1, 1, -1.0]), np.zeros(3)), (np.eye(3), np.full(3, np.nan))],
+)
+def test_a_mount_must_be_a_rotation_and_a_place(wrong):
+    with pytest.raises(InputError, match="mount"):
+        Mount(*wrong)
+
+
+def test_a_mount_turns_what_is_seen_not_what_is_done():
+    probe, arm = model_of("t-shape", 1000), CartesianMount()
+    turned = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    intake = Intake(probe, gravity(), WrenchNoise(), Gates())
+    place = np.array([0.01, 0.02, 0.03])
+    controller = Controller(settings_for(), arm, probe, intake, Mount(turned, place), np.zeros(6))
+    R_BE, p_BE_B = arm.flange_pose(np.zeros(6))
+    R_BS, tip = controller._pose(np.zeros(6))
+    np.testing.assert_allclose(R_BS, R_BE @ turned)
+    np.testing.assert_allclose(tip, p_BE_B + R_BE @ (place + turned @ controller.wanted_S))
+    np.testing.assert_allclose(R_BE @ (turned @ controller._lever_S), tip - p_BE_B, atol=1e-12)

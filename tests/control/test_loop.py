@@ -1,0 +1,114 @@
+"""The closed loop: what it notes is what happened, and the same seeds give the same course."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.control.faults import FaultKind, ScriptedFault
+from pipeline.control.loop import Loop, run_loop
+from pipeline.control.settings import ControlSettings
+from pipeline.control.states import State
+from pipeline.errors import InputError
+from pipeline.simulation.scenes import PlatformMotion
+from pipeline.study.control_rig import foundation_of, make_rig
+
+MOTION = PlatformMotion.along("ry", np.radians(5), 4.0, 3.0)
+
+
+def rig(**changes):
+    settings = replace(ControlSettings.for_probe(foundation_of("t-shape")), taring=0.1)
+    return make_rig("platform", "t-shape", settings, 0, motion=MOTION, coarse=True, **changes)
+
+
+def run(seconds, **options):
+    made = rig()
+    return run_loop(made.scene, made.controller, made.sensor, seconds, **options)
+
+
+@pytest.fixture(scope="module")
+def whole():
+    return run(8.0, stop_after=4.5)
+
+
+def test_it_touches_tracks_and_comes_back(whole):
+    assert [str(each.after) for each in whole.changes] == ["contact", "track", "retract", "safe"]
+    assert whole.ended is State.SAFE
+    tracking = whole.between(3.0, 4.5)
+    assert tracking.was(State.TRACK).all()
+    assert np.abs(tracking.force - 7.0).max() < 0.5
+    assert np.degrees(tracking.tilt).max() < 3.0
+    assert whole.time[-1] < 8.0  # it ended when it was safe
+
+
+def test_periods_are_even_and_peaks_are_peaks(whole):
+    np.testing.assert_allclose(np.diff(whole.time), 0.02, atol=1e-9)
+    assert (whole.peak >= whole.force - 1e-9).all()
+
+
+def test_phantom_and_probe_are_told_in_one_frame(whole):
+    at = whole.between(3.0, 4.5)
+    wanted = 5 * np.sin(2 * np.pi * (at.time - 3.0) / 4.0)
+    np.testing.assert_allclose(np.degrees(at.phantom[:, 1]), wanted, atol=0.05)
+    # The difference of the two tilts is the angle error, and the tip is in the tissue.
+    np.testing.assert_allclose(
+        np.abs(at.phantom[:, 1] - at.probe[:, 1]), np.abs(at.angles[:, 0]), atol=np.radians(0.05)
+    )
+    assert ((at.probe[:, 0] - at.phantom[:, 0]) < 0).all()
+    assert (whole.probe[0, 0] - whole.phantom[0, 0]) == pytest.approx(0.003, abs=1e-4)
+
+
+def test_the_sensed_place_is_near_the_true_one(whole):
+    at = whole.between(3.2, 4.5)
+    off = 1e3 * (at.offset - at.place)
+    assert np.sqrt(np.nanmean(off**2)) < 2.0
+    assert np.isfinite(at.offset).mean() > 0.95
+
+
+def test_the_same_seeds_give_the_same_course():
+    one, other = run(1.0), run(1.0)
+    assert one.csv() == other.csv()
+    other_seed = rig()
+    other_seed.sensor._rng = np.random.default_rng(99)
+    assert run_loop(other_seed.scene, other_seed.controller, other_seed.sensor, 1.0).csv() != one.csv()
+
+
+def test_csv_has_a_row_for_each_period(whole):
+    lines = whole.csv().splitlines()
+    assert len(lines) == len(whole) + 1
+    heads = lines[0].split(",")
+    assert all(len(line.split(",")) == len(heads) for line in lines)
+    assert lines[-1].endswith("safe")
+
+
+def test_a_dropout_has_it_hold_and_go_back():
+    dropout = ScriptedFault(FaultKind.DROPOUT, 1.5, float("inf"))
+    trace = run(6.0, faults=(dropout,))
+    assert trace.ended is State.SAFE
+    later = trace.between(1.5 + 0.1)
+    assert not later.was(State.TRACK).any()
+    assert "stale" in " ".join(each.reason for each in trace.changes)
+
+
+def test_a_watch_sees_every_step_and_may_end_it():
+    seen = []
+
+    def watch(command, loop):
+        assert isinstance(loop, Loop)
+        seen.append(command.state)
+        return len(seen) == 10
+
+    assert len(run(1.0, watch=watch)) == 10
+
+
+@pytest.mark.parametrize("seconds", [0.0, -1.0, float("nan"), 1e9])
+def test_impossible_times_are_refused(seconds):
+    made = rig()
+    with pytest.raises(InputError, match="closed loop"):
+        run_loop(made.scene, made.controller, made.sensor, seconds)
+
+
+def test_nothing_happened_is_said():
+    made = rig()
+    with pytest.raises(InputError, match="nothing happened"):
+        Loop(made.scene, made.controller, made.sensor).trace()

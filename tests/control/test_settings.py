@@ -1,0 +1,69 @@
+import numpy as np
+import pytest
+
+from pipeline.config.runtime.model import ControllerPart, LimitsPart
+from pipeline.control.foundation import USUAL_MODULUS, Foundation
+from pipeline.control.settings import ControlSettings
+from pipeline.errors import InputError
+from pipeline.study.reproduce.touching import model_of
+
+LIMITS = LimitsPart(max_force_N=20.0, max_torque_Nm=2.0, max_speed_mps=None, max_turn_radps=0.5)
+PART = ControllerPart(
+    desired_force_N=5.0, force_mass_kg=3.0, force_damping_Nspm=200.0, force_stiffness_Npm=1.0,
+    angle_inertia=0.01, angle_damping=0.1, angle_stiffness=0.2,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ["convex", "linear", "t-shape"])
+def test_the_defaults_of_a_probe_give_the_loops_the_wanted_gains(name):
+    foundation = Foundation(model_of(name, 1000))
+    settings = ControlSettings.for_probe(foundation, force_gain=5.0, angle_gains=(3.0, 4.0))
+    press = foundation.at(7.0, USUAL_MODULUS)
+    assert press.stiffness / settings.force_damping == pytest.approx(5.0)
+    assert settings.force_mass / settings.force_damping == pytest.approx(0.04)
+    gains = 7.0 * np.array([press.gain_y, press.gain_x]) / settings.angle_damping
+    settling = np.divide(settings.angle_inertia, settings.angle_damping)
+    # A wide face gets what is wanted; a narrow one less, and more mass.
+    assert (gains <= np.array([3.0, 4.0]) * (1 + 1e-9)).all()
+    assert (settling >= 0.04 - 1e-9).all()
+    assert (gains * settling < 0.26).all()
+    if name == "t-shape":
+        assert gains[1] == pytest.approx(4.0)
+    if name == "linear":
+        assert gains[0] < 2.0
+        assert settling[0] > 0.1
+    # What comes while it stops, on tissue five times stiffer.
+    assert settings.approach_speed * 0.05 * 5 * press.stiffness <= 0.6 * 7.0 + 1e-9
+
+
+def test_a_bundles_limits_always_count_and_its_gains_where_it_has_some():
+    bare = ControlSettings.of(None, LIMITS)
+    assert (bare.max_force, bare.max_torque, bare.max_turn) == (20.0, 2.0, 0.5)
+    assert bare.max_speed == ControlSettings().max_speed
+    told = ControlSettings.of(PART, LIMITS)
+    assert (told.desired_force, told.force_mass, told.force_damping, told.force_stiffness) == (5, 3, 200, 1)
+    assert (told.angle_inertia, told.angle_damping, told.angle_stiffness) == (
+        (0.01,) * 2,
+        (0.1,) * 2,
+        (0.2,) * 2,
+    )
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"force_mass": 0.0}, "force_mass"),
+        ({"angle_damping": (0.1, np.nan)}, "angle_damping"),
+        ({"period": -0.02}, "period"),
+        ({"max_speed": np.inf}, "max_speed"),
+        ({"desired_force": 25.0}, "80 % of the limit of 30 N"),
+        ({"desired_force": 0.5}, "must be above 0.7 N"),
+    ],
+)
+def test_what_cannot_be_is_refused(wrong, says):
+    with pytest.raises(InputError, match=says):
+        ControlSettings(**wrong)
+
+
+def test_what_may_be_nothing_may():
+    ControlSettings(probing=0.0, taring=0.0, servo_lag=0.0, gyration=0.0, attempts=0)

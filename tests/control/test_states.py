@@ -1,0 +1,207 @@
+"""Every line of the table in `pipeline.control.states`, and that nothing else happens."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.control.inverse import Held, Step
+from pipeline.control.sensing import Fault, Sensed
+from pipeline.control.settings import ControlSettings
+from pipeline.control.states import Safety, State
+
+DT = 0.02
+SETTINGS = ControlSettings()
+FREE = Step(np.zeros(6), 1.0, (), None, 1.0)
+WORKING = (State.APPROACH, State.CONTACT, State.TRACK)
+CONTACT_FOUND = object()
+
+
+class Drive:
+    """A state machine with a clock."""
+
+    def __init__(self, state=State.APPROACH, settings=SETTINGS):
+        self.safety, self.now = Safety(settings), 0.0
+        self.safety.state = state
+
+    def __call__(self, seconds=DT, force=7.0, **what):
+        for _ in range(max(round(seconds / DT), 1)):
+            self.now += DT
+            sensed = self.sensed(
+                force, **{k: v for k, v in what.items() if k in {"fault", "contact", "count"}}
+            )
+            self.safety.update(
+                what.get("now", self.now),
+                sensed,
+                force if sensed.fresh else np.nan,
+                travelled=what.get("travelled", 0.0),
+                last=what.get("last", FREE),
+                probed=what.get("probed", True),
+                follows=what.get("follows", True),
+                dt=DT,
+            )
+        return self.safety.state
+
+    def sensed(self, force, fault=None, contact=CONTACT_FOUND, count=4):
+        fresh = fault is None and count > 0
+        wrench = np.array([0, 0, -force, 0, 0, 0]) if fresh else np.full(6, np.nan)
+        return Sensed(self.now, wrench, contact, fault, 0.0, count if fresh else 0)
+
+    @property
+    def reason(self):
+        return self.safety.changes[-1].reason
+
+
+def test_the_usual_course():
+    drive = Drive()
+    assert drive(0.5, force=0.0) is State.APPROACH
+    assert drive(force=1.0) is State.CONTACT
+    assert drive(0.4, force=7.0) is State.CONTACT, "not before the force has grown"
+    assert drive(0.5, force=7.0, probed=False) is State.CONTACT, "not before the stiffness is known"
+    assert drive(0.3, force=7.0) is State.TRACK
+    assert drive(5.0, force=7.0) is State.TRACK
+    drive.safety.stop()
+    assert drive() is State.RETRACT
+    assert drive(force=0.0, travelled=SETTINGS.retract_travel) is State.SAFE
+    assert drive(1.0, force=29.0, fault=None) is State.SAFE
+    assert [each.after for each in drive.safety.changes] == [
+        State.CONTACT, State.TRACK, State.RETRACT, State.SAFE,
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("state", [*WORKING, State.HOLD])
+@pytest.mark.parametrize(
+    ("what", "says"),
+    [
+        ({"force": 24.5}, "too near to the limit of 30 N"),
+        ({"fault": Fault.SATURATED}, "end of its range"),
+    ],
+)
+def test_danger_makes_it_go_back_from_anywhere(state, what, says):
+    drive = Drive(state)
+    assert drive(**what) is State.RETRACT
+    assert says in drive.reason
+
+
+def test_a_force_from_the_side_and_a_torque_count_too():
+    for wrench in ([25.0, 0, 0, 0, 0, 0], [0, 0, -7.0, 5.0, 0, 0]):
+        safety = Safety(SETTINGS)
+        safety.state = State.TRACK
+        sensed = Sensed(0.0, np.array(wrench), None, None, 0.0, 4)
+        after = safety.update(0.0, sensed, 0.0, travelled=0, last=FREE, probed=True, dt=DT)
+        assert after is State.RETRACT
+
+
+@pytest.mark.parametrize("state", WORKING)
+@pytest.mark.parametrize("fault", [Fault.STALE, Fault.STUCK, Fault.CLOCK])
+def test_old_readings_make_it_stand_still_then_go_back(state, fault):
+    drive = Drive(state)
+    assert drive(fault=fault) is State.HOLD
+    assert fault.value in drive.reason
+    assert drive(SETTINGS.give_up - 2 * DT, fault=fault) is State.HOLD
+    assert drive(3 * DT, fault=fault) is State.RETRACT
+
+
+def test_a_clock_that_stands_does_not_stop_it_from_going_back():
+    drive = Drive(State.TRACK)
+    assert drive(SETTINGS.give_up + 3 * DT, fault=Fault.CLOCK, now=1.0) is State.RETRACT
+
+
+@pytest.mark.parametrize(("force", "after"), [(5.0, State.CONTACT), (0.1, State.APPROACH)])
+def test_fresh_readings_let_it_go_on(force, after):
+    assert Drive(State.HOLD)(force=force) is after
+
+
+def test_one_step_without_a_sample_is_no_fault():
+    drive = Drive(State.TRACK)
+    assert drive(count=0) is State.TRACK
+
+
+@pytest.mark.parametrize("state", WORKING)
+def test_an_arm_that_does_not_follow_is_held_then_drawn_back(state):
+    drive = Drive(state)
+    force = 0.0 if state is State.APPROACH else 7.0
+    assert drive(2 * DT, force=force, follows=False, probed=False) is state
+    assert drive(2 * DT, force=force, follows=False) is State.HOLD
+    assert "not where it was sent" in drive.reason
+    assert drive(SETTINGS.give_up + 3 * DT, force=force, follows=False) is State.RETRACT
+    assert drive(1.2, force=force, follows=False) is State.SAFE
+    assert "no farther" in drive.reason
+
+
+def test_an_arm_that_stays_behind_again_and_again_goes_back():
+    drive = Drive(State.TRACK, replace(SETTINGS, attempts=1))
+    assert drive(3 * DT, follows=False) is State.HOLD
+    assert drive() is State.CONTACT
+    assert drive(3 * DT, follows=False) is State.RETRACT
+    assert "2 times" in drive.reason
+
+
+def test_no_tissue_makes_it_go_back():
+    drive = Drive()
+    assert drive(force=0.0, travelled=SETTINGS.approach_travel + 1e-6) is State.RETRACT
+    assert "no tissue within 50 mm" in drive.reason
+
+
+def test_lost_tissue_is_looked_for_so_many_times():
+    settings = replace(SETTINGS, attempts=2)
+    drive = Drive(State.TRACK, settings)
+    for _ in range(2):
+        assert drive(0.08, force=0.2) in (State.TRACK, State.CONTACT)
+        assert drive(0.06, force=0.2) is State.APPROACH
+        assert drive(force=2.0) is State.CONTACT
+    assert drive(0.14, force=0.2) is State.RETRACT
+    assert "lost 3 times" in drive.reason
+
+
+def test_a_place_that_is_lost_stops_the_turning_then_all():
+    drive = Drive(State.TRACK)
+    drive(0.28, contact=None)
+    assert drive.safety.turning
+    drive(0.06, contact=None)
+    assert not drive.safety.turning
+    drive()
+    assert drive.safety.turning
+    assert drive(1.9, contact=None) is State.TRACK
+    assert drive(0.2, contact=None) is State.RETRACT
+
+
+@pytest.mark.parametrize("state", WORKING)
+@pytest.mark.parametrize(
+    "held",
+    [Step(np.zeros(6), 0.2, (Held.LIMIT,), 3, 1.0), Step(np.zeros(6), 1.0, (Held.SINGULAR,), None, 0.01)],
+)
+def test_an_arm_at_its_end_goes_back(state, held):
+    drive = Drive(state)
+    force = 0.0 if state is State.APPROACH else 7.0
+    assert drive(0.28, force=force, last=held, probed=False) is state
+    assert drive(0.06, force=force, last=held) is State.RETRACT
+
+
+def test_too_fast_is_no_reason():
+    slow = Step(np.zeros(6), 0.1, (Held.SPEED,), None, 1.0)
+    assert Drive(State.TRACK)(2.0, last=slow) is State.TRACK
+
+
+def test_what_was_travelled_before_is_not_the_way_back():
+    drive = Drive(State.TRACK)
+    drive.safety.stop()
+    assert drive(travelled=10.0) is State.RETRACT
+
+
+def test_back_means_away_and_free():
+    drive = Drive(State.RETRACT)
+    far = SETTINGS.retract_travel
+    assert drive(force=0.0, travelled=0.9 * far) is State.RETRACT
+    assert drive(force=5.0, travelled=1.1 * far) is State.RETRACT
+    assert drive(force=5.0, travelled=2.1 * far) is State.SAFE
+    blind = Drive(State.RETRACT)
+    assert blind(fault=Fault.STALE, travelled=1.1 * far) is State.SAFE
+
+
+def test_back_and_blocked_ends_where_it_is():
+    stuck = Step(np.zeros(6), 0.0, (Held.LIMIT,), 0, 1.0)
+    drive = Drive(State.RETRACT)
+    assert drive(0.9, last=stuck) is State.RETRACT
+    assert drive(0.2, last=stuck) is State.SAFE
+    assert "no farther" in drive.reason

@@ -1,0 +1,53 @@
+"""What the moving scenes leave out: the differences are those that the physics says; no time is judged."""
+
+import json
+
+import numpy as np
+import pytest
+
+from pipeline.study import scene_limits as study
+
+
+@pytest.fixture(scope="module")
+def report() -> study.Report:
+    pytest.importorskip("mujoco")
+    return study.run("convex", 2.0, motions=("in plane",), only=("half the time step", study.ARM))
+
+
+def test_each_change_brings_what_it_is_compared_with(report: study.Report) -> None:
+    assert [(e.change, e.against) for e in report.effects] == [
+        ("half the time step", study.AS_IT_IS),
+        (study.ARM, study.AS_IT_IS),
+    ]
+    assert set(report.real_time) == {study.AS_IT_IS, "half the time step", study.ARM}
+
+
+def test_the_time_step_hardly_counts_and_the_arm_a_little(report: study.Report) -> None:
+    step, arm = report.effects
+    assert step.force < 0.05
+    assert step.angle < 0.02
+    assert 1e-3 < arm.angle < 0.5
+    assert arm.force < 0.7
+
+
+def test_the_inertia_of_a_tool_that_swings_is_felt(report: study.Report) -> None:
+    assert [i.scene for i in report.inertia] == [study.AS_IT_IS, study.ARM]
+    for each in report.inertia:
+        # 0.45 kg, 80 mm from the tip, 9 degrees in 2 s: 0.056 N, and some more for the set-points' corners.
+        assert 0.04 < each.force < 0.4
+
+
+def test_the_report_can_be_read_and_kept(report: study.Report) -> None:
+    text = study.markdown(report)
+    assert "| in plane | arm, as it is |" in text
+    assert len(study.sheets(report)) == text.count("## ") == 3
+    assert json.loads(json.dumps(report.to_json()))["probe"] == "convex"
+
+
+def test_every_change_can_be_made() -> None:
+    known = study.changes(study.truth_of("convex"))
+    assert all(each.against in known for each in known.values())
+    for name in ("400 places", "friction 0.6", "arm, payload of 1 kg instead of 0.45"):
+        scene = known[name].make(gap=0.01)
+        scene.advance(0.01)
+        assert np.isfinite(scene.moment().reading).all()

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Protocol
+from typing import Annotated
 
 import typer
 
 from pipeline.console import Bar, JsonOption, print_json, say
-from pipeline.durable import write_durably
 from pipeline.errors import InputError
+from pipeline.study.device_commands import add_device_commands
+from pipeline.study.finishing import NOT_GOOD_ENOUGH, MarkdownOption, SeedOption, finish, show, write
 from pipeline.study.interactive_commands import add_commands
+from pipeline.study.preparation_commands import add_preparation_commands
 from pipeline.study.sweep_commands import add_sweep_commands
-
-if TYPE_CHECKING:
-    from typing import Any
-
-    from rich.table import Table
 
 study_app = typer.Typer(
     help="Measure speed against error, stability on hard cases, and every step of preparing a probe.",
@@ -24,13 +20,6 @@ study_app = typer.Typer(
     no_args_is_help=True,
     rich_markup_mode=None,
 )
-
-_NOT_GOOD_ENOUGH = 1
-
-SeedOption = Annotated[int, typer.Option(help="Seed of the touches and the noise.")]
-MarkdownOption = Annotated[
-    Path | None, typer.Option("--out", help="Also write the tables to this Markdown file.")
-]
 
 
 @study_app.command(epilog="Example: contactbench study speed --probe linear --out speed.md")
@@ -57,13 +46,13 @@ def speed(
     counts = sorted(_whole_number(text) for text in facets.split(","))
     report = study.run(probe, counts, touches=touches, stream=stream, rounds=rounds, seed=seed, progress=say)
     if out:
-        _write(out, markdown(report))
+        write(out, markdown(report))
     if as_json:
         print_json(report.to_json())
     else:
-        _show(tables(report))
+        show(tables(report))
     if report.stream_differences:
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+        raise typer.Exit(NOT_GOOD_ENOUGH)
 
 
 @study_app.command("hard-cases", epilog="Example: contactbench study hard-cases --samples 500")
@@ -81,13 +70,13 @@ def hard_cases(
 
     report = study.run(samples=samples, seed=seed, progress=say)
     if out:
-        _write(out, study.markdown(report))
+        write(out, study.markdown(report))
     if as_json:
         print_json(report.to_json())
     else:
-        _show([study.table(report)])
+        show([study.table(report)])
     if not all(case.passed for case in report.cases):
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+        raise typer.Exit(NOT_GOOD_ENOUGH)
 
 
 @study_app.command(epilog="Example: contactbench study gravity --trials 500 --out gravity.md")
@@ -103,189 +92,7 @@ def gravity(
     """
     from pipeline.study import gravity as study
 
-    _finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study simplify --facets-in 100000 --facets-out 500 --memory")
-def simplify(
-    facets_in: Annotated[int, typer.Option(help="Facets of each shape before.")] = 100_000,
-    facets_out: Annotated[int, typer.Option(help="Facets to leave.")] = 500,
-    shapes: Annotated[
-        str, typer.Option(help="Comma separated: linear, convex, t-shape, bumpy sphere.")
-    ] = "linear,convex,t-shape,bumpy sphere",
-    rounds: Annotated[int, typer.Option(help="Timed calls of each, in turn.")] = 7,
-    memory: Annotated[
-        bool, typer.Option("--memory", help="Also take a million facets' peak memory.")
-    ] = False,
-    seed: Annotated[int, typer.Option(help="Seed of where regions are painted.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Measure simplification beside the libraries called bare: time, distance, units, regions, memory.
-
-    Needs pymeshlab for the comparison. Exit code 1 when a figure misses its target.
-    """
-    from pipeline.study.preparation import simplify as study
-
-    report = study.run(
-        facets_in,
-        facets_out,
-        shapes=[shape.strip() for shape in shapes.split(",")],
-        rounds=rounds,
-        memory=memory,
-        seed=seed,
-        progress=say,
-    )
-    _finish(report, out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study regions --facets 300000 --strokes 200")
-def regions(
-    facets: Annotated[int, typer.Option(help="Facets of each bundled probe.")] = 300_000,
-    strokes: Annotated[int, typer.Option(help="Timed strokes of each kind on each probe.")] = 200,
-    undone: Annotated[int, typer.Option(help="Strokes undone and done again.")] = 1_000,
-    seed: Annotated[int, typer.Option(help="Seed of where the strokes go.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Measure painting: time of a stroke beside scipy's, errors of surface distances, undo and redo.
-
-    Exit code 1 when a figure misses its target.
-    """
-    from pipeline.study.preparation import regions as study
-
-    _finish(study.run(facets, strokes=strokes, undone=undone, seed=seed, progress=say), out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study alignment --setups 300 --out alignment.md")
-def alignment(
-    setups: Annotated[int, typer.Option(help="Random set-ups on each probe.")] = 300,
-    adoptions: Annotated[int, typer.Option(help="Set-ups for each mount whose advice is counted.")] = 60,
-    seed: SeedOption = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Measure alignment by touches: contact error, stated uncertainty, advice, what a flat face does not show.
-
-    Exit code 1 when a figure misses its target.
-    """
-    from pipeline.study.preparation import alignment as study
-
-    _finish(study.run(setups, adoptions=adoptions, seed=seed, progress=say), out, as_json=as_json)
-
-
-@study_app.command("mesh-fuzz", epilog="Example: contactbench study mesh-fuzz --count 10000")
-def mesh_fuzz(
-    count: Annotated[int, typer.Option(help="Hostile files.")] = 10_000,
-    seed: Annotated[int, typer.Option(help="Seed of the series of files.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Read hostile mesh files in child processes: each must give a valid mesh or a typed error, soon.
-
-    Exit code 1 when a file does anything else, or takes too much time or memory.
-    """
-    from pipeline.study import mesh_fuzz as study
-    from pipeline.study.preparation.fuzz import summarise
-
-    with Bar("Reading files", counted=True) as bar:
-        report = study.run(count, seed, bar)
-    _finish(summarise(report), out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study shell housing.stl other.stl --out shell.md")
-def shell(
-    files: Annotated[
-        list[Path] | None,
-        typer.Argument(
-            metavar="FILE...", help="Mesh files; the bundled probes as hollow housings if left out."
-        ),
-    ] = None,
-    facets: Annotated[int, typer.Option(help="Facets of each bundled probe.")] = 20_000,
-    quick: Annotated[bool, typer.Option("--quick", help="One housing, coarse facets.")] = False,
-    seed: Annotated[int, typer.Option(help="Seed of the points that are measured.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Make the outer shell of meshes and measure it: time, soundness, distance to what can be seen, openings.
-
-    Needs pymeshlab. Exit code 1 when a figure misses its target.
-    """
-    from pipeline.study.preparation import shell as study
-
-    report = study.run(files or (), facets=facets, quick=quick, seed=seed, progress=say)
-    _finish(report, out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study protocols --bytes 10000000")
-def protocols(
-    count: Annotated[int, typer.Option("--bytes", help="Random bytes for each parser.")] = 10_000_000,
-    frames: Annotated[int, typer.Option(help="Frames of each damaged stream.")] = 50_000,
-    seed: Annotated[int, typer.Option(help="Seed of bytes and damage.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Feed the parsers of all devices random bytes and damaged streams: false frames, frames recovered, speed.
-
-    Exit code 1 when a figure misses its target.
-    """
-    from pipeline.study import devices as study
-
-    _finish(study.run_protocols(count, frames, seed=seed, progress=say), out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study sessions --kills 200")
-def sessions(
-    kills: Annotated[int, typer.Option(help="Times that a writing process is killed.")] = 200,
-    seed: Annotated[int, typer.Option(help="Seed of the moments.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Kill a process that writes a session, again and again: nothing acknowledged may be lost.
-
-    Exit code 1 when something was.
-    """
-    from pipeline.study import devices as study
-
-    _finish(study.run_sessions(kills, seed=seed, progress=say), out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study faults --out faults.md")
-def faults(
-    trials: Annotated[int, typer.Option(help="Re-zeros of each size for the detector's figures.")] = 300,
-    short: Annotated[bool, typer.Option("--short", help="One fault of each kind on two devices.")] = False,
-    seed: Annotated[int, typer.Option(help="Seed of signals and faults.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Give every emulated device every fault on a live line: when it is shown, recovered, and nothing made up.
-
-    Exit code 1 when a fault is not shown in time, or a sample is not one that was sent.
-    """
-    from pipeline.study import faults as study
-
-    _finish(study.run(short=short, trials=trials, seed=seed, progress=say), out, as_json=as_json)
-
-
-@study_app.command(epilog="Example: contactbench study live --seconds 60 --sensors 3")
-def live(
-    seconds: Annotated[float, typer.Option(help="How long, s; 600 is a soak.")] = 600.0,
-    sensors: Annotated[int, typer.Option(help="How many at once.")] = 3,
-    rate: Annotated[float, typer.Option(help="Samples a second of each, Hz.")] = 1000.0,
-    busy: Annotated[
-        bool, typer.Option("--busy", help="Once more beside a process that never rests.")
-    ] = False,
-    seed: Annotated[int, typer.Option(help="Seed of the readings.")] = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Read several sensors at once from serial lines: samples lost, time from byte to sample, load of a core.
-
-    Exit code 1 when a figure misses its target.
-    """
-    from pipeline.study.live import report as study
-
-    _finish(study.run(seconds, sensors, rate=rate, busy=busy, seed=seed, progress=say), out, as_json=as_json)
+    finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
 
 @study_app.command(epilog="Example: contactbench study verification --trials 200")
@@ -301,7 +108,7 @@ def verification(
     """
     from pipeline.study import verification as study
 
-    _finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
+    finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
 
 @study_app.command(epilog="Example: contactbench study bundles --count 5000")
@@ -317,7 +124,7 @@ def bundles(
     """
     from pipeline.study import bundle_fuzz as study
 
-    _finish(study.run(count, seed).report(), out, as_json=as_json)
+    finish(study.run(count, seed).report(), out, as_json=as_json)
 
 
 @study_app.command(epilog="Example: contactbench study runtime --seconds 20 --minutes 2")
@@ -334,7 +141,7 @@ def runtime(
     """
     from pipeline.study import runtime as study
 
-    _finish(study.run(seconds, minutes, seed=seed, progress=say), out, as_json=as_json)
+    finish(study.run(seconds, minutes, seed=seed, progress=say), out, as_json=as_json)
 
 
 @study_app.command("control-safety", epilog="Example: contactbench study control-safety --runs 100")
@@ -355,27 +162,7 @@ def control_safety(
 
     with Bar("starting", counted=True) as bar:
         report = study.run(runs, seed=seed, workers=workers, progress=bar)
-    _finish(report, out, as_json=as_json)
-
-
-class _Report(Protocol):
-    @property
-    def passed(self) -> bool: ...
-    def to_json(self) -> dict[str, Any]: ...
-    def table(self) -> Table: ...
-    def markdown(self) -> str: ...
-
-
-def _finish(report: _Report, out: Path | None, *, as_json: bool) -> None:
-    """Write, print, and leave with the exit code of a report that says whether it reached its targets."""
-    if out:
-        _write(out, report.markdown())
-    if as_json:
-        print_json(report.to_json())
-    else:
-        _show([report.table()])
-    if not report.passed:
-        raise typer.Exit(_NOT_GOOD_ENOUGH)
+    finish(report, out, as_json=as_json)
 
 
 def _whole_number(text: str) -> int:
@@ -388,20 +175,7 @@ def _whole_number(text: str) -> int:
     return value
 
 
-def _show(tables: list[Table]) -> None:
-    from rich.console import Console
-
-    console = Console()
-    for table in tables:
-        console.print(table)
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        write_durably(path, text.encode())
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be written ({error}); choose another --out") from error
-
-
+add_preparation_commands(study_app)
+add_device_commands(study_app)
 add_commands(study_app)
 add_sweep_commands(study_app)

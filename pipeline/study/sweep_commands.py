@@ -1,20 +1,27 @@
-"""``contactbench study run`` and ``page``: sweeps of speed against error."""
+"""``contactbench study run``, ``compare`` and ``page``: sweeps of speed against error, and what is shown of studies."""
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.console import Bar, JsonOption, print_json, say
+from pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from pipeline.errors import InputError
+from pipeline.study.finishing import NOT_GOOD_ENOUGH
 
-_MISSED = 1
+if TYPE_CHECKING:
+    from pipeline.study.results import Results
+    from pipeline.study.sweep.growth import Row
 
 
 def add_sweep_commands(app: typer.Typer) -> None:
     """Add the commands to ``contactbench study``."""
     app.command(name="run", epilog="Example: contactbench study run --preset quick --out quick-study")(run)
+    app.command(name="compare", epilog="Example: contactbench study compare quick-study full-study")(compare)
+    app.command(name="page", epilog="Example: contactbench study page quick-study --out docs")(page)
 
 
 def run(
@@ -44,18 +51,35 @@ def run(
     Errors are the same whatever the number of workers. Stopped with Ctrl-C or killed, it goes on from where it was.
     Exit code 1: a cell could not be computed.
     """
-    from pipeline.study.sweep.plan import Plan
+    from pipeline.study.sweep.plan import Plan, label
     from pipeline.study.sweep.presets import changed
     from pipeline.study.sweep.presets import preset as named
     from pipeline.study.sweep.run import run as sweep
 
     if (study is None) == (preset is None):
-        raise typer.BadParameter("give a STUDY.toml or a --preset.")
+        raise InputError("study run: give either a STUDY.toml or a --preset.")
     plan = named(str(preset)) if study is None else Plan.read(study)
     plan = changed(plan, probe or (), touches, seed)
+    # Without the folders of files: they mean nothing elsewhere.
+    words = ["contactbench", "study", "run", *(["--preset", str(preset)] if study is None else [study.name])]
+    words += [word for name in probe or () for word in ("--probe", label(name))]
+    words += [
+        w
+        for name, value in (("--touches", touches), ("--seed", seed))
+        if value is not None
+        for w in (name, str(value))
+    ]
     say(f"{plan.name}: {len(plan):,} cells of {plan.touches:,} touches")
     with Bar("computing", counted=True) as bar:
-        done = sweep(plan, out, scheduler=scheduler, workers=workers, timed=times, progress=bar)
+        done = sweep(
+            plan,
+            out,
+            command=shlex.join(words),
+            scheduler=scheduler,
+            workers=workers,
+            timed=times,
+            progress=bar,
+        )
     say(f"{done.results}: {done.cells:,} cells, {done.computed:,} computed now, {done.failed:,} failed.")
     if as_json:
         print_json(
@@ -67,4 +91,88 @@ def run(
             }
         )
     if done.failed:
-        raise typer.Exit(_MISSED)
+        raise typer.Exit(NOT_GOOD_ENOUGH)
+
+
+def compare(
+    small: Annotated[Path, typer.Argument(metavar="SMALL", help="Folder of a quick sweep.")],
+    large: Annotated[Path, typer.Argument(metavar="LARGE", help="Folder of a full one.")],
+    as_json: JsonOption = False,
+) -> None:
+    """Compare what two sweeps conclude: the order of methods in time and error, and exponents of growth.
+
+    Exit code 1: a clear order is reversed, or an exponent differs by more than 0.1.
+    """
+    from rich.table import Table
+
+    from pipeline.study.sweep.compare import compare as compared
+
+    found = compared(_rows(small), _rows(large))
+    differ = sum(not each.same for each in found)
+    if as_json:
+        print_json(
+            {
+                "same": not differ,
+                "findings": [
+                    {"what": f.what, "small": f.small, "large": f.large, "same": f.same} for f in found
+                ],
+            }
+        )
+    else:
+        table = Table(
+            "conclusion", "small", "large", "", title=f"{len(found) - differ} of {len(found)} the same"
+        )
+        for each in found:
+            table.add_row(each.what, each.small, each.large, "" if each.same else "differs")
+        show_tables(table)
+    if differ:
+        raise typer.Exit(NOT_GOOD_ENOUGH)
+
+
+def _rows(place: Path) -> list[Row]:
+    return list(_sweep(place).rows)
+
+
+def _sweep(place: Path) -> Results:
+    from pipeline.study.results import read_results
+    from pipeline.study.sweep.run import KIND
+
+    results = read_results(place)
+    if results.kind != KIND:
+        raise InputError(f"{place}: a study of kind {results.kind!r}: give the folder of a sweep.")
+    return results
+
+
+def page(
+    studies: Annotated[list[Path], typer.Argument(metavar="DIR...", help="Folders with results.parquet.")],
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Put them together as results.md in this folder.")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Make tables and plots of studies from their Parquet files alone: page.md in each, and one page of all.
+
+    Exit code 1: a sweep misses a target.
+    """
+    from pipeline.study.pages import PAGE, gather, make_page
+    from pipeline.study.results import read_results
+    from pipeline.study.sweep.run import KIND
+    from pipeline.study.sweep.targets import targets
+
+    if out is None:
+        for folder in studies:
+            make_page(folder)
+        pages = [folder / PAGE for folder in studies]
+    else:
+        pages = [gather(studies, out)]
+    sweeps = [results for results in map(read_results, studies) if results.kind == KIND]
+    judged = [target for results in sweeps for target in targets(results.rows)]
+    for target in judged:
+        if not target.met:
+            say(f"missed: {target.what}: {target.measured}", "red")
+    say(", ".join(map(str, pages)))
+    if as_json:
+        missed = [{"what": t.what, "measured": t.measured} for t in judged if not t.met]
+        print_json({"pages": [str(p) for p in pages], "targets": len(judged), "missed": missed})
+    if not all(target.met for target in judged):
+        raise typer.Exit(NOT_GOOD_ENOUGH)

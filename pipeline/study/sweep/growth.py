@@ -1,4 +1,4 @@
-"""What a table of results says: how figures grow with the mesh, who is on the front, where mesh error matters."""
+"""What rows of results say: how figures grow with the mesh, who is on the front, where mesh error matters."""
 
 from __future__ import annotations
 
@@ -13,13 +13,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Row = dict[str, Any]
-TIME, ERROR = "python_median_ns", "rms_mm"
+TIME, COMPILED, ERROR = "python_median_ns", "compiled_median_ns", "mean_mm"
+_TIMES = (COMPILED, "compiled_p99_ns", TIME, "python_p99_ns")
+_SHARES = ("answered", "sure", "astray", "astray_sure")
 _MATTERS = 1.01
 
 
 def merged(rows: Iterable[Row], by: Sequence[str]) -> list[Row]:
     """
-    Return one row for each combination of `by`: errors as root mean squares, times as medians, shares as means.
+    Return one row for each combination of `by`: times as medians, shares and mean errors as means, the rest as RMS.
 
     Rows that failed are left out.
     """
@@ -31,35 +33,27 @@ def merged(rows: Iterable[Row], by: Sequence[str]) -> list[Row]:
 
 
 def _summary(group: list[Row]) -> Row:
-    def values(name: str) -> NDArray[np.float64]:
-        found = np.array([row.get(name, np.nan) for row in group], dtype=np.float64)
-        return found[np.isfinite(found)]
-
     def of(name: str, what: Any) -> float:
-        some = values(name)
+        found = np.array([np.nan if (x := row.get(name)) is None else x for row in group], dtype=np.float64)
+        some = found[np.isfinite(found)]
         return float(what(some)) if len(some) else float("nan")
 
     def rms(x: NDArray[np.float64]) -> float:
         return float(np.sqrt(np.mean(x * x)))
 
-    square = values("mean_mm") ** 2 + values("sd_mm") ** 2
-    bound, sure = values("bound_mm"), values("rms_sure_mm")
+    sure, bound = of("rms_sure_mm", rms), of("bound_mm", rms)
     return {
         "cells": len(group),
+        "touches": sum(int(row["touches"]) for row in group),
         "facets_found": of("facets_found", np.median),
-        "mean_mm": of("mean_mm", np.mean),
-        ERROR: float(np.sqrt(square.mean())) if len(square) else float("nan"),
-        "p95_mm": of("p95_mm", np.median),
         "max_mm": of("max_mm", np.max),
-        "rms_sure_mm": of("rms_sure_mm", rms),
-        "bound_mm": of("bound_mm", rms),
-        "over_bound": rms(sure) / rms(bound) if len(sure) and len(bound) and rms(bound) > 0 else float("nan"),
-        "answered": of("answered", np.mean),
-        "sure": of("sure", np.mean),
-        **{
-            name: of(name, np.median)
-            for name in ("compiled_median_ns", "compiled_p99_ns", TIME, "python_p99_ns")
-        },
+        "p95_mm": of("p95_mm", np.median),
+        "rms_sure_mm": sure,
+        "rms_near_mm": of("rms_near_mm", rms),
+        "bound_mm": bound,
+        "over_bound": sure / bound if bound > 0 else float("nan"),
+        **{name: of(name, np.mean) for name in ("mean_mm", "mean_sure_mm", *_SHARES)},
+        **{name: of(name, np.median) for name in _TIMES},
     }
 
 
@@ -115,7 +109,7 @@ def power(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
     """Fit a power; None with fewer than three points that are positive."""
     x, y = np.array(facets, dtype=np.float64), np.array(figures, dtype=np.float64)
     kept = np.isfinite(y) & (y > 0) & (x > 0)
-    if kept.sum() < 3:
+    if len(np.unique(x[kept])) < 3:
         return None
     A = np.column_stack([np.log(x[kept]), np.ones(kept.sum())])
     found, *_ = np.linalg.lstsq(A, np.log(y[kept]), rcond=None)
@@ -125,19 +119,33 @@ def power(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
     return Power(float(found[0]), sigma, float(np.exp(found[1])), int(kept.sum()))
 
 
-def enough_facets(rows: Sequence[Row]) -> float | None:
+def enough_facets(facets: Sequence[float], mesh_mm: Sequence[float], bound_mm: float) -> float | None:
     """
-    Return the facets from which on the mesh adds less than 1 % to the noise bound; None: never within the rows.
+    Return the facets from which on the error of the mesh adds less than 1 % to that of the noise.
+
+    Errors of the two add as squares. Between the meshes that were tried a power is taken.
 
     Parameters
     ----------
-    rows : sequence
-        One method, one probe, one force: by facets.
+    facets, mesh_mm : sequences
+        The error without noise, RMS, mm, on each mesh.
+    bound_mm : float
+        The bound of the noise, RMS, mm.
+
+    Returns
+    -------
+    float or None
+        None: not even the finest mesh is enough. The fewest that were tried: all are.
     """
-    ordered = sorted(rows, key=lambda row: row["facets_found"])
-    ratios = np.array([row["over_bound"] for row in ordered])
-    ok = ratios <= _MATTERS
-    if not ok.size or not ok[-1]:
+    order = np.argsort(facets)
+    n, e = np.array(facets, dtype=np.float64)[order], np.array(mesh_mm, dtype=np.float64)[order]
+    n, e = n[np.isfinite(e)], e[np.isfinite(e)]
+    allowed = bound_mm * np.sqrt(_MATTERS**2 - 1)
+    if not len(n) or not e[-1] <= allowed:
         return None
-    last_bad = np.flatnonzero(~ok)
-    return float(ordered[0 if not len(last_bad) else int(last_bad[-1]) + 1]["facets_found"])
+    above = np.flatnonzero(e > allowed)
+    if not len(above):
+        return float(n[0])
+    i = int(above[-1])
+    share = np.log(e[i] / allowed) / np.log(e[i] / max(e[i + 1], 1e-12))
+    return float(np.exp(np.log(n[i]) + share * np.log(n[i + 1] / n[i])))

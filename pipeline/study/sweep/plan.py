@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
+from collections import Counter
 from dataclasses import asdict, dataclass
+from functools import lru_cache
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
+import assets
+from pipeline import __version__
 from pipeline.contact.methods import METHODS
 from pipeline.errors import InputError
 from pipeline.study.sweep.noise import FILTERS, NOISES
@@ -65,19 +69,35 @@ class Cell:
 
     @property
     def key(self) -> str:
-        """What it is known by: a hash of all that it is, 16 hexadecimal digits."""
-        return _hash(asdict(self))
+        """What it is known by: a hash of all that it is and of who computes it, 16 hexadecimal digits."""
+        return _hash(asdict(self) | {"probe": identity(self.probe), "version": __version__})
 
     @property
     def touch_seed(self) -> int:
         """Seed of the touches: the same for all methods, meshes, noises and filters, so that they are paired."""
-        drawn = ("probe", "force", "angle", "torsion", "touches", "seed")
-        return int(_hash({name: value for name, value in asdict(self).items() if name in drawn}), 16)
+        drawn = ("force", "angle", "torsion", "touches", "seed")
+        values = {name: getattr(self, name) for name in drawn}
+        return int(_hash(values | {"probe": identity(self.probe)}), 16)
 
-    @property
-    def group(self) -> tuple[str, int]:
-        """What cells must have in common to share a mesh: probe and facets."""
-        return self.probe, self.facets
+
+def label(probe: str) -> str:
+    """Return what a probe is called: its name, or that of its file wherever it lies."""
+    return probe if probe in assets.PROBE_NAMES else Path(probe).name
+
+
+@lru_cache
+def identity(probe: str) -> str:
+    """Return what a probe is known by everywhere: its name, for a file with a hash of what is in it; InputError."""
+    if probe in assets.PROBE_NAMES:
+        return probe
+    try:
+        content = Path(probe).read_bytes()
+    except (OSError, ValueError) as error:
+        known = ", ".join(assets.PROBE_NAMES)
+        raise InputError(
+            f"{probe}: the probe cannot be read ({error}): give one of {known}, or a prepared .ply."
+        ) from error
+    return f"{label(probe)}#{hashlib.sha256(content).hexdigest()[:16]}"
 
 
 def _hash(values: dict[str, Any]) -> str:
@@ -94,6 +114,8 @@ class Plan(BaseModel):
     name : str
     methods, probes, facets, forces, angles, torsions, noises, filters : tuple
         See `Cell`; forces in N, angles in degrees, torsions in m.
+    most_facets : dict
+        Method -> facets above which it is left out, because it takes too long there.
     touches : int
         In each cell.
     seed : int
@@ -110,6 +132,7 @@ class Plan(BaseModel):
     torsions: Annotated[tuple[Arm, ...], Field(min_length=1)] = (0.0003,)
     noises: Annotated[tuple[str, ...], Field(min_length=1)] = ("paper",)
     filters: Annotated[tuple[str, ...], Field(min_length=1)] = ("none",)
+    most_facets: dict[str, Facets] = Field(default_factory=dict)
     touches: Annotated[int, Field(ge=10, le=1_000_000)] = 1_000
     seed: Annotated[int, Field(ge=0, le=2**32)] = 0
 
@@ -122,6 +145,22 @@ class Plan(BaseModel):
                 raise ValueError(f"{value!r} is none of {', '.join(known)}")
         return values
 
+    @field_validator("most_facets")
+    @classmethod
+    def _methods(cls, values: dict[str, int]) -> dict[str, int]:
+        for name in values:
+            if name not in METHODS:
+                raise ValueError(f"{name!r} is none of {', '.join(METHODS)}")
+        return values
+
+    @field_validator("probes")
+    @classmethod
+    def _told_apart(cls, values: tuple[str, ...]) -> tuple[str, ...]:
+        for name, count in Counter(map(label, values)).items():
+            if count > 1:
+                raise ValueError(f"two probes are called {name}: rename one")
+        return values
+
     @field_validator("*")
     @classmethod
     def _once(cls, values: Any) -> Any:
@@ -130,24 +169,30 @@ class Plan(BaseModel):
         return values
 
     def cells(self) -> tuple[Cell, ...]:
-        """Return all cells, those that share a mesh together; InputError if they are too many."""
+        """Return all cells; InputError if they are too many, or a probe cannot be read."""
         if (count := len(self)) > _MOST_CELLS:
             raise InputError(
                 f"{self.name}: {count:,} cells are more than {_MOST_CELLS:,}: vary less at once."
             )
+        if not count:
+            raise InputError(f"{self.name}: most_facets: it leaves no cell: allow more facets.")
         return tuple(self._all())
 
     def __len__(self) -> int:
-        count = 1
+        count = sum(self._wanted(method, facets) for method in self.methods for facets in self.facets)
         for name in _VARIED:
-            count *= len(getattr(self, name))
+            count *= 1 if name in ("methods", "facets") else len(getattr(self, name))
         return count
+
+    def _wanted(self, method: str, facets: int) -> bool:
+        return facets <= self.most_facets.get(method, facets)
 
     def _all(self) -> Iterator[Cell]:
         for probe, facets, force, angle, torsion, noise, way, method in product(
             *(getattr(self, name) for name in _VARIED)
         ):
-            yield Cell(method, probe, facets, force, angle, torsion, noise, way, self.touches, self.seed)
+            if self._wanted(method, facets):
+                yield Cell(method, probe, facets, force, angle, torsion, noise, way, self.touches, self.seed)
 
     @classmethod
     def read(cls, file: Path) -> Plan:

@@ -9,8 +9,11 @@ from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from pipeline.errors import InputError
+from pipeline.study.results import environment, write_results
+from pipeline.study.sweep.bodies import packed_mesh
 from pipeline.study.sweep.cell import run_cell
-from pipeline.study.sweep.store import RESULTS, Store, environment, write_results
+from pipeline.study.sweep.plan import label
+from pipeline.study.sweep.store import Store
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -18,6 +21,7 @@ if TYPE_CHECKING:
 
     from pipeline.study.sweep.plan import Cell, Plan
 
+KIND = "sweep"  # of the results
 _TOGETHER = 24  # cells of a task: few enough that little is lost when it is cancelled
 
 
@@ -44,6 +48,7 @@ def run(
     plan: Plan,
     out: Path,
     *,
+    command: str = "contactbench study run",
     scheduler: str | None = None,
     workers: int | None = None,
     timed: bool = True,
@@ -60,7 +65,9 @@ def run(
     ----------
     plan : Plan
     out : Path
-        Folder; what is done in it is not done again.
+        Folder; what is done in it is not done again, but what failed.
+    command : str
+        What repeats it, kept with the results.
     scheduler : str, optional
         Address of a Dask scheduler, tcp://...; left out, a cluster of processes on this machine.
     workers : int, optional
@@ -80,7 +87,7 @@ def run(
     cells = plan.cells()
     count = workers or os.cpu_count() or 1
     with Store(out) as store:
-        todo = [cell for cell in cells if cell.key not in store.rows]
+        todo = [cell for cell in cells if store.rows.get(cell.key, {"failed": "not yet"})["failed"]]
         done = len(cells) - len(todo)
         for row in _rows(todo, scheduler, count, timed, cancelled):
             store.keep(row)
@@ -88,22 +95,34 @@ def run(
             if progress is not None:
                 progress(done, len(cells))
         rows = [store.rows[cell.key] for cell in cells if cell.key in store.rows]
-    computed = len(todo) - (len(cells) - len(rows))
+    computed = done - (len(cells) - len(todo))
     failed = sum(bool(row["failed"]) for row in rows)
-    if len(rows) < len(cells):
+    if done < len(cells):
         return Swept(None, len(cells), computed, failed)
-    file = out / RESULTS
-    write_results(file, plan, rows, environment(count, scheduler or "local"))
+    facts = environment(workers=count, scheduler="a cluster" if scheduler else "this machine")
+    file = write_results(out, KIND, command, rows, facts, _about(plan))
     return Swept(file, len(cells), computed, failed)
 
 
+def _about(plan: Plan) -> dict[str, Any]:
+    """Return the plan without paths, and what the probes look like: pictures are made of the results alone."""
+    named = plan.model_copy(update={"probes": tuple(map(label, plan.probes))})
+    meshes = {label(probe): packed_mesh(probe) for probe in plan.probes}
+    return {"plan": named.model_dump(mode="json"), "meshes": meshes}
+
+
 def tasks_of(cells: list[Cell]) -> list[list[Cell]]:
-    """Return cells in parts that share a mesh: making one may take longer than locating on it."""
+    """Return cells in parts that share a mesh and its methods: making them may take longer than locating by them."""
+    ordered = sorted(cells, key=_heaviest_first)
     parts = []
-    for _, group in groupby(sorted(cells, key=lambda cell: cell.group), key=lambda cell: cell.group):
+    for _, group in groupby(ordered, key=_heaviest_first):
         alike = list(group)
         parts += [alike[first : first + _TOGETHER] for first in range(0, len(alike), _TOGETHER)]
     return parts
+
+
+def _heaviest_first(cell: Cell) -> tuple[int, str, str, str]:
+    return -cell.facets, cell.probe, cell.noise, cell.filter
 
 
 def run_task(cells: list[Cell], timed: bool) -> list[dict[str, Any]]:

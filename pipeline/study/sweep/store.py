@@ -1,14 +1,12 @@
-"""Where a sweep's results are kept: each cell as it is done, and all of them as one Parquet file."""
+"""Where the cells of a sweep are kept, each as it is done."""
 
 from __future__ import annotations
 
 import json
 import os
-import platform
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import make_folder, write_durably
+from pipeline.durable import make_folder
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -16,13 +14,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    import pyarrow as pa
-
-    from pipeline.study.sweep.plan import Plan
-
-DONE, RESULTS = "done.jsonl", "results.parquet"
-_META = b"contactbench"
-_VERSION = 1
+DONE = "done.jsonl"
 
 
 class Store:
@@ -91,81 +83,3 @@ class Store:
                     f"{self._file}, line {number}: no result of a study ({error}): choose an empty folder."
                 ) from error
         return whole
-
-
-def environment(workers: int, scheduler: str) -> dict[str, Any]:
-    """Return what results were computed with: versions, processor, number of workers, when."""
-    from importlib.metadata import version
-
-    from pipeline import __version__, kernel
-
-    return {
-        "contactbench": __version__,
-        "python": platform.python_version(),
-        "platform": platform.platform(),
-        "processor": _processor(),
-        "cores": os.cpu_count(),
-        "kernel": kernel.variant,
-        "compiler": kernel.compiler,
-        "workers": workers,
-        "scheduler": scheduler,
-        "finished": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
-        **{name: version(name) for name in ("numpy", "scipy", "dask", "pyarrow")},
-    }
-
-
-def _processor() -> str:
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as lines:  # noqa: PTH123 - a device
-            for line in lines:
-                if line.startswith("model name"):
-                    return line.partition(":")[2].strip()
-    except OSError:
-        pass  # not Linux
-    return platform.processor() or platform.machine()
-
-
-def write_results(file: Path, plan: Plan, rows: list[dict[str, Any]], facts: dict[str, Any]) -> None:
-    """Write a plan's rows, in its order, with the plan and the environment, as Parquet."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
-    names = list(dict.fromkeys(name for row in rows for name in row))
-    table = pa.table({name: pa.array([row.get(name) for row in rows]) for name in names})
-    about = {"version": _VERSION, "plan": plan.model_dump(mode="json"), "environment": facts}
-    table = table.replace_schema_metadata({_META: json.dumps(about, sort_keys=True).encode()})
-    sink = pa.BufferOutputStream()
-    pq.write_table(table, sink, compression="zstd")
-    write_durably(file, sink.getvalue().to_pybytes())
-
-
-def read_results(file: Path) -> tuple[pa.Table, Plan, dict[str, Any]]:
-    """
-    Read results.
-
-    Returns
-    -------
-    table : pyarrow.Table
-        A row for each cell.
-    plan : Plan
-    environment : dict
-
-    Raises
-    ------
-    InputError
-        It is no such file.
-    """
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
-    from pipeline.study.sweep.plan import Plan
-
-    try:
-        table = pq.read_table(file)
-        about = json.loads((table.schema.metadata or {})[_META])
-        version, plan, facts = about["version"], about["plan"], about["environment"]
-    except (OSError, pa.ArrowException, ValueError, KeyError, TypeError) as error:
-        raise InputError(f"{file}: no results of a study ({error}): give a {RESULTS}.") from error
-    if version != _VERSION:
-        raise InputError(f"{file}: results of version {version}: use the contactbench that wrote them.")
-    return table, Plan.of(plan, str(file)), dict(facts)

@@ -1,0 +1,87 @@
+"""A sweep's chapter of the results page, from its rows alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from pipeline.durable import write_durably
+from pipeline.errors import InputError
+from pipeline.study.sweep.pictures import astray, draw
+from pipeline.study.sweep.plan import Plan
+from pipeline.study.sweep.tables import speed_table, tables
+from pipeline.study.sweep.targets import is_noisy, plain
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from pipeline.study.results import Results
+
+_SAID = {
+    "speed-error.png": "Speed against error: mean of all answers against the median time from Python, for every method"
+    " and mesh (first and last are named). Dotted: the front; ringed: its knee.",
+    "growth.png": "How time and error grow with the mesh, with the fitted exponents. Error: of the mesh alone, without"
+    " noise, of sure answers on the right part of the probe.",
+    "force.png": "Error against force, with the bound that the sensor's noise sets.",
+    "angle.png": "Error against the angle between force and normal, with the bound.",
+    "astray.png": "The worst touches that were located on another part of the probe: true point green, located point"
+    " orange, force blue. A line for each method that has any; sure answers before doubtful ones.",
+}
+
+
+def make(results: Results, folder: Path) -> str:
+    """
+    Write a sweep's pictures and return its chapter.
+
+    Parameters
+    ----------
+    results : Results
+    folder : Path
+        For the pictures.
+
+    Raises
+    ------
+    InputError
+        The rows are not those of a sweep, or a picture cannot be written.
+    """
+    from pipeline.study.sweep.plots import plots
+
+    rows = list(results.rows)
+    plan = Plan.of(dict(results.about.get("plan", {})), "results")
+    pictures = plots(rows) | {"astray.png": draw(astray(rows, results.about.get("meshes", {})))}
+    parts = [f"## Sweep: {plan.name}", _about(plan)]
+    for title, text in tables(rows):
+        parts += [f"### {title}", text]
+    for name, data in pictures.items():
+        if data:
+            _write(folder / name, data)
+            parts.append(f"![{_SAID[name]}]({name})\n\n{_SAID[name]}")
+    noisy = [row for row in rows if is_noisy(row) and not row["failed"]]
+    parts.append(
+        f"<details><summary>Every method on every mesh</summary>\n\n{speed_table(noisy or rows)}\n\n</details>"
+    )
+    if failed := sorted(
+        {f"{row['method']} on {plain(row['probe'])}: {row['failed']}" for row in rows if row["failed"]}
+    ):
+        parts.append("Could not be done: " + "; ".join(failed))
+    return "\n\n".join(parts)
+
+
+def _about(plan: Plan) -> str:
+    def of(values: tuple[object, ...]) -> str:
+        return ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
+
+    return (
+        f"{len(plan):,} cells of {plan.touches:,} touches each, seed {plan.seed}, spread over the whole probe above its"
+        f" mount. Methods {of(plan.methods)}; probes {of(tuple(map(plain, plan.probes)))}; facets {plan.facets[0]:,} to"
+        f" {plan.facets[-1]:,}; forces {of(plan.forces)} N; angles {of(plan.angles)}°; torsion (standard deviation of"
+        f" the torque about the normal over the force) {of(tuple(1e3 * x for x in plan.torsions))} mm; noise"
+        f" {of(plan.noises)}; filters {of(plan.filters)}. Truth of a bundled probe is its exact surface, of a"
+        " file the mesh in it."
+    )
+
+
+def _write(file: Path, data: bytes) -> None:
+    try:
+        write_durably(file, data)
+    except OSError as error:
+        raise InputError(f"{file}: cannot be written ({error}): choose another folder.") from error

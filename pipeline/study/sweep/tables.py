@@ -1,0 +1,179 @@
+"""A sweep as tables."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.study.markdown import number, table
+from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power
+from pipeline.study.sweep.targets import is_noisy, needed_facets, plain, targets
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from pipeline.study.sweep.growth import Power
+
+_REASONS = ("ok", "vertex", "ambiguous", "off_surface", "tangential", "low_force")
+
+
+def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
+    """Return (title, Markdown) of every table that the rows have something for."""
+    noisy = [row for row in rows if is_noisy(row)]
+    made = [
+        ("Targets", target_table(rows)),
+        ("Speed against error: the knees", knee_table(noisy)),
+        ("Growth with the mesh", growth_table(rows)),
+        ("Facets at which the mesh adds 1 % to the noise", needed_table(rows)),
+        ("Reasons, and answers on another part of the probe", reason_table(noisy or rows)),
+    ]
+    return [(title, text) for title, text in made if text]
+
+
+def target_table(rows: Sequence[Row]) -> str:
+    """Return the targets; empty if the rows tell about none."""
+    found = targets(rows)
+    shown = [[each.what, each.measured, "met" if each.met else "**missed**"] for each in found]
+    return table(("target", "measured", ""), shown) if shown else ""
+
+
+def knee_table(rows: Sequence[Row]) -> str:
+    """Return, for each probe, where on the front of all methods and meshes going on costs more than it buys."""
+    points = merged(rows, ("probe", "method", "facets"))
+    if not any(np.isfinite(row[TIME]) for row in points):
+        return ""
+    shown = []
+    for probe in dict.fromkeys(row["probe"] for row in points):
+        here = [row for row in points if row["probe"] == probe]
+        best = knee(here)
+        if best is not None:
+            ends = ", ".join(f"{row['method']} {row['facets']:,}" for row in front(here))
+            shown.append([plain(probe), f"**{best['method']}, {best['facets']:,} facets**", _us(best[TIME])])
+            shown[-1] += [number(best[ERROR], ".2f"), number(best["over_bound"], ".2f"), ends]
+    columns = (
+        "probe",
+        "knee",
+        "µs, Python",
+        "mean error, mm",
+        "RMS of sure ones / bound",
+        "the front, fastest first",
+    )
+    return table(columns, shown)
+
+
+def speed_table(rows: Sequence[Row]) -> str:
+    """Return every method on every mesh: times and errors over all noisy conditions."""
+    points = merged(rows, ("probe", "facets", "method"))
+    best = {
+        id(row)
+        for probe in {r["probe"] for r in points}
+        for row in front([r for r in points if r["probe"] == probe])
+    }
+    shown = [
+        [
+            plain(row["probe"]),
+            f"{row['facets']:,}",
+            f"**{row['method']}**" if id(row) in best else row["method"],
+        ]
+        + [_us(row[name]) for name in (COMPILED, "compiled_p99_ns", TIME, "python_p99_ns")]
+        + [number(row[name], ".2f") for name in (ERROR, "p95_mm")]
+        + [number(row["max_mm"], ".0f"), number(row["over_bound"], ".2f")]
+        + [number(100 * row[name], ".2f") for name in ("sure", "astray_sure")]
+        for row in points
+    ]
+    columns = (
+        "probe",
+        "facets",
+        "method",
+        "C++ µs",
+        "p99",
+        "Python µs",
+        "p99",
+        "mean mm",
+        "95 % mm",
+        "max mm",
+    )
+    return table((*columns, "sure RMS / bound", "sure %", "sure, yet astray %"), shown)
+
+
+def growth_table(rows: Sequence[Row]) -> str:
+    """Return how time and error grow as powers of the facets; empty with fewer than three meshes."""
+    shown = []
+    for (probe, method), (time, error) in exponents(rows).items():
+        if time or error:
+            shown.append([plain(probe), method, _power(time), _power(error)])
+    columns = ("probe", "method", "time grows as facets to the power", "error without noise, to the power")
+    return table(columns, shown) if shown else ""
+
+
+def exponents(rows: Sequence[Row]) -> dict[tuple[str, str], tuple[Power | None, Power | None]]:
+    """
+    Return, for each probe and method, the powers of the facets that time and error grow as.
+
+    Time is that of the compiled solve where there is one. The error is the median over conditions of the mean without
+    noise, so that it is that of the mesh.
+    """
+    times = merged(rows, ("probe", "method", "facets"))
+    quiet = merged([row for row in rows if not is_noisy(row)], ("probe", "method", "facets"))
+    found = {}
+    for probe, method in dict.fromkeys((row["probe"], row["method"]) for row in times):
+
+        def of(points: list[Row], name: str, probe: str = probe, method: str = method) -> Power | None:
+            here = [row for row in points if (row["probe"], row["method"]) == (probe, method)]
+            return power([row["facets_found"] for row in here], [row[name] for row in here])
+
+        found[probe, method] = of(times, COMPILED) or of(times, TIME), of(quiet, "rms_near_mm")
+    return found
+
+
+def needed_table(rows: Sequence[Row]) -> str:
+    """Return the facets at which the mesh adds 1 % to the noise, by probe and force; empty if not told."""
+    found = needed_facets(rows)
+    if not found:
+        return ""
+    forces = sorted({force for _, force, _, _ in found})
+    shown = []
+    for probe in dict.fromkeys(each[0] for each in found):
+        by_force = {force: (enough, least) for name, force, enough, least in found if name == probe}
+        shown.append([plain(probe)] + [_facets(*by_force.get(force, (None, 0.0))) for force in forces])
+    return table(("probe", *(f"{force:g} N" for force in forces)), shown)
+
+
+def reason_table(rows: Sequence[Row]) -> str:
+    """Return the share of each reason, and where a method goes astray most."""
+    shown = []
+    for probe, method in dict.fromkeys((row["probe"], row["method"]) for row in rows):
+        here = [row for row in rows if (row["probe"], row["method"]) == (probe, method) and not row["failed"]]
+        if not here:
+            continue
+        worst = max(here, key=lambda row: float(row["astray_sure"]))
+        shares = [
+            number(100 * float(np.mean([row[f"reason_{name}"] for row in here])), ".2f") for name in _REASONS
+        ]
+        where = "nowhere" if not worst["astray_sure"] else _condition(worst)
+        astray = [100 * float(np.mean([row[name] for row in here])) for name in ("astray", "astray_sure")]
+        shown.append([plain(probe), method, *shares, *(number(x, ".2f") for x in astray), where])
+    columns = ("probe", "method, %", *(name.replace("_", " ") for name in _REASONS))
+    return table((*columns, "astray", "astray, yet sure", "most of these at"), shown) if shown else ""
+
+
+def _condition(row: Row) -> str:
+    return (
+        f"{row['facets']:,} facets, {row['force']:g} N, {row['angle']:g}°, torsion {1e3 * row['torsion']:g} mm,"
+        f" filter {row['filter']}: {100 * row['astray_sure']:.2f}"
+    )
+
+
+def _facets(enough: float | None, least: float) -> str:
+    if enough is None:
+        return "more than tried" if least else "–"
+    return f"under {least:,.0f}" if enough <= least else f"{float(f'{enough:.2g}'):,.0f}"
+
+
+def _power(found: Power | None) -> str:
+    return "–" if found is None else f"{found.exponent:.2f} ± {found.sigma:.2f}"
+
+
+def _us(ns: float) -> str:
+    return number(ns / 1e3)

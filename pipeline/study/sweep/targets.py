@@ -1,0 +1,123 @@
+"""What a sweep is judged by, from its rows alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.study.sweep.growth import Row, beaten, enough_facets, merged
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+OURS = "contactbench"
+MOST_OVER_BOUND = 1.05
+_FINE = (15_000, 30_000)  # about 20,000 facets
+_FORCES_N, _STEEPEST_DEG = (2.0, 20.0), 60.0
+# A root mean square over so many touches is known to this share of itself: of two tangent errors together, half of
+# one over the root of the count.
+_SPREAD = 0.5
+
+
+@dataclass(frozen=True)
+class Target:
+    """
+    A figure that should be reached.
+
+    Attributes
+    ----------
+    what, measured : str
+    met : bool
+    """
+
+    what: str
+    measured: str
+    met: bool
+
+
+def is_noisy(row: Row) -> bool:
+    """Tell whether a row has noise."""
+    return bool(row["noise"] != "none")
+
+
+def targets(rows: Sequence[Row]) -> list[Target]:
+    """Return the targets that the rows can tell about."""
+    return [*over_bound(rows), *on_front(rows)]
+
+
+def over_bound(rows: Iterable[Row]) -> list[Target]:
+    """Judge, for each probe, the error over the noise bound, 2-20 N within 60 degrees at about 20,000 facets."""
+    wanted = [
+        row
+        for row in rows
+        if row["method"] == OURS
+        and is_noisy(row)
+        and not row["failed"]
+        and _FINE[0] <= row["facets_found"] <= _FINE[1]
+        and _FORCES_N[0] <= row["force"] <= _FORCES_N[1]
+        and row["angle"] <= _STEEPEST_DEG
+    ]
+    found = []
+    for probe in dict.fromkeys(row["probe"] for row in wanted):
+        cells = merged([row for row in wanted if row["probe"] == probe], ("force", "angle"))
+        chance = [_SPREAD * c["over_bound"] / np.sqrt(max(c["touches"] * c["sure"], 1.0)) for c in cells]
+        worst, sigma = max(zip(cells, chance, strict=True), key=lambda pair: pair[0]["over_bound"])
+        [whole] = merged([row for row in wanted if row["probe"] == probe], ())
+        # The worst of many is too high by chance alone: two deviations are allowed to it, none to all together.
+        met = whole["over_bound"] <= MOST_OVER_BOUND and worst["over_bound"] <= MOST_OVER_BOUND + 2 * sigma
+        found.append(
+            Target(
+                f"{plain(probe)}: error over the noise bound at most {MOST_OVER_BOUND}"
+                " (2-20 N, within 60°, 20,000 facets)",
+                f"{whole['over_bound']:.3f} of all; worst {worst['over_bound']:.3f} ± {sigma:.3f}"
+                f" at {worst['force']:g} N, {worst['angle']:g}°",
+                bool(met),
+            )
+        )
+    return found
+
+
+def on_front(rows: Iterable[Row]) -> list[Target]:
+    """Judge, for each probe, whether at any resolution a rival is both faster and more accurate; both from Python."""
+    points = merged([row for row in rows if is_noisy(row)], ("probe", "facets", "method"))
+    found = []
+    for probe in dict.fromkeys(row["probe"] for row in points):
+        here = [row for row in points if row["probe"] == probe]
+        ours = [row for row in here if row["method"] == OURS and np.isfinite(row["python_median_ns"])]
+        worse = []
+        for row in ours:
+            rivals = [each for each in here if each["facets"] == row["facets"] and each["method"] != OURS]
+            worse += [f"{row['facets']:,}: {each['method']}" for each in beaten(row, rivals)]
+        if ours and len({row["method"] for row in here}) > 1:
+            what = f"{plain(probe)}: no rival is both faster and more accurate at the same resolution"
+            said = f"{len(ours)} of {len(ours)} resolutions" if not worse else "beaten at " + ", ".join(worse)
+            found.append(Target(what, said, not worse))
+    return found
+
+
+def needed_facets(rows: Iterable[Row]) -> list[tuple[str, float, float | None, float]]:
+    """
+    Return, for each probe and force, the facets at which the mesh adds 1 % to the noise.
+
+    Returns
+    -------
+    list of (probe, force in N, facets or None, fewest facets that were tried)
+    """
+    ours = [row for row in rows if row["method"] == OURS and row["filter"] == "none"]
+    meshes = merged([row for row in ours if not is_noisy(row)], ("probe", "facets"))
+    bounds = merged([row for row in ours if is_noisy(row)], ("probe", "force"))
+    found = []
+    for row in bounds:
+        here = [each for each in meshes if each["probe"] == row["probe"]]
+        facets = [each["facets_found"] for each in here]
+        if len(set(facets)) >= 2:
+            enough = enough_facets(facets, [each["rms_near_mm"] for each in here], row["bound_mm"])
+            found.append((row["probe"], row["force"], enough, min(facets)))
+    return found
+
+
+def plain(probe: str) -> str:
+    """Return what a probe is called on a page."""
+    return probe.removesuffix(".ply")

@@ -52,14 +52,20 @@ def variants_of(text: str) -> tuple[Variant, ...]:
     return (Variant(text),)
 
 
+def _variant_of(text: str) -> Variant:
+    chosen = variants_of(text)
+    if len(chosen) != 1:
+        raise InputError("--variant both: it is one of them here: give plain or aware.")
+    return chosen[0]
+
+
 @control_app.command(
     help=(
         "Choose gains for a probe: the highest that leave wanted margins on tissue from five times softer to five times"
         " stiffer.\n\n"
         "The loop that is looked at has the averaged readings, the delay of a period, the servo's path, and the"
         " controller that runs; the gains are then tried in simulation. Writes gains.json for config export"
-        " --settings, tables and a plot of the margins. A bundle has one gain for both turns: it gets the slower one."
-        " Exit code 1: a trial in simulation swung, or lost the tissue."
+        " --settings, tables and a plot of the margins. Exit code 1: a trial in simulation swung, or lost the tissue."
     ),
     epilog="Example: contactbench control tune --probe convex --stiffness 2000 --out gains",
 )
@@ -84,15 +90,13 @@ def tune(
     from pipeline.control.tuning import Wanted
     from pipeline.study.control_tuning import run as study
 
-    chosen = variants_of(variant)
-    if len(chosen) != 1:
-        raise InputError("--variant both: gains are for one of them: give plain or aware.")
+    chosen = _variant_of(variant)
     with Bar("trying gains", counted=True) as bar:
         result = study(
             probe,
             stiffness=stiffness,
             scene=scene,
-            variant=chosen[0],
+            variant=chosen,
             force=force,
             wanted=Wanted(gain_margin, math.radians(phase_margin), spread),
             seed=seed,
@@ -128,8 +132,11 @@ def run(
     size: Annotated[float, typer.Option(help="Of that motion, mm or degrees.")] = 10.0,
     seconds: Annotated[float, typer.Option(help="How long until it goes back, s.")] = 15.0,
     variant: Annotated[
-        str, typer.Option(metavar="plain|aware", help="The paper's control, or with the motion led.")
-    ] = "aware",
+        str | None,
+        typer.Option(
+            metavar="plain|aware", help="The paper's control, or with the motion led [the bundle's]."
+        ),
+    ] = None,
     method: Annotated[str, typer.Option(help="That locates contacts.")] = "contactbench",
     stiffness: Annotated[
         float | None, typer.Option(help="Of the phantom at the wanted force, N/m [soft tissue].")
@@ -141,10 +148,15 @@ def run(
     unverified: Annotated[
         bool, typer.Option("--unverified", help="Also a bundle that is not verified.")
     ] = False,
+    frames: Annotated[
+        bool,
+        typer.Option("--frames", help="Each period as a line of JSON on standard output, as it happens."),
+    ] = False,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the course.")] = None,
     as_json: JsonOption = False,
 ) -> None:
     """Run a bundle's controller on a virtual robot."""
+    from pipeline.commands.control_frames import Frames
     from pipeline.commands.record import ended_by_signals
     from pipeline.config.runtime import RuntimeConfig
     from pipeline.config.runtime.mounts import mount_of_angles
@@ -156,13 +168,15 @@ def run(
     check_address(robot)
     if not 1 <= seconds <= 3000:
         raise InputError(f"--seconds {seconds:g}: give 1 to 3000.")
-    chosen = variants_of(variant)
+    if frames and as_json:
+        raise InputError("--frames --json: the last of the frames is what --json prints: give one of them.")
+    chosen = None if variant is None else _variant_of(variant)
     config = RuntimeConfig.load(bundle)
     check_runnable(config, unverified=unverified)
     made = virtual_robot(
         config,
         robot,
-        variant=chosen[-1],
+        variant=chosen,
         method=method,
         motion=_motion(motion, size, period),
         stiffness=stiffness,
@@ -170,9 +184,12 @@ def run(
         quaternion_ES=mount_of_angles(None if mount is None else numbers(mount, 3, "--mount")),
         seed=seed,
     )
+    show = Frames(robot) if frames else None
     with ended_by_signals() as ended:
 
         def watch(command: Command, loop: Loop) -> None:
+            if show is not None and not show.take(command, loop):
+                ended.set()  # who watched has gone
             if command.change is not None:
                 change = command.change
                 say(f"{change.time:7.2f} s  {change.before} -> {change.after}: {change.reason}")
@@ -190,6 +207,8 @@ def run(
             raise InputError(f"{out}: cannot be written ({error}); choose another --out") from error
     facts = _facts(config, trace)
     _tell(facts)
+    if show is not None:
+        show.end(facts)
     if as_json:
         print_json(facts)
     if facts["faults"]:

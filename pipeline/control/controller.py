@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +11,7 @@ from pipeline.control.admittance import Admittance
 from pipeline.control.axes import pressing
 from pipeline.control.bundle import intake_of, mount_of
 from pipeline.control.command import Command, Mount
+from pipeline.control.content import settings_of
 from pipeline.control.foundation import Foundation
 from pipeline.control.inertia import Inertia
 from pipeline.control.inverse import solve_step
@@ -107,10 +109,11 @@ class Controller:
         p_ES_E: ArrayLike = (0.0, 0.0, 0.0),
         quaternion_ES: ArrayLike | None = None,
         method: str = "contactbench",
+        variant: Variant | None = None,
         settings: ControlSettings | None = None,
     ) -> Controller:
         """
-        Take everything from a bundle: probe, calibration, noise, gates, limits, and gains where it has them.
+        Take everything from a bundle: probe, calibration, noise, gates, limits, and the controller where it has one.
 
         Parameters
         ----------
@@ -124,6 +127,8 @@ class Controller:
             How it is turned, for a bundle that does not say.
         method : str
             A name of `pipeline.contact.methods.METHODS`.
+        variant : Variant, optional
+            Another one than the bundle's.
         settings : ControlSettings, optional
             For what the bundle leaves open; left out, the defaults for its probe.
 
@@ -135,7 +140,9 @@ class Controller:
         part = config.model.controller
         force = ControlSettings.desired_force if part is None else part.desired_force_N
         base = settings or ControlSettings.for_probe(Foundation(config.probe), desired_force=force)
-        chosen = ControlSettings.of(part, config.model.limits, base)
+        chosen = settings_of(part, config.model.limits, base)
+        if variant is not None:
+            chosen = replace(chosen, variant=variant)
         mount = mount_of(config, p_ES_E, quaternion_ES)
         return cls(chosen, arm, config.probe, intake_of(config, chosen, method), mount, q)
 

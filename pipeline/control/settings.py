@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,6 @@ from pipeline.control.foundation import USUAL_MODULUS
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from pipeline.config.runtime.model import ControllerPart, LimitsPart
     from pipeline.control.foundation import Foundation
 
 USUAL_STIFFNESS = 2000.0  # N/m, of a convex probe at 7 N on soft tissue
@@ -88,6 +87,9 @@ class ControlSettings:
         a third. 0: what turning it takes is left out.
     following : float
         s, by how much an arm may be late at the largest speeds before it counts as not following.
+    max_tilt : float
+        rad, between the probe's axis and the one that it began with; beyond it the probe goes back. What turns it so
+        far is no tissue but a place that is wrong: a bias on a narrow face, or an edge.
     max_torque : float
         N·m about the sensor's origin that must never be passed; as `max_force`.
     settling : float
@@ -134,6 +136,7 @@ class ControlSettings:
     taring: float = 0.5
     gyration: float = 0.035
     following: float = 0.05
+    max_tilt: float = 0.6
     max_torque: float = 6.0
     settling: float = _SETTLING_S
     angle_gains: tuple[float, float] = (6.0, 6.0)
@@ -150,6 +153,10 @@ class ControlSettings:
             raise InputError(
                 f"control settings: a wanted force of {self.desired_force:g} N must be above {self.touch_force:g} N and"
                 f" below 80 % of the limit of {self.max_force:g} N: change one of them."
+            )
+        if self.max_tilt >= math.pi / 2:
+            raise InputError(
+                f"control settings: max_tilt is {self.max_tilt:g} rad: give less than a quarter turn, 1.57."
             )
 
     @classmethod
@@ -205,42 +212,6 @@ class ControlSettings:
             angle_inertia=(about[0][0], about[1][0]),
             angle_damping=(about[0][1], about[1][1]),
             angle_gains=angle_gains,
-        )
-
-    @classmethod
-    def of(
-        cls, controller: ControllerPart | None, limits: LimitsPart, base: ControlSettings | None = None
-    ) -> ControlSettings:
-        """
-        Return the settings of a bundle; its limits always count, gains are those of `base` where it has none.
-
-        Its turns have one inertia and one damping for both axes: with them a probe that is long and narrow turns much
-        faster about one than about the other.
-
-        Raises
-        ------
-        InputError
-            They contradict each other.
-        """
-        base = base or cls()
-        base = replace(
-            base,
-            max_force=limits.max_force_N,
-            max_torque=limits.max_torque_Nm,
-            max_speed=limits.max_speed_mps or base.max_speed,
-            max_turn=limits.max_turn_radps or base.max_turn,
-        )
-        if controller is None:
-            return base
-        return replace(
-            base,
-            desired_force=controller.desired_force_N,
-            force_mass=controller.force_mass_kg,
-            force_damping=controller.force_damping_Nspm,
-            force_stiffness=controller.force_stiffness_Npm,
-            angle_inertia=(controller.angle_inertia,) * 2,
-            angle_damping=(controller.angle_damping,) * 2,
-            angle_stiffness=(controller.angle_stiffness,) * 2,
         )
 
 

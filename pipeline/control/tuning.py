@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.config.runtime.model import ControllerPart, LimitsPart
+from pipeline.control.content import controller_of, limits_of
 from pipeline.control.margins import AXES, Axis, Margins, loop_of, margins
 from pipeline.control.settings import USUAL_GAIN, ControlSettings, Variant
 from pipeline.errors import InputError
@@ -231,25 +231,8 @@ def rows_of(tuned: Tuned, foundation: Foundation, count: int = 9) -> list[Row]:
 
 
 def settings_content(settings: ControlSettings) -> dict[str, Any]:
-    """
-    Return what ``config export --settings`` takes: the parts ``controller`` and ``limits``.
-
-    A bundle has one inertia and one damping for both turns: of two, it gets the ones that turn more slowly.
-    """
-    slow = int(np.argmax(settings.angle_damping))
-    controller = ControllerPart(
-        desired_force_N=settings.desired_force,
-        force_mass_kg=settings.force_mass,
-        force_damping_Nspm=settings.force_damping,
-        force_stiffness_Npm=settings.force_stiffness,
-        angle_inertia=max(settings.angle_inertia),
-        angle_damping=settings.angle_damping[slow],
-        angle_stiffness=settings.angle_stiffness[slow],
-    )
-    limits = LimitsPart(
-        max_force_N=settings.max_force,
-        max_torque_Nm=settings.max_torque,
-        max_speed_mps=settings.max_speed,
-        max_turn_radps=settings.max_turn,
-    )
-    return {"controller": controller.model_dump(), "limits": limits.model_dump()}
+    """Return what ``config export --settings`` takes: the parts ``controller`` and ``limits``."""
+    return {
+        "controller": controller_of(settings).model_dump(),
+        "limits": limits_of(settings).model_dump(),
+    }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +13,7 @@ from pipeline.config.runtime.values import gates_of
 from pipeline.control.controller import Controller
 from pipeline.control.foundation import Foundation
 from pipeline.control.loop import arm_of
-from pipeline.control.settings import ControlSettings, Variant
+from pipeline.control.settings import ControlSettings
 from pipeline.errors import InputError
 from pipeline.simulation.scenes import (
     ArmScene,
@@ -21,6 +21,7 @@ from pipeline.simulation.scenes import (
     Payload,
     PlatformMotion,
     PlatformScene,
+    ServoSettings,
     Tissue,
     Truth,
 )
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pipeline.config.runtime.config import RuntimeConfig
+    from pipeline.control.settings import Variant
 
 ROBOTS = ("virtual://arm", "virtual://platform")
 _FASTEST_HZ = 1000.0
@@ -48,7 +50,7 @@ def virtual_robot(
     config: RuntimeConfig,
     address: str = ROBOTS[0],
     *,
-    variant: Variant = Variant.AWARE,
+    variant: Variant | None = None,
     method: str = "contactbench",
     motion: PlatformMotion | None = None,
     stiffness: float | None = None,
@@ -67,7 +69,8 @@ def virtual_robot(
     config : RuntimeConfig
     address : str
         One of `ROBOTS`.
-    variant : Variant
+    variant : Variant, optional
+        Another one than the bundle's.
     method : str
     motion : PlatformMotion, optional
     stiffness : float, optional
@@ -94,10 +97,6 @@ def virtual_robot(
     payload = Payload(float(np.linalg.norm(weight_W)) / STANDARD_GRAVITY, centre)
     scene = _scene(config, address, R_ES, payload, tissue, motion)
     scene.model.opt.gravity[:] = STANDARD_GRAVITY * weight_W / np.linalg.norm(weight_W)
-    force = ControlSettings.desired_force
-    if config.model.controller is not None:
-        force = config.model.controller.desired_force_N
-    base = replace(ControlSettings.for_probe(Foundation(config.probe), desired_force=force), variant=variant)
     controller = Controller.from_config(
         config,
         arm_of(scene),
@@ -105,7 +104,7 @@ def virtual_robot(
         p_ES_E=scene.p_ES_E,
         quaternion_ES=quaternion_ES,
         method=method,
-        settings=base,
+        variant=variant,
     )
     return VirtualRobot(scene, controller, SensorModel(_sensor(config, force_bias, torque_bias), rng))
 
@@ -134,15 +133,17 @@ def _scene(
     tissue: Tissue,
     motion: PlatformMotion | None,
 ) -> MovedScene:
-    truth = Truth(config.probe)
+    truth, part = Truth(config.probe), config.model.controller
+    period = ControlSettings.period if part is None else part.period_s
     if address == ROBOTS[0]:
-        return ArmScene(truth, payload=payload, tissue=tissue, motion=motion, R_ES=R_ES)
+        servo = ServoSettings(period=period)
+        return ArmScene(truth, payload=payload, tissue=tissue, motion=motion, servo=servo, R_ES=R_ES)
     if not np.allclose(R_ES, np.eye(3), atol=1e-6):
         raise InputError(
             f"robot {address}: its mount holds the sensor unturned, but the bundle says that it is turned: give"
             f" {ROBOTS[0]}."
         )
-    return PlatformScene(truth, payload=payload, tissue=tissue, motion=motion)
+    return PlatformScene(truth, payload=payload, tissue=tissue, motion=motion, period=period)
 
 
 def _tissue(config: RuntimeConfig, stiffness: float | None, friction: float) -> Tissue:

@@ -12,9 +12,13 @@ from pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
 from pipeline.config.runtime.bench import ExportSettings, export_from_files
 from pipeline.config.runtime.pack import KNOWN
 from pipeline.contact import Gates
+from pipeline.control.content import controller_of
+from pipeline.control.foundation import Foundation
+from pipeline.control.settings import ControlSettings
 from pipeline.demo.files import write_bytes
 from pipeline.demo.tool import RATE_HZ, SENSOR_MODEL
 from pipeline.errors import InputError
+from pipeline.mesh.sidecar import load_probe_file
 from pipeline.recording.replay import Replay
 from pipeline.report.making import report
 from pipeline.runtime import Run, RunError
@@ -182,8 +186,8 @@ def check(folder: Path, name: str, tool: Tool) -> CheckResult:
         return judged
     try:
         exported = export_from_files(
-            made["calibration"], made["probe"], inputs["verification"], folder / "report.html", _settings(tool),
-            created=created,
+            made["calibration"], made["probe"], inputs["verification"], folder / "report.html",
+            _settings(tool, made["probe"]), created=created,
         )  # fmt: skip
     except UnverifiedError as error:
         return replace(judged, refused=" ".join(error.reasons))
@@ -237,13 +241,15 @@ def _listed(touch: TouchFigure) -> str:
     return f"touch {touch.number}{where} ({touch.reason})"
 
 
-def _settings(tool: Tool) -> ExportSettings:
+def _settings(tool: Tool, probe: Path) -> ExportSettings:
+    usual = ControlSettings.for_probe(Foundation(load_probe_file(probe).probe))
     fx, fy, fz, mx, my, mz = tool.settings.limit.tolist()
     return ExportSettings(
         sensor=SENSOR_MODEL,
         rate=RATE_HZ,
         noise=tool.noise(),
         gates=Gates(saturation=(fx, fy, fz, mx, my, mz)),
+        controller=controller_of(usual),
         operator=_OPERATOR,
         mount=_UNTURNED,
     )

@@ -10,9 +10,12 @@ from scipy.spatial.transform import Rotation
 import assets
 from pipeline.calibration import GravityModel, PoseNoise, calibrate
 from pipeline.config.runtime import Filters, RuntimeConfig, build_config
-from pipeline.config.runtime.model import ControllerPart, LimitsPart, SensorPart, SourcePart, VerificationPart
+from pipeline.config.runtime.model import LimitsPart, SensorPart, SourcePart, VerificationPart
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
+from pipeline.control.content import controller_of
+from pipeline.control.foundation import Foundation
+from pipeline.control.settings import ControlSettings
 from pipeline.filtering import KalmanFilter, LowPass
 from pipeline.mesh import Probe
 from pipeline.mesh.regions import Region, RegionSet
@@ -58,15 +61,7 @@ def example_config(
         gates=Gates(saturation=(200.0, 200.0, 200.0, 8.0, 8.0, 8.0)),
         mount=(1.0, 0.0, 0.0, 0.0),
         limits=LimitsPart(max_force_N=30.0, max_torque_Nm=3.0, max_speed_mps=0.1, max_turn_radps=None),
-        controller=ControllerPart(
-            desired_force_N=5.0,
-            force_mass_kg=1.0,
-            force_damping_Nspm=80.0,
-            force_stiffness_Npm=0.0,
-            angle_inertia=0.05,
-            angle_damping=1.0,
-            angle_stiffness=0.0,
-        ),
+        controller=controller_of(ControlSettings.for_probe(Foundation(probe), desired_force=5.0)),
         verification=_verification() if verified else None,
         report=b"<!doctype html><title>Verification</title><p>Simulated.</p>\n",
         operator="simulation",

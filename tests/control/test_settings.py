@@ -1,17 +1,10 @@
 import numpy as np
 import pytest
 
-from pipeline.config.runtime.model import ControllerPart, LimitsPart
 from pipeline.control.foundation import USUAL_MODULUS, Foundation
 from pipeline.control.settings import ControlSettings
 from pipeline.errors import InputError
 from pipeline.study.reproduce.touching import model_of
-
-LIMITS = LimitsPart(max_force_N=20.0, max_torque_Nm=2.0, max_speed_mps=None, max_turn_radps=0.5)
-PART = ControllerPart(
-    desired_force_N=5.0, force_mass_kg=3.0, force_damping_Nspm=200.0, force_stiffness_Npm=1.0,
-    angle_inertia=0.01, angle_damping=0.1, angle_stiffness=0.2,
-)  # fmt: skip
 
 
 @pytest.mark.parametrize("name", ["convex", "linear", "t-shape"])
@@ -34,19 +27,6 @@ def test_the_defaults_of_a_probe_give_the_loops_the_wanted_gains(name):
         assert settling[0] > 0.1
     # What comes while it stops, on tissue five times stiffer.
     assert settings.approach_speed * 0.05 * 5 * press.stiffness <= 0.6 * 7.0 + 1e-9
-
-
-def test_a_bundles_limits_always_count_and_its_gains_where_it_has_some():
-    bare = ControlSettings.of(None, LIMITS)
-    assert (bare.max_force, bare.max_torque, bare.max_turn) == (20.0, 2.0, 0.5)
-    assert bare.max_speed == ControlSettings().max_speed
-    told = ControlSettings.of(PART, LIMITS)
-    assert (told.desired_force, told.force_mass, told.force_damping, told.force_stiffness) == (5, 3, 200, 1)
-    assert (told.angle_inertia, told.angle_damping, told.angle_stiffness) == (
-        (0.01,) * 2,
-        (0.1,) * 2,
-        (0.2,) * 2,
-    )
 
 
 @pytest.mark.parametrize(

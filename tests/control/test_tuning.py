@@ -8,6 +8,7 @@ import pytest
 
 from pipeline.config.runtime.bench import ExportSettings
 from pipeline.config.runtime.settings_file import with_file
+from pipeline.control.content import settings_of
 from pipeline.control.foundation import USUAL_MODULUS
 from pipeline.control.margins import AXES, loop_of, margins
 from pipeline.control.settings import Variant
@@ -68,10 +69,7 @@ def test_config_export_takes_the_gains():
     tuned = tune(foundation_of("convex"), USUAL_MODULUS, variant=Variant.PLAIN)
     data = json.dumps(settings_content(tuned.settings)).encode()
     settings = with_file(ExportSettings(), data, "gains.json")
-    assert settings.controller.force_damping_Nspm == tuned.settings.force_damping
-    # Both turns get the slower one's.
-    assert settings.controller.angle_damping == max(tuned.settings.angle_damping)
-    assert settings.limits.max_force_N == 30.0
+    assert settings_of(settings.controller, settings.limits) == tuned.settings
 
 
 def test_trials_hold_and_files_are_written(tmp_path):

@@ -142,7 +142,7 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     library.c.cb_close(None)
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(11) == b"unknown"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"1.0.0"
+    assert library.c.cb_version() == b"1.1.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(
@@ -189,7 +189,17 @@ def edited(folder: Path, path: str, value: Any) -> None:
 
 
 EDITS = [
-    ("version", 2, 5, "version"),
+    ("version", 3, 5, "version"),
+    ("version", 0, 5, "version"),
+    ("version", 1, 4, "controller"),
+    ("controller.variant", "bold", 4, "controller.variant"),
+    ("controller.force.mass_kg", 0, 6, "controller.force.mass_kg"),
+    ("controller.angle.damping", [1.0], 4, "controller.angle.damping"),
+    ("controller.angle.gain_per_s", [1.0, -1.0], 6, "controller.angle.gain_per_s[1]"),
+    ("controller.touch.attempts", 1.5, 4, "controller.touch.attempts"),
+    ("controller.watch.max_tilt_rad", 35.0, 6, "controller.watch.max_tilt_rad"),
+    ("controller.lead.extra", 1, 4, "controller.lead.extra"),
+    ("limits.max_force_N", 4.0, 6, "controller.desired_force_N"),
     ("schema", "other", 4, "schema"),
     ("units.force", "kN", 4, "units.force"),
     ("gravity.gravity_W_N", [0, 0, 9.0], 6, "points up"),

@@ -87,6 +87,7 @@ def check_config(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes], 
         _check_gravity(model)
         _check_noise(model)
         _check_filters(model)
+        _check_controller(model)
         _check_files(model, probe, files)
         _check_verified(model, probe)
     except ConfigError as error:
@@ -208,6 +209,15 @@ def _check_low_pass(part: LowPassPart) -> None:
     told = np.array(part.sections)
     if told.shape != true.shape or not (np.abs(told - true) <= _SECTIONS).all():
         _refuse("filters.location.sections", "are not those of cutoff_Hz, order and rate_Hz.")
+
+
+def _check_controller(model: RuntimeModel) -> None:
+    part, most = model.controller, model.limits.max_force_N
+    if part is not None and not part.desired_force_N < most:
+        _refuse(
+            "controller.desired_force_N",
+            f"is {part.desired_force_N:g}, not below limits.max_force_N, which is {most:g}.",
+        )
 
 
 def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes]) -> None:

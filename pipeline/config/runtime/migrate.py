@@ -10,8 +10,68 @@ from pipeline.config.runtime.model import VERSION
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+_OLD_GAINS = {
+    "desired_force_N",
+    "force_mass_kg",
+    "force_damping_Nspm",
+    "force_stiffness_Npm",
+    "angle_inertia",
+    "angle_damping",
+    "angle_stiffness",
+}
+
+
+def _from_1(content: dict[str, Any]) -> dict[str, Any]:
+    """Version 1 had one gain for both turns, and left the rest of the controller to who read it."""
+    old = content["controller"]
+    if old is None:
+        return content
+    if set(old) != _OLD_GAINS:
+        raise ValueError(f"controller: not the fields {', '.join(sorted(_OLD_GAINS))}")
+    # What was left open is what contactbench took by itself at that time; the C++ loader has the same numbers.
+    controller = {
+        "variant": "aware",
+        "desired_force_N": old["desired_force_N"],
+        "period_s": 0.02,
+        "servo_lag_s": 0.0,
+        "force": {
+            "mass_kg": old["force_mass_kg"],
+            "damping_Nspm": old["force_damping_Nspm"],
+            "stiffness_Npm": old["force_stiffness_Npm"],
+            "gain_per_s": 6.0,
+        },
+        "angle": {
+            "inertia": [old["angle_inertia"]] * 2,
+            "damping": [old["angle_damping"]] * 2,
+            "stiffness": [old["angle_stiffness"]] * 2,
+            "gain_per_s": [6.0, 6.0],
+            "settling_s": 0.04,
+        },
+        "lead": {
+            "bandwidth_per_s": [20.0, 13.0, 13.0],
+            "smoothing_s": 0.08,
+            "lean_rad": 0.025,
+            "lean_s": 0.8,
+        },
+        "touch": {
+            "approach_speed_mps": 0.006,
+            "approach_travel_m": 0.05,
+            "retract_speed_mps": 0.06,
+            "retract_travel_m": 0.03,
+            "touch_force_N": 0.7,
+            "low_force_N": 0.7,
+            "ramp_s": 0.5,
+            "probing_m": 0.00015,
+            "attempts": 3,
+        },
+        "tool": {"left_force_N": 0.01, "left_torque_Nm": 0.0005, "taring_s": 0.5, "gyration_m": 0.035},
+        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.6},
+    }
+    return {**content, "controller": controller}
+
+
 # Version -> what turns its JSON object into one of the next version. Version 1 is the first.
-STEPS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}
+STEPS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _from_1}
 
 
 def migrated(content: dict[str, Any], name: str) -> dict[str, Any]:

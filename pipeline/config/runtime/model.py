@@ -12,13 +12,16 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 SCHEMA: Final = "contactbench.runtime"
-VERSION: Final = 1
+VERSION: Final = 2
 
 # Wide enough for every device there is, narrow enough that no square overflows and no unit is mistaken unnoticed.
 _Number = Annotated[float, Field(ge=-1e9, le=1e9)]
 _Positive = Annotated[float, Field(gt=0, le=1e9)]
 _NotNegative = Annotated[float, Field(ge=0, le=1e9)]
+_TwoPositive = Annotated[list[_Positive], Field(min_length=2, max_length=2)]
+_TwoNotNegative = Annotated[list[_NotNegative], Field(min_length=2, max_length=2)]
 _Three = Annotated[list[_Number], Field(min_length=3, max_length=3)]
+_ThreePositive = Annotated[list[_Positive], Field(min_length=3, max_length=3)]
 _ThreeSigmas = Annotated[list[_NotNegative], Field(min_length=3, max_length=3)]
 _Four = Annotated[list[_Number], Field(min_length=4, max_length=4)]
 _Six = Annotated[list[_Number], Field(min_length=6, max_length=6)]
@@ -190,20 +193,110 @@ class PlanesPart(Part):
     count: _Count
 
 
+class ForceGainsPart(Part):
+    """
+    Along S's z axis: ``M`` x'' + ``D`` x' + ``K`` x = error in N.
+
+    ``gain_per_s`` is how fast the aware variant goes towards the wanted force, whatever the tissue's stiffness.
+    """
+
+    mass_kg: _Positive
+    damping_Nspm: Annotated[_Positive, Field(description="N*s/m")]
+    stiffness_Npm: Annotated[_NotNegative, Field(description="N/m")]
+    gain_per_s: _Positive
+
+
+class AngleGainsPart(Part):
+    """
+    About S's x and y axes, in this order: ``M`` a'' + ``D`` a' + ``K`` a = error in N·m.
+
+    The error is the wanted force times how far the contact is off. ``gain_per_s`` is how fast the aware variant turns
+    towards the tilt that it knows, and ``settling_s`` its mass over damping.
+    """
+
+    inertia: Annotated[_TwoPositive, Field(description="N*m*s²/rad")]
+    damping: Annotated[_TwoPositive, Field(description="N*m*s/rad")]
+    stiffness: Annotated[_TwoNotNegative, Field(description="N*m/rad")]
+    gain_per_s: _TwoPositive
+    settling_s: _Positive
+
+
+class LeadPart(Part):
+    """
+    What the aware variant needs to estimate how the tissue moves, and to lead it.
+
+    ``bandwidth_per_s``: of the place, the tilt about x, the tilt about y. ``lean_rad`` and ``lean_s``: how far friction
+    leans the tissue's force, and for how long.
+    """
+
+    bandwidth_per_s: _ThreePositive
+    smoothing_s: _Positive
+    lean_rad: _Positive
+    lean_s: _Positive
+
+
+class TouchPart(Part):
+    """How tissue is met, lost and left; ``probing_m`` is the press that measures its stiffness, 0 for none."""
+
+    approach_speed_mps: _Positive
+    approach_travel_m: _Positive
+    retract_speed_mps: _Positive
+    retract_travel_m: _Positive
+    touch_force_N: _Positive
+    low_force_N: _Positive
+    ramp_s: _Positive
+    probing_m: _NotNegative
+    attempts: _Count
+
+
+class ToolPart(Part):
+    """
+    What is known of sensor and tool beside the calibration.
+
+    ``left_force_N`` and ``left_torque_Nm`` are what is left of the sensor's bias; ``taring_s`` is how long it waits in
+    the air before each run, 0 for not at all; ``gyration_m`` is the tool's radius of gyration about its centre of mass,
+    0 for unknown.
+    """
+
+    left_force_N: _Positive
+    left_torque_Nm: _Positive
+    taring_s: _NotNegative
+    gyration_m: _NotNegative
+
+
+class WatchPart(Part):
+    """
+    When it stops and goes back.
+
+    Without a fresh sample for ``stale_s`` nothing moves; after ``give_up_s`` more it goes back. An arm that is late by
+    more than ``following_s`` at the largest speeds does not follow. Turned by more than ``max_tilt_rad`` against how it
+    began, it goes back.
+    """
+
+    stale_s: _Positive
+    give_up_s: _Positive
+    following_s: _Positive
+    max_tilt_rad: Annotated[float, Field(gt=0, lt=1.5708)]
+
+
 class ControllerPart(Part):
     """
-    Gains of admittance control along S's z axis and about x and y; see the control documentation.
+    Admittance control in force and orientation; see the control documentation.
 
-    ``M`` x'' + ``B`` x' + ``K`` x = error; the error is a force in N along z, and a torque in N·m about x and y.
+    ``plain`` follows the force and the place of the contact alone; ``aware`` also estimates how the tissue moves, and
+    leads it. A set-point is due every ``period_s``; the arm is there ``servo_lag_s`` later.
     """
 
+    variant: Literal["plain", "aware"]
     desired_force_N: _Positive
-    force_mass_kg: _Positive
-    force_damping_Nspm: Annotated[_Positive, Field(description="N*s/m")]
-    force_stiffness_Npm: Annotated[_NotNegative, Field(description="N/m")]
-    angle_inertia: Annotated[_Positive, Field(description="N*m*s²/rad")]
-    angle_damping: Annotated[_Positive, Field(description="N*m*s/rad")]
-    angle_stiffness: Annotated[_NotNegative, Field(description="N*m/rad")]
+    period_s: _Positive
+    servo_lag_s: _NotNegative
+    force: ForceGainsPart
+    angle: AngleGainsPart
+    lead: LeadPart
+    touch: TouchPart
+    tool: ToolPart
+    watch: WatchPart
 
 
 class LimitsPart(Part):
@@ -260,7 +353,7 @@ class RuntimeModel(Part):
     """
 
     schema_: Literal["contactbench.runtime"] = Field(alias="schema")
-    version: Literal[1]
+    version: Literal[2]
     units: UnitsPart
     frames: FramesPart
     sensor: SensorPart

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from config.runtime.bundles import example, example_bundle
+from config.runtime.bundles import OLD_GAINS, example, example_bundle, of_version_1
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import Level, Verdict
@@ -24,6 +24,8 @@ from pipeline.config.runtime.differ import differences
 from pipeline.config.runtime.pack import KNOWN, read_bundle
 from pipeline.config.runtime.swap import write_folder
 from pipeline.contact import Gates, WrenchNoise
+from pipeline.control.content import controller_of
+from pipeline.control.settings import ControlSettings
 from pipeline.filtering import LowPass
 from pipeline.mesh import Probe
 from pipeline.mesh.regions import RegionSet
@@ -121,7 +123,8 @@ def test_planes_come_in_the_order_of_priority():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"version": 2}, "version is 2"),
+        ({"version": 3}, "version is 3"),
+        ({"version": 1}, "version 1 cannot be carried over"),
         ({"version": 0}, "no version 0"),
         ({"schema": "x"}, "schema is 'x'"),
         ({"frames__quaternion_ES": [1.0, 1.0, 0.0, 0.0]}, "frames.quaternion_ES has the length"),
@@ -154,6 +157,13 @@ def test_planes_come_in_the_order_of_priority():
         ({"provenance__stale": ["zeroed"]}, "provenance.stale says: zeroed"),
         ({"units__force": "kN"}, "units.force is 'kN'"),
         ({"limits__max_force_N": 10**400}, "limits.max_force_N"),
+        ({"limits__max_force_N": 4.0}, "controller.desired_force_N is 5, not below limits.max_force_N"),
+        ({"controller__variant": "bold"}, "controller.variant is 'bold'"),
+        ({"controller__angle__damping": [1.0]}, "controller.angle.damping"),
+        ({"controller__angle__gain_per_s__1": 0.0}, "controller.angle.gain_per_s.1 is 0.0"),
+        ({"controller__watch__max_tilt_rad": 35.0}, "controller.watch.max_tilt_rad is 35.0"),
+        ({"controller__touch__attempts": 1.5}, "controller.touch.attempts is 1.5"),
+        ({"controller__lead__extra": 1}, "controller.lead.extra"),
         ({"sensor__extra": 1}, "sensor.extra"),
     ],
 )
@@ -322,17 +332,62 @@ def test_an_older_version_is_carried_over(monkeypatch):
         return {**content, "gravity": gravity, "gates": {**content["gates"], "region_only": False}}
 
     monkeypatch.setitem(migrations.STEPS, 0, from_0)
-    content = example().model.to_json()
+    content = {**example().model.to_json(), "controller": OLD_GAINS}
     weight = content["gravity"].pop("gravity_W_N")
     content["gravity"]["mass_W_kg"] = [each / 9.80665 for each in weight]
     del content["gates"]["region_only"]
     old = encode_json({**content, "version": 0})
     model = decode_json(old, "old")
-    assert model.version == 1
+    assert model.version == 2
+    assert model.controller.force.damping_Nspm == 80.0
     assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
     del content["gravity"]["mass_W_kg"]
     with pytest.raises(ConfigError, match="version 0 cannot be carried over"):
         decode_json(encode_json({**content, "version": 0}), "old")
+
+
+def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_2():
+    files = of_version_1(example().encoded())
+    found = RuntimeConfig.from_files(files)
+    part, (inertia, damping, stiffness) = found.model.controller, (0.05, 1.0, 0.25)
+    assert (part.desired_force_N, part.force.mass_kg, part.force.damping_Nspm) == (5.0, 1.0, 80.0)
+    assert part.force.stiffness_Npm == 0.5
+    assert part.angle.inertia == [inertia] * 2
+    assert part.angle.damping == [damping] * 2
+    assert part.angle.stiffness == [stiffness] * 2
+    # The same as what was left out there and comes from the defaults.
+    usual = ControlSettings(desired_force=5.0, force_mass=1.0, force_damping=80.0, force_stiffness=0.5)
+    turns = {
+        "angle_inertia": (inertia,) * 2,
+        "angle_damping": (damping,) * 2,
+        "angle_stiffness": (stiffness,) * 2,
+    }
+    assert part == controller_of(dataclasses.replace(usual, **turns))
+    again = RuntimeConfig.from_files(found.encoded())
+    assert again.model == found.model
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 2
+    bare = RuntimeConfig.from_files(of_version_1(example().encoded(), None))
+    assert bare.model.controller is None
+
+
+@pytest.mark.parametrize(
+    ("controller", "words"),
+    [
+        ({**OLD_GAINS, "extra": 1}, "version 1 cannot be carried over"),
+        (
+            {name: value for name, value in OLD_GAINS.items() if name != "angle_inertia"},
+            "cannot be carried over",
+        ),
+        ({**OLD_GAINS, "angle_inertia": [0.1, 0.2]}, "controller.angle.inertia"),
+        ({**OLD_GAINS, "angle_damping": 0.0}, "controller.angle.damping.0 is 0.0"),
+        ({**OLD_GAINS, "force_mass_kg": "1"}, "controller.force.mass_kg is '1'"),
+        ([], "cannot be carried over"),
+        (3, "cannot be carried over"),
+    ],
+)
+def test_a_wrong_controller_of_version_1_is_refused(controller, words):
+    with pytest.raises(ConfigError, match=words):
+        RuntimeConfig.from_files(of_version_1(example().encoded(), controller))
 
 
 def test_the_schema_that_is_checked_in_is_that_of_the_model():

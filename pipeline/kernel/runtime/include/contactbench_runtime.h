@@ -25,8 +25,8 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "1.0.0"
-#define CB_BUNDLE_VERSION 1 /* of contactbench.json */
+#define CB_RUNTIME_VERSION "1.1.0"
+#define CB_BUNDLE_VERSION 2 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
 
@@ -102,6 +102,28 @@ typedef struct {
     char sensor_model[128], sensor_serial[128], probe[128]; /* cut short where they are longer */
 } cb_info;
 
+/* Admittance along S's z axis, M x'' + D x' + K x = error in N, and about its x and y axes (in this order), where the
+ * error is desired_force_N times how far the contact is off, N*m. Set `size` to sizeof(cb_controller). A bundle of
+ * version 1 has one gain for both turns; it says nothing of the rest, which then is as contactbench takes it. Limits
+ * of infinity are none. */
+typedef struct {
+    uint32_t size;
+    int32_t aware;    /* 1: the tissue's motion is estimated and led; 0: plain */
+    int32_t attempts; /* how often it approaches again after tissue was lost */
+    int32_t reserved;
+    double desired_force_N, period_s, servo_lag_s;
+    double force_mass_kg, force_damping_Nspm, force_stiffness_Npm, force_gain_per_s;
+    double angle_inertia[2], angle_damping[2], angle_stiffness[2], angle_gain_per_s[2];
+    double settling_s;
+    double bandwidth_per_s[3]; /* of the place, the tilt about x, the tilt about y */
+    double smoothing_s, lean_rad, lean_s;
+    double approach_speed_mps, approach_travel_m, retract_speed_mps, retract_travel_m;
+    double touch_force_N, low_force_N, ramp_s, probing_m;
+    double left_force_N, left_torque_Nm, taring_s, gyration_m;
+    double stale_s, give_up_s, following_s, max_tilt_rad;
+    double max_force_N, max_torque_Nm, max_speed_mps, max_turn_radps; /* limits: also for other controllers */
+} cb_controller;
+
 /* Returns NULL after a failure, with `error` filled in. */
 CB_API cb_runtime* cb_open(const char* bundle_folder, cb_error* error);
 /* One raw reading Fx Fy Fz Mx My Mz. Returns CB_OK when `contact` was filled in: its reason says the rest. After a
@@ -112,6 +134,8 @@ CB_API int cb_update(cb_runtime* runtime, const double wrench[6], const double R
  * none and R_WS has to come from elsewhere. */
 CB_API int cb_sensor_rotation(const cb_runtime* runtime, const double R_WE[9], double R_WS[9]);
 CB_API int cb_describe(const cb_runtime* runtime, cb_info* info);
+/* CB_ERROR_VALUE where the bundle holds no controller: only the limits were then written. */
+CB_API int cb_describe_controller(const cb_runtime* runtime, cb_controller* controller);
 /* The next sample is a first one, whatever its time: after a clock was set, or the tool was changed. A time that lies
  * in the future makes those after it stale; once stale times have increased without a break for 50 samples, or
  * for longer than max_age_s, the stream starts anew by itself. */

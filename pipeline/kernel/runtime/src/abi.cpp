@@ -1,4 +1,6 @@
 // The C boundary: no exception crosses it, no NULL is followed.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -52,6 +54,33 @@ void fill(cb_contact& out, const RuntimeContact& c) noexcept {
     copy(out.force, c.wrench, 3), copy(out.torque, c.wrench + 3, 3);
     copy(out.covariance, c.covariance, 9), copy(out.filtered_point, c.filtered_point, 3);
     out.runner_up_distance = c.runner_up_distance;
+}
+
+template <std::size_t N>
+void copy(double (&to)[N], const std::array<double, N>& from) noexcept {
+    std::copy(from.begin(), from.end(), to);
+}
+
+void fill_gains(cb_controller& out, const Controller& c) noexcept {
+    out.desired_force_N = c.desired_force, out.period_s = c.period, out.servo_lag_s = c.servo_lag;
+    out.force_mass_kg = c.force_mass, out.force_damping_Nspm = c.force_damping;
+    out.force_stiffness_Npm = c.force_stiffness, out.force_gain_per_s = c.force_gain;
+    copy(out.angle_inertia, c.angle_inertia), copy(out.angle_damping, c.angle_damping);
+    copy(out.angle_stiffness, c.angle_stiffness), copy(out.angle_gain_per_s, c.angle_gain);
+    out.settling_s = c.settling;
+    copy(out.bandwidth_per_s, c.bandwidth);
+    out.smoothing_s = c.smoothing, out.lean_rad = c.lean_angle, out.lean_s = c.lean_time;
+}
+
+void fill_behaviour(cb_controller& out, const Controller& c) noexcept {
+    out.approach_speed_mps = c.approach_speed, out.approach_travel_m = c.approach_travel;
+    out.retract_speed_mps = c.retract_speed, out.retract_travel_m = c.retract_travel;
+    out.touch_force_N = c.touch_force, out.low_force_N = c.low_force;
+    out.ramp_s = c.ramp, out.probing_m = c.probing, out.attempts = std::int32_t(c.attempts);
+    out.left_force_N = c.left_force, out.left_torque_Nm = c.left_torque;
+    out.taring_s = c.taring, out.gyration_m = c.gyration;
+    out.stale_s = c.stale, out.give_up_s = c.give_up, out.following_s = c.following;
+    out.max_tilt_rad = c.max_tilt;
 }
 
 }  // namespace
@@ -109,6 +138,18 @@ int cb_describe(const cb_runtime* runtime, cb_info* info) {
     info->max_force_N = c.max_force, info->max_torque_Nm = c.max_torque;
     copy_text(info->sensor_model, c.sensor_model), copy_text(info->sensor_serial, c.sensor_serial);
     copy_text(info->probe, c.probe_name);
+    return CB_OK;
+}
+
+int cb_describe_controller(const cb_runtime* runtime, cb_controller* out) {
+    if (!runtime || !out || out->size != sizeof(cb_controller)) return CB_ERROR_ARGUMENT;
+    const Config& c = runtime->config;
+    out->max_force_N = c.max_force, out->max_torque_Nm = c.max_torque;
+    out->max_speed_mps = c.max_speed, out->max_turn_radps = c.max_turn;
+    if (!c.controller) return CB_ERROR_VALUE;
+    out->aware = c.controller->aware, out->reserved = 0;
+    fill_gains(*out, *c.controller);
+    fill_behaviour(*out, *c.controller);
     return CB_OK;
 }
 

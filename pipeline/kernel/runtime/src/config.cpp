@@ -1,5 +1,6 @@
 #include "config.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fields.hpp"
@@ -11,16 +12,18 @@ namespace {
 
 Vec3 three(const std::vector<double>& v, std::size_t i = 0) { return {v[i], v[i + 1], v[i + 2]}; }
 
-void read_kind(const Json& root) {
+// Returns the version.
+std::int64_t read_kind(const Json& root) {
     const Json* schema = root.find("schema");
     const Json* version = root.find("version");
     if (!schema || schema->type != Json::Type::text || schema->text != "contactbench.runtime")
         fail(CB_ERROR_SCHEMA, "schema", "this is no runtime config of contactbench");
     if (!version || version->type != Json::Type::integer) fail(CB_ERROR_SCHEMA, "version", "not a whole number");
-    if (version->integer != CB_BUNDLE_VERSION)
+    if (version->integer < 1 || version->integer > CB_BUNDLE_VERSION)
         fail(CB_ERROR_VERSION, "version",
-             std::to_string(version->integer) + ", and this library reads " + std::to_string(CB_BUNDLE_VERSION) +
+             std::to_string(version->integer) + ", and this library reads 1 to " + std::to_string(CB_BUNDLE_VERSION) +
                  ": update the older of the two");
+    return version->integer;
 }
 
 void read_units(const Json& json) {
@@ -143,22 +146,96 @@ void read_planes(const Json& json, Config& c) {
     c.planes = std::size_t(f.integer("count", 0, 2147483647));
 }
 
-void read_controller(const Json& json) {
-    if (json.type == Json::Type::null) return;
+template <std::size_t N>
+std::array<double, N> several(const Fields& f, std::string_view name, Range range = positive) {
+    const auto values = f.numbers(name, N, range);
+    std::array<double, N> out{};
+    std::copy(values.begin(), values.end(), out.begin());
+    return out;
+}
+
+// Version 1 had one gain for both turns, and left the rest to who read it: the defaults of Controller.
+Controller read_old_controller(const Json& json) {
     const Fields f(json, "controller",
                    {"desired_force_N", "force_mass_kg", "force_damping_Nspm", "force_stiffness_Npm",
                     "angle_inertia", "angle_damping", "angle_stiffness"});
-    for (const char* name :
-         {"desired_force_N", "force_mass_kg", "force_damping_Nspm", "angle_inertia", "angle_damping"})
-        f.number(name, positive);
-    f.number("force_stiffness_Npm", not_negative), f.number("angle_stiffness", not_negative);
+    Controller c;
+    c.desired_force = f.number("desired_force_N", positive);
+    c.force_mass = f.number("force_mass_kg", positive), c.force_damping = f.number("force_damping_Nspm", positive);
+    c.force_stiffness = f.number("force_stiffness_Npm", not_negative);
+    c.angle_inertia.fill(f.number("angle_inertia", positive));
+    c.angle_damping.fill(f.number("angle_damping", positive));
+    c.angle_stiffness.fill(f.number("angle_stiffness", not_negative));
+    return c;
+}
+
+void read_gains(const Fields& controller, Controller& c) {
+    const Fields force(controller.at("force"), "controller.force",
+                       {"mass_kg", "damping_Nspm", "stiffness_Npm", "gain_per_s"});
+    c.force_mass = force.number("mass_kg", positive), c.force_damping = force.number("damping_Nspm", positive);
+    c.force_stiffness = force.number("stiffness_Npm", not_negative);
+    c.force_gain = force.number("gain_per_s", positive);
+    const Fields angle(controller.at("angle"), "controller.angle",
+                       {"inertia", "damping", "stiffness", "gain_per_s", "settling_s"});
+    c.angle_inertia = several<2>(angle, "inertia"), c.angle_damping = several<2>(angle, "damping");
+    c.angle_stiffness = several<2>(angle, "stiffness", not_negative);
+    c.angle_gain = several<2>(angle, "gain_per_s"), c.settling = angle.number("settling_s", positive);
+    const Fields lead(controller.at("lead"), "controller.lead",
+                      {"bandwidth_per_s", "smoothing_s", "lean_rad", "lean_s"});
+    c.bandwidth = several<3>(lead, "bandwidth_per_s"), c.smoothing = lead.number("smoothing_s", positive);
+    c.lean_angle = lead.number("lean_rad", positive), c.lean_time = lead.number("lean_s", positive);
+}
+
+void read_behaviour(const Fields& controller, Controller& c) {
+    const Fields touch(controller.at("touch"), "controller.touch",
+                       {"approach_speed_mps", "approach_travel_m", "retract_speed_mps", "retract_travel_m",
+                        "touch_force_N", "low_force_N", "ramp_s", "probing_m", "attempts"});
+    c.approach_speed = touch.number("approach_speed_mps", positive);
+    c.approach_travel = touch.number("approach_travel_m", positive);
+    c.retract_speed = touch.number("retract_speed_mps", positive);
+    c.retract_travel = touch.number("retract_travel_m", positive);
+    c.touch_force = touch.number("touch_force_N", positive), c.low_force = touch.number("low_force_N", positive);
+    c.ramp = touch.number("ramp_s", positive), c.probing = touch.number("probing_m", not_negative);
+    c.attempts = touch.integer("attempts", 0, 2147483647);
+    const Fields tool(controller.at("tool"), "controller.tool",
+                      {"left_force_N", "left_torque_Nm", "taring_s", "gyration_m"});
+    c.left_force = tool.number("left_force_N", positive), c.left_torque = tool.number("left_torque_Nm", positive);
+    c.taring = tool.number("taring_s", not_negative), c.gyration = tool.number("gyration_m", not_negative);
+    const Fields watch(controller.at("watch"), "controller.watch",
+                       {"stale_s", "give_up_s", "following_s", "max_tilt_rad"});
+    c.stale = watch.number("stale_s", positive), c.give_up = watch.number("give_up_s", positive);
+    c.following = watch.number("following_s", positive);
+    c.max_tilt = watch.number("max_tilt_rad", {0.0, 1.5708, true});
+    if (!(c.max_tilt < 1.5708)) fail(CB_ERROR_VALUE, watch.path("max_tilt_rad"), "not below a right angle");
+}
+
+Controller read_new_controller(const Json& json) {
+    const Fields f(json, "controller",
+                   {"variant", "desired_force_N", "period_s", "servo_lag_s", "force", "angle", "lead", "touch",
+                    "tool", "watch"});
+    Controller c;
+    const std::string variant = f.text("variant");
+    c.aware = variant == "aware";
+    if (!c.aware && variant != "plain") fail(CB_ERROR_SCHEMA, f.path("variant"), "neither 'plain' nor 'aware'");
+    c.desired_force = f.number("desired_force_N", positive);
+    c.period = f.number("period_s", positive), c.servo_lag = f.number("servo_lag_s", not_negative);
+    read_gains(f, c);
+    read_behaviour(f, c);
+    return c;
+}
+
+void read_controller(const Json& json, std::int64_t version, Config& c) {
+    if (json.type == Json::Type::null) return;
+    c.controller = version == 1 ? read_old_controller(json) : read_new_controller(json);
 }
 
 void read_limits(const Json& json, Config& c) {
     const Fields f(json, "limits", {"max_force_N", "max_torque_Nm", "max_speed_mps", "max_turn_radps"});
     c.max_force = f.number("max_force_N", positive), c.max_torque = f.number("max_torque_Nm", positive);
-    for (const char* name : {"max_speed_mps", "max_turn_radps"})
-        if (!f.is_null(name)) f.number(name, positive);
+    if (!f.is_null("max_speed_mps")) c.max_speed = f.number("max_speed_mps", positive);
+    if (!f.is_null("max_turn_radps")) c.max_turn = f.number("max_turn_radps", positive);
+    if (c.controller && !(c.controller->desired_force < c.max_force))
+        fail(CB_ERROR_VALUE, "controller.desired_force_N", "not below limits.max_force_N");
 }
 
 // Returns whether it passed.
@@ -217,7 +294,7 @@ bool read_provenance(const Json& json, Config& c) {
 Config read_config(std::string_view text) {
     const Json root = parse_json(text);
     if (root.type != Json::Type::object) fail(CB_ERROR_JSON, "the file", "not an object");
-    read_kind(root);
+    const std::int64_t version = read_kind(root);
     const Fields f(root, "",
                    {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates",
                     "probe", "regions", "planes", "controller", "limits", "verification", "verified",
@@ -235,7 +312,7 @@ Config read_config(std::string_view text) {
     read_probe_part(f.at("probe"), c);
     read_regions(f.array("regions", 0, 1000), c);
     read_planes(f.at("planes"), c);
-    read_controller(f.at("controller"));
+    read_controller(f.at("controller"), version, c);
     read_limits(f.at("limits"), c);
     const bool passed = read_verification(f.at("verification"));
     const bool fresh = read_provenance(f.at("provenance"), c);

@@ -73,6 +73,7 @@ class Bench(QObject):
     changed = Signal()  # the session's state; in the GUI thread
     told = Signal(object)  # Message
     go_to = Signal(object)  # Step that a page wants to be shown
+    mended = Signal()  # the disk takes writes again: what is not kept yet can be
     _stirred = Signal()
 
     def __init__(self, desk: Desk, scene: Scene, parent: QObject | None = None) -> None:

@@ -43,5 +43,8 @@ class Page(QWidget):
     def tick(self) -> None:
         """Show the newest of what is live; called 30 times a second while the page is shown."""
 
+    def watch(self) -> None:
+        """See what goes on, and tell what somebody should know; called twice a second, shown or not."""
+
     def close_page(self) -> None:
         """End everything: the session is being closed."""

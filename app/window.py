@@ -18,6 +18,7 @@ from app.jobs import Jobs
 from app.opening import damage
 from app.settings import Settings
 from app.start import StartPage, dropped_folder
+from app.window_disk import DiskWatch
 from app.window_docks import Docks, geometry_text, restore_geometry
 from app.window_header import Header
 from app.window_live import LiveView
@@ -98,6 +99,7 @@ class MainWindow(QMainWindow):
         self._connect(faults)
         self._ending = self._ended = self._connected = False
         self._noted: set[str] = set()
+        self._disk: DiskWatch | None = None
         self._tick = QTimer(self, interval=_TICK_MS)
         self._tick.timeout.connect(self._show_live)
         self._slow = QTimer(self, interval=_SLOW_MS)
@@ -187,6 +189,7 @@ class MainWindow(QMainWindow):
         bench = self.bench = Bench(opened.desk, self.scene, self)
         self._watch(bench.jobs)
         bench.told.connect(self._told)
+        self._disk = DiskWatch(bench)
         bench.go_to.connect(self.show_step)
         self.undo.addStack(bench.undo)
         self.undo.setActiveStack(bench.undo)
@@ -275,7 +278,7 @@ class MainWindow(QMainWindow):
         self._session_closed(bench)
 
     def _session_closed(self, bench: Bench) -> None:
-        self.bench, self._ending = None, False
+        self.bench, self._disk, self._ending = None, None, False
         self.docks.set_charts(None)
         self.pages.forget()
         self.live.forget()
@@ -332,6 +335,9 @@ class MainWindow(QMainWindow):
         self.header.show_bench(bench)
         self.setWindowTitle(f"{bench.desk.folder.name} · contactbench")
         self._rates.setText(self.live.rates())
+        self.pages.watch()
+        if self._disk is not None:
+            self._disk.look()
         if self.live.connected != self._connected:
             self._connected = not self._connected
             self.pages.read_statuses()

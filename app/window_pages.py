@@ -118,6 +118,11 @@ class Pages(QObject):
             if not self._guarded(page, "tick"):  # not again 30 times a second, until it is shown anew
                 self._broken.add(self.step)
 
+    def watch(self) -> None:
+        """Have all pages see what goes on, also those that are not shown."""
+        for page in tuple(self._pages.values()):
+            self._guarded(page, "watch")
+
     @property
     def current(self) -> Page | None:
         """The page that is shown."""

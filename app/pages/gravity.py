@@ -118,6 +118,10 @@ class GravityPage(Page):
             self.panel.sentence.setText(self.run.check.sentence)
             self.panel.show_away(R_WS, self.run.check.proposal)
 
+    def watch(self) -> None:
+        """Hear of findings while another page is shown."""
+        self.run.poll()
+
     def close_page(self) -> None:
         """End everything."""
         self.run.close()

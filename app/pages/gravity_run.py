@@ -19,13 +19,14 @@ from pipeline.workbench.steps import Step
 from pipeline.workbench.tape import Tape
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from app.bench import Bench
     from pipeline.calibration import PoseSample
     from pipeline.calibration.verify import StillVerification
     from pipeline.workbench.gravity_results import Outcome
     from pipeline.workbench.gravity_settings import GravitySettings
+    from pipeline.workbench.gravity_solving import Finding
 
 
 _DIGITS = re.compile(r"\d+")
@@ -80,6 +81,7 @@ class GravityRun(QObject):
         self._read = (-1, 0)
         self._wanted: str | None = None  # to begin once there are devices; as in `start`
         self._said: tuple[str, ...] = ()
+        self._found: set[str] = set()  # of this run: told once
         self._closed = False
 
     # ---- what the session has ----------------------------------------------------------------------
@@ -116,6 +118,7 @@ class GravityRun(QObject):
         if self._closed:
             return
         self.outcome, self.checked, self._compared = outcome, None, ()
+        self._tell_found(() if outcome is None else outcome.findings)
         self._read = self._known()
         model = (
             None
@@ -286,13 +289,22 @@ class GravityRun(QObject):
         )
 
     def poll(self) -> None:
-        """See what came meanwhile; called at each tick."""
+        """See what came meanwhile; called at each tick, and twice a second while another page is shown."""
         if self._wanted is not None and not self.bench.live.opening:
             self.start(self._wanted)
         if self._tape is not None and self.phase in {Phase.CAPTURING, Phase.CHECKING}:
             self._tell_findings(self._tape.findings)
+        if self.work is not None:
+            self._tell_found(self.work.solved.findings)
         if self.phase is Phase.CHECKING and self.check is not None and self.check.found is not None:
             self._have_checked(self.check.found)
+
+    def _tell_found(self, found: Sequence[Finding]) -> None:
+        """Tell of poses and conventions that are wrong: once in a run, and not by how many poses there are."""
+        for finding in found:
+            if finding.key not in self._found:
+                self._found.add(finding.key)
+                self.bench.tell(Weight.WARNING, finding.sentence)
 
     def _tell_findings(self, said: tuple[str, ...]) -> None:
         before = {_DIGITS.sub("", each) for each in self._said}  # another rate is no other finding
@@ -361,7 +373,7 @@ class GravityRun(QObject):
             return
         self.phase = phase
         if phase is Phase.STARTING:
-            self.problem, self._said = "", ()
+            self.problem, self._said, self._found = "", (), set()
         self.bench.set_running(Step.GRAVITY, phase is not Phase.IDLE)
         self.changed.emit()
 

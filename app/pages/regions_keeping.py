@@ -36,6 +36,7 @@ class Keeper(QObject):
         self._kept_at = 0
         self._timer = QTimer(self, singleShot=True, interval=PAUSE)
         self._timer.timeout.connect(self.keep_now)
+        bench.mended.connect(self.changed)
 
     @property
     def dirty(self) -> bool:

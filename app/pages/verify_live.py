@@ -37,7 +37,7 @@ class LiveShow(QObject):
         reading = page.bench.live.reading()
         page.scene_view.show_reading(reading)
         page.scene_view.tick()
-        self._tell(page.work.findings)
+        self.watch()
         touches = page.work.touches
         if touches is None:
             page.toucher.tick(None, None)
@@ -48,6 +48,10 @@ class LiveShow(QObject):
         self._play(view)
         self._show(view)
         page.toucher.tick(touches, view)
+
+    def watch(self) -> None:
+        """Tell what is wrong with what goes on, whichever page is shown."""
+        self._tell(self._page.work.findings)
 
     def _tell(self, wrong: tuple[str, ...]) -> None:
         """Put into the message list what is wrong with devices or disk, and that all is well again."""

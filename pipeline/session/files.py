@@ -21,6 +21,7 @@ FOLDERS = ("raw", "meshes", "results")
 # A recording in the session's folder until it is closed and journaled; never deleted as long as it holds samples.
 UNFINISHED = "unfinished-"
 _CHUNK = 2**20
+_ROOM = 256 * 2**10  # bytes: some hundred records
 _LONGEST = 80  # of a name in the folder
 _SCRATCH = re.compile(r"\..+\.[0-9a-f]{16}\.tmp")
 _BINARY = getattr(os, "O_BINARY", 0)
@@ -80,6 +81,15 @@ def take_in(session: Path, folder: str, file: Path, name: str) -> FileRef:
         return store(session, folder, name, chunks_of(file))
     sync_folder(session / folder)
     return FileRef(path=place, sha256=digest.hexdigest(), size=size)
+
+
+def try_room(session: Path) -> None:
+    """Write as much as a session's actions need, and remove it again. OSError: the disk does not take it."""
+    scratch = scratch_beside(session / "room")
+    try:
+        _write(scratch, (bytes(_ROOM),))
+    finally:
+        scratch.unlink(missing_ok=True)
 
 
 def write_file(file: Path, chunks: Iterable[bytes]) -> int:

@@ -67,8 +67,8 @@ class JournalWriter:
     """
     Appends records. Whoever has one holds the session's lock.
 
-    A write that fails is taken back, and the writer refuses all that follows: after a failed fsync nobody knows
-    what the disk holds, and only reading it again tells.
+    A write that fails is taken back, and the writer refuses all that follows until `mend`: after a failed fsync
+    nobody knows what the disk holds, and only reading it again tells.
 
     Parameters
     ----------
@@ -81,7 +81,10 @@ class JournalWriter:
     def __init__(self, folder: Path, found: frames.Scan) -> None:
         self._file = folder / JOURNAL
         self._end, self._chain = found.end, found.chain
-        self._broken = False
+        self._broken = self._foreign = False
+        self._open()
+
+    def _open(self) -> None:
         try:
             self._descriptor = os.open(
                 self._file, os.O_RDWR | os.O_APPEND | _BINARY | getattr(os, "O_NOFOLLOW", 0)
@@ -98,6 +101,31 @@ class JournalWriter:
             self.close()
             raise SessionError(f"{self._file}: the torn record cannot be cut off ({error}).") from error
 
+    @property
+    def broken(self) -> bool:
+        """Whether a write has failed, and nothing was mended since."""
+        return self._broken
+
+    def mend(self) -> None:
+        """
+        Go on after a write that failed: read again what was acknowledged, and cut off what may lie behind it.
+
+        Raises
+        ------
+        SessionError
+            The journal is not what was acknowledged, or the disk still fails; all that follows stays refused.
+        """
+        if self._foreign:
+            raise self._changed()
+        data = read_journal(self._file.parent)
+        found = frames.scan(data[: self._end])
+        if found.end != self._end or found.chain != self._chain:
+            self._foreign = True
+            raise self._changed()
+        self.close()
+        self._open()
+        self._broken = False
+
     def append(self, payload: bytes) -> bytes:
         """
         Put a record on the disk; return its hash once it is there.
@@ -105,7 +133,7 @@ class JournalWriter:
         Raises
         ------
         SessionError
-            It is not there, or nobody knows: open the session again. What was acknowledged before is there.
+            It is not there, or nobody knows: see `mend`. What was acknowledged before is there.
         """
         if self._descriptor < 0 or self._broken:
             raise SessionError(f"{self._file}: closed, or a write has failed before: open the session again.")
@@ -123,8 +151,8 @@ class JournalWriter:
             if not isinstance(error, OSError):
                 raise
             raise SessionError(
-                f"{self._file}: the action is not recorded ({error}): free space or check the disk, then open the"
-                " session again; all that was recorded before is there."
+                f"{self._file}: the action is not recorded ({error}): free space or check the disk, then do it again;"
+                " all that was recorded before is there."
             ) from error
         self._chain = frames.chained(self._chain, payload)
         self._end += len(data)
@@ -138,11 +166,13 @@ class JournalWriter:
         except OSError:
             same = False
         if not same:
-            self._broken = True
-            raise SessionError(
-                f"{self._file}: somebody else has changed the journal: the action is not recorded; open the session"
-                " again."
-            )
+            self._broken = self._foreign = True
+            raise self._changed()
+
+    def _changed(self) -> SessionError:
+        return SessionError(
+            f"{self._file}: somebody else has changed the journal: the action is not recorded; open the session again."
+        )
 
     def _take_back(self) -> None:
         self._broken = True

@@ -31,6 +31,7 @@ from pipeline.session.files import (
     remove_scratch,
     store,
     take_in,
+    try_room,
     unfinished,
 )
 from pipeline.session.journal import JOURNAL, JournalWriter
@@ -328,8 +329,34 @@ class Session:
     def _store_all(self, folder: str, files: Mapping[str, Iterable[bytes]]) -> dict[str, FileRef]:
         return {name: self._store(folder, name, chunks) for name, chunks in files.items()}
 
+    @property
+    def refuses(self) -> bool:
+        """Whether a write has failed, and the disk was not looked at since; see `recover`."""
+        return self._writer is not None and self._writer.broken
+
+    def recover(self) -> None:
+        """
+        Go on after a write that failed, as on a full disk; an action does so by itself, but tries no room before.
+
+        Raises
+        ------
+        SessionError
+            The disk still takes nothing, or the journal is not what was acknowledged.
+        """
+        writer = self._needs_writer()
+        if writer.broken:
+            try:
+                try_room(self.folder)
+            except OSError as error:
+                raise SessionError(
+                    f"{self.folder}: the disk still takes nothing ({error}): free space or check the disk."
+                ) from error
+            writer.mend()
+
     def _append(self, action: Action, sensor: str | None = None) -> Record:
         writer = self._needs_writer()
+        if writer.broken:
+            writer.mend()
         made = entry(action, self._by, sensor)
         digest = writer.append(payload_of(made))
         record = Record(len(self._records) + 1, digest.hex(), made)

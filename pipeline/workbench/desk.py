@@ -25,11 +25,17 @@ class Desk:
     ----------
     session : Session
         Open for writing; the desk closes it.
+
+    Attributes
+    ----------
+    refuses : bool
+        Whether the last write failed, as on a full disk; see `Session.recover`.
     """
 
     def __init__(self, session: Session) -> None:
         self._session = session
         self._state, self._stale = session.state, session.stale()
+        self.refuses = False
         self._listeners: list[Callable[[], None]] = []
         self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="desk")
 
@@ -74,6 +80,7 @@ class Desk:
         try:
             return action(self._session)
         finally:
+            self.refuses = self._session.refuses
             state = self._session.state
             if state.count != before:
                 self._state, self._stale = state, self._session.stale()

@@ -237,6 +237,12 @@ class GravityWork:
 
     # ---- how it stands -------------------------------------------------------------------------
 
+    @property
+    def solved(self) -> Solved:
+        """What the taken poses amount to, as far as it is computed."""
+        with self._lock:
+            return self._solved
+
     def view(self, now: float | None = None) -> GravityView:
         """Return how it stands; `now` is the present time on the samples' clock, s, to see that none come."""
         with self._lock:

@@ -90,16 +90,53 @@ def test_each_call_may_fail(tmp_path, code, forever):
         assert check(folder).sound
 
 
-def test_after_a_failed_write_nothing_more_is_accepted_until_it_is_read_again(tmp_path, monkeypatch):
+def test_after_a_failed_write_the_journal_is_read_again_before_anything_is_accepted(tmp_path, monkeypatch):
+    with Session.create(tmp_path / "s") as session:
+        session.note("before")
+        with monkeypatch.context() as patch:
+            Failing(patch, 1, errno.EIO, forever=True)
+            for _ in range(2):
+                with pytest.raises(SessionError, match=r"not recorded|cannot be"):
+                    session.note("lost")
+            assert session.refuses
+            with pytest.raises(SessionError, match="still takes nothing"):
+                session.recover()
+            assert session.refuses
+        session.recover()
+        assert not session.refuses
+        session.note("and on")
+    with Session.open(tmp_path / "s") as session:
+        assert [note.text for note in session.state.notes] == ["before", "and on"]
+    assert check(tmp_path / "s").sound
+    assert not list((tmp_path / "s").glob(".room*"))
+
+
+def test_an_action_goes_on_by_itself_once_the_disk_does(tmp_path, monkeypatch):
     with Session.create(tmp_path / "s") as session:
         with monkeypatch.context() as patch:
-            Failing(patch, 1, errno.EIO, forever=False)
-            with pytest.raises(SessionError, match="the action is not recorded"):
+            Failing(patch, 1, errno.ENOSPC, forever=False)
+            with pytest.raises(SessionError, match="do it again"):
                 session.note("lost")
-        with pytest.raises(SessionError, match="open the session again"):
-            session.note("refused")
+        session.note("again")
     with Session.open(tmp_path / "s") as session:
-        assert len(session.records) == 1
+        assert [note.text for note in session.state.notes] == ["again"]
+
+
+def test_a_journal_that_is_not_what_was_acknowledged_is_not_gone_on_with(tmp_path, monkeypatch):
+    with Session.create(tmp_path / "s") as session:
+        session.note("mine")
+        with monkeypatch.context() as patch:
+            Failing(patch, 1, errno.EIO, forever=False)
+            with pytest.raises(SessionError):
+                session.note("lost")
+        journal = tmp_path / "s" / "journal"
+        data = bytearray(journal.read_bytes())
+        data[len(data) // 2] ^= 1
+        journal.write_bytes(data)
+        for _ in range(2):
+            with pytest.raises(SessionError, match="open the session again"):
+                session.recover()
+        assert journal.read_bytes() == data
 
 
 def test_files_are_there_before_the_record_that_names_them(tmp_path, monkeypatch):

@@ -1,0 +1,67 @@
+"""A session whose last write failed: the window says so, looks at the disk, and goes on by itself when that does."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from app.bench import Weight
+from app.errors import in_words
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from app.bench import Bench
+
+_EVERY_S = 2.0
+
+
+class DiskWatch(QObject):
+    """Looks after the disk of one session; belongs to its bench."""
+
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self._bench = bench
+        self._told = self._hopeless = False
+        self._looked_at = 0.0
+        self._looking: Future[None] | None = None
+
+    def look(self) -> None:
+        """See how it stands; called twice a second, never waits."""
+        if self._looking is not None:
+            if self._looking.done():
+                looked, self._looking = self._looking, None
+                self._looked(looked.exception())
+            return
+        if self._hopeless or not self._bench.desk.refuses:
+            self._told = False
+            return
+        if not self._told:
+            self._told = True
+            self._bench.tell(
+                Weight.WARNING,
+                self.tr(
+                    "Nothing is written into this session at the moment, because the last write failed. Free some"
+                    " space, or check the disk: the session goes on by itself then, and says so."
+                ),
+            )
+        if time.monotonic() >= self._looked_at + _EVERY_S:
+            self._looked_at = time.monotonic()
+            self._looking = self._bench.desk.do(lambda session: session.recover())
+
+    def _looked(self, error: BaseException | None) -> None:
+        if error is None:
+            self._told = False
+            self._bench.tell(
+                Weight.GOOD,
+                self.tr(
+                    "The disk can be written again, and the session goes on. Do again what was refused;"
+                    " what was recorded before is there."
+                ),
+            )
+            self._bench.mended.emit()
+        elif not isinstance(error.__cause__, OSError):  # it is not the disk: waiting mends nothing
+            self._hopeless = True
+            self._bench.tell(Weight.ERROR, *in_words(error)[:2])

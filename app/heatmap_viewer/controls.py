@@ -10,12 +10,10 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QFormLayout,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
-    QScrollArea,
     QSlider,
     QVBoxLayout,
     QWidget,
@@ -24,6 +22,7 @@ from PySide6.QtWidgets import (
 from widgets.icons import icon
 from widgets.progress import show_value
 from widgets.range_slider import RangeSlider
+from widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     import numpy as np
@@ -181,14 +180,9 @@ class Controls(QWidget):
         column.addLayout(work)
         inside = QWidget(self)
         inside.setLayout(column)
-        area = QScrollArea(self)
-        area.setWidget(inside)
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
-        outer.addWidget(area)
+        outer.addWidget(Scrolled(inside))
         self.setFixedWidth(348)
 
     def _buttons(self, wanted: tuple[tuple[str, str, str, object], ...], saving: bool = False) -> QHBoxLayout:

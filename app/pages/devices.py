@@ -6,16 +6,13 @@ import time
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QFormLayout,
-    QFrame,
     QGroupBox,
     QHBoxLayout,
     QLabel,
     QLineEdit,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -30,6 +27,7 @@ from pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from pipeline.workbench.live_trial import trial_of
 from pipeline.workbench.steps import Step
 from widgets.device_trial import DeviceChannels, DeviceTrial
+from widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from app.bench import Bench
@@ -110,14 +108,9 @@ class DevicesPage(Page):
         for widget in (title, self._status, self.trial, self.sensor, self.poses, group, measured):
             box.addWidget(widget)
         box.addStretch(1)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        area.setWidget(inside)
         outer = QVBoxLayout(self)
         outer.setContentsMargins(8, 8, 8, 8)
-        outer.addWidget(area, 1)
+        outer.addWidget(Scrolled(inside), 1)
         outer.addWidget(self._note)
         buttons = QHBoxLayout()
         buttons.addWidget(self.try_button)

@@ -10,12 +10,10 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import (
     QCheckBox,
     QFileDialog,
-    QFrame,
     QGroupBox,
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QSizePolicy,
     QVBoxLayout,
     QWidget,
@@ -32,6 +30,7 @@ from pipeline.workbench.export_checklist import newest
 from pipeline.workbench.steps import Step
 from widgets.checklist import Checklist, ShownCheck
 from widgets.icons import Sign, icon
+from widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from app.bench import Bench
@@ -67,16 +66,11 @@ class ExportPage(Page):
     def _build(self) -> None:
         outer = QVBoxLayout(self)
         outer.setContentsMargins(0, 0, 0, 0)
-        area = QScrollArea()
-        area.setWidgetResizable(True)
-        area.setFrameShape(QFrame.Shape.NoFrame)
-        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(10, 8, 10, 8)
         column.setSpacing(8)
-        area.setWidget(inside)
-        outer.addWidget(area)
+        outer.addWidget(Scrolled(inside))
         title = QLabel(self.tr("Export"))
         title.setProperty("role", "title")
         column.addWidget(title)
@@ -214,13 +208,23 @@ class ExportPage(Page):
         )
         preview = view.preview
         if preview is None:
-            self._stand("failed", "bad", view.problem)
-            self.figures.setText(view.problem)
+            problem = self._problem(view)
+            self._stand("failed", "bad", problem)
+            self.figures.setText(problem)
             self.files.setText("")
             self.changes.setText("")
         else:
             self._show_preview(preview)
         self._allow()
+
+    def _problem(self, view: ExportView) -> str:
+        """Return why there is no bundle; what is only missing, by the name of its field."""
+        if view.lacks != "rate":
+            return view.problem
+        return self.tr(
+            "How many readings a second the robot will get is not known: a verification would have told. Verify in"
+            " step 5, or fill in Readings under Settings, as the sensor is set."
+        )
 
     def _show_preview(self, preview: Preview) -> None:
         self.figures.setText("\n".join(f"{what}: {value}" for what, value in preview.figures))

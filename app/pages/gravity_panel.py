@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QScrollArea,
     QSpinBox,
     QVBoxLayout,
     QWidget,
@@ -24,6 +23,7 @@ from widgets.capture_state import CaptureState
 from widgets.coverage import Coverage
 from widgets.icons import icon
 from widgets.residual_table import ResidualTable
+from widgets.scrolled import Scrolled
 from widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 
 if TYPE_CHECKING:
@@ -157,14 +157,11 @@ class Findings(QWidget):
         return card
 
 
-class GravityPanel(QScrollArea):
+class GravityPanel(Scrolled):
     """All that the page shows, above its buttons."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        super().__init__(parent=parent)
         inside = QWidget()
         self._box = QVBoxLayout(inside)
         self._box.setContentsMargins(10, 8, 10, 8)

@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QFileDialog, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QFileDialog, QLabel, QVBoxLayout, QWidget
 
 from app.page import Page
 from app.pages.probe_housing import bench_address
@@ -15,6 +15,7 @@ from app.pages.probe_placing import Placing
 from app.pages.probe_sections import FacetsSection, MeshSection, NextBar, PlaceSection, SurfaceSection
 from app.pages.probe_stages import TARGETS, ProbeStages, key_of
 from pipeline.workbench.steps import Step
+from widgets.scrolled import Scrolled
 from widgets.theme import accent
 
 if TYPE_CHECKING:
@@ -46,9 +47,6 @@ class ProbePage(Page):
         self._show()
 
     def _lay_out(self) -> None:
-        self.area = QScrollArea()
-        self.area.setWidgetResizable(True)
-        self.area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         inside = QWidget()
         column = QVBoxLayout(inside)
         column.setContentsMargins(10, 8, 10, 8)
@@ -58,7 +56,7 @@ class ProbePage(Page):
         for section in (self.mesh_section, self.surface, self.place, self.facets):
             column.addWidget(section)
         column.addStretch()
-        self.area.setWidget(inside)
+        self.area = Scrolled(inside)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.area, 1)

@@ -7,12 +7,10 @@ from enum import Enum, auto
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
     QLabel,
     QProgressBar,
     QPushButton,
-    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -25,6 +23,7 @@ from pipeline.workbench.steps import StepState
 from widgets.icons import Sign, icon, state_icon
 from widgets.progress import show_value
 from widgets.region_list import RegionListWidget
+from widgets.scrolled import Scrolled
 
 
 class Mode(Enum):
@@ -72,14 +71,11 @@ class View:
     unkept: str = ""
 
 
-class RegionsPanel(QScrollArea):
+class RegionsPanel(Scrolled):
     """The controls of the page; `show_view` is the one place that decides what is seen."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        super().__init__(parent=parent)
         inside = QWidget()
         layout = QVBoxLayout(inside)
         layout.setContentsMargins(10, 10, 10, 10)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QTabWidget, QVBoxLayout, QWidget
 
 from app.bench import Weight
 from app.page import Page
 from app.pages.verify_editing import MarkerEditing
+from app.pages.verify_leaving import Leaving
 from app.pages.verify_live import LiveShow
 from app.pages.verify_markers import MarkersPanel
 from app.pages.verify_result import ResultPanel
@@ -25,6 +25,7 @@ from pipeline.workbench.steps import Step, StepState
 from pipeline.workbench.verify import Tool, VerifyWork, tool_key, tool_of, why_locked
 from pipeline.workbench.verify_outcome import Outcome, outcome_of
 from pipeline.workbench.verify_settings import checked_parameters, parameters_of, plain_parameters
+from widgets.scrolled import Scrolled
 from widgets.sounds import Sounds
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class VerifyPage(Page):
         self.toucher = Toucher(bench, self)
         self.scene_view = TouchScene(bench)
         self._live = LiveShow(self)
-        self._editing = MarkerEditing(self)
+        self._editing, self._leaving = MarkerEditing(self), Leaving(self)
         self.window_N, self.wanted = (8.0, 10.0), 1
         self._entered = self._busy = self._closed = False
         self._read_at = -1
@@ -94,7 +95,7 @@ class VerifyPage(Page):
             (self.panel_touch, self.tr("Touch")),
             (self.panel_result, self.tr("Result")),
         ):
-            self.tabs.addTab(_scrolled(panel), name)
+            self.tabs.addTab(Scrolled(panel), name)
         column.addWidget(self.tabs, 1)
         column.addStretch(0)
 
@@ -104,7 +105,7 @@ class VerifyPage(Page):
         touch.start_wanted.connect(self.start)
         touch.finish_wanted.connect(self.finish)
         touch.discard_wanted.connect(self.discard)
-        touch.skip_wanted.connect(self._skip)
+        touch.skip_wanted.connect(self._leaving.ask)
         touch.repeat_wanted.connect(self._repeat)
         touch.touch_wanted.connect(self._touch_one)
         touch.touch_all_toggled.connect(lambda on: self.toucher.begin() if on else self.toucher.end())
@@ -148,6 +149,10 @@ class VerifyPage(Page):
     def tick(self) -> None:
         """Show the newest of what is live."""
         self._live.tick()
+
+    def watch(self) -> None:
+        """Hear of devices and disk while another page is shown."""
+        self._live.watch()
 
     def close_page(self) -> None:
         """End it; what was recorded is kept."""
@@ -324,6 +329,7 @@ class VerifyPage(Page):
             self.bench.set_running(Step.VERIFY, False)
             if isinstance(outcome, Outcome):
                 self._show_outcome(outcome)
+                self.panel_touch.say("")  # what was wrong while it was recorded: the verdict says it better
                 self.tabs.setCurrentIndex(_RESULT)
                 self.sounds.play("done")
                 good = outcome.passed
@@ -344,15 +350,6 @@ class VerifyPage(Page):
                 self.tr("Ending the recording"),
                 lambda *_: self.work.discard(),
                 lambda _: self.bench.set_running(Step.VERIFY, False),
-            )
-
-    def _skip(self) -> None:
-        touches = self.work.touches
-        name = None if touches is None else touches.skip()
-        if name is not None:
-            self.bench.tell(
-                Weight.WARNING,
-                self.tr("{name} is left out: the verdict will say that it is missing.").format(name=name),
             )
 
     def _repeat(self) -> None:
@@ -383,12 +380,3 @@ class VerifyPage(Page):
         self.panel_markers.lock(going_on or self._busy or self.tool is None)
         self.panel_how.setEnabled(not going_on and not self._busy)
         self._live.show_idle()
-
-
-def _scrolled(panel: QWidget) -> QScrollArea:
-    area = QScrollArea()
-    area.setWidgetResizable(True)
-    area.setFrameShape(QFrame.Shape.NoFrame)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    area.setWidget(panel)
-    return area

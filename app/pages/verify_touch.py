@@ -89,7 +89,7 @@ class TouchPanel(QWidget):
         )
         self.skip = self._button(self.tr("Leave it out"), "remove", self.skip_wanted)
         self.skip.setToolTip(
-            self.tr("Go on with the marker after the next one; the verdict says that it is missing")
+            self.tr("Go on with the marker after the next one; you say why, and the report repeats it")
         )
         grid.addWidget(self.repeat, 0, 0)
         grid.addWidget(self.skip, 0, 1)

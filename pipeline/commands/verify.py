@@ -74,6 +74,13 @@ def verify(
         str | None,
         typer.Option(metavar="NAME,...", help="Markers in the order they must be touched in [any]."),
     ] = None,
+    leave_out: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=WHY",
+            help="A marker that need not be touched, and why; may be repeated. The verdict says so.",
+        ),
+    ] = None,
     limit_mean: Annotated[float, typer.Option(help="Largest mean error, mm.")] = 1.0,
     limit_max: Annotated[float, typer.Option(help="Largest error, mm.")] = 2.0,
     limit_time: Annotated[float, typer.Option(help="Largest p99 of the time of a solve, ms.")] = 1.0,
@@ -101,6 +108,7 @@ def verify(
     convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
     from pipeline.verification.result import VerificationParameters, verify_files
 
+    left_out = dict(_left_out(text) for text in leave_out or ())
     windows = [numbers(text, 2, "--force") for text in force or ["8,10"]]
     angles = None if mount is None else numbers(mount, 3, "--mount")
     given = VerificationParameters.checked(
@@ -111,7 +119,8 @@ def verify(
             "release_force": release_force,
             "samples": samples,
             "repeats": repeats,
-            "order": () if order is None else [name.strip() for name in order.split(",")],
+            "order": () if order is None else _in_order(order, left_out),
+            "left_out": left_out,
             "mean_limit_mm": limit_mean,
             "max_limit_mm": limit_max,
             "p99_limit_s": limit_time / 1e3,
@@ -190,6 +199,18 @@ def snap(
 
 
 # ---- helpers -----------------------------------------------------------------------------------
+
+
+def _left_out(text: str) -> tuple[str, str]:
+    name, _, why = (part.strip() for part in text.partition("="))
+    if not name or not why:
+        raise typer.BadParameter(f"--leave-out {text}: give the marker and why: M3='nothing reaches it'.")
+    return name, why
+
+
+def _in_order(order: str, left_out: dict[str, str]) -> list[str]:
+    names = [name.strip() for name in order.split(",")]
+    return [name for name in names if name not in left_out]
 
 
 def _write(out: Path, data: bytes) -> None:

@@ -27,6 +27,7 @@ _SETTINGS = {
     "samples": "samples of a touch",
     "repeats": "touches wanted of each marker",
     "order": "order of the markers",
+    "left_out": "markers left out on purpose",
     "touch_N": "touched above, N",
     "release_N": "released below, N",
     "settle_s": "time to settle, s",

@@ -31,6 +31,7 @@ _TOUCH_N, _RELEASE_N = 2.0, 1.0
 
 _Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
+_Words = Annotated[str, Field(min_length=1, max_length=200)]
 _Three = tuple[_Number, _Number, _Number]
 
 
@@ -40,7 +41,7 @@ class VerificationParameters(BaseModel):
 
     ``times`` are figures of solves measured before: (count, median, p99). They are given, not measured here, because
     the same parameters must give the same bytes. Forces at which a touch begins and ends: 2 and 1 N if left out, less
-    for windows below.
+    for windows below. ``left_out`` has markers that need not be touched, each with why.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -65,6 +66,7 @@ class VerificationParameters(BaseModel):
     resamples: int = 2000
     seed: int = 0
     times: tuple[int, _Positive, _Positive] | None = None
+    left_out: Annotated[dict[_Words, _Words], Field(max_length=10_000)] = {}
 
     @classmethod
     def checked(cls, values: Mapping[str, Any]) -> VerificationParameters:
@@ -87,7 +89,14 @@ class VerificationParameters(BaseModel):
         )
         limits = Limits(self.mean_limit_mm / 1e3, self.max_limit_mm / 1e3, self.p99_limit_s)
         return VerifySettings(
-            protocol, limits, self.noise_force, self.noise_torque, self.resamples, self.seed, self.mount
+            protocol,
+            limits,
+            self.noise_force,
+            self.noise_torque,
+            self.resamples,
+            self.seed,
+            self.mount,
+            dict(sorted(self.left_out.items())),
         )
 
     def convention(self) -> Convention | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,13 +12,14 @@ from pipeline.verification.figures import Unresolved, Verdict
 from pipeline.verification.press import UNRESOLVED, Why
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from pipeline.verification.figures import Interval, Limits, Summary, Times, TouchFigure
     from pipeline.verification.markers import MarkerSet
 
 MOST_UNRESOLVED = 0.05
 FEWEST_MARKERS = 6
+LEFT_OUT = "left out on purpose"
 _ROOM = 0.002  # m between what two neighbours may both be off
 _LISTED = 10
 
@@ -39,6 +40,8 @@ class Case:
     faults : tuple of str
         What is wrong with the inputs, in sentences.
     rejected : dict of str to int
+    left_out : mapping of str to str
+        Marker -> why nobody need touch it.
     """
 
     overall: Summary | None
@@ -48,6 +51,7 @@ class Case:
     limits: Limits
     faults: tuple[str, ...]
     rejected: dict[str, int]
+    left_out: Mapping[str, str] = field(default_factory=dict)
 
     def judged(self, times: Times | None) -> Verdict:
         """Return the verdict; times that were not measured are a note."""
@@ -57,6 +61,9 @@ class Case:
             reasons.append(f"too few accepted touches of {', '.join(self.missing[:_LISTED])}{more}")
         reasons += self.faults
         notes = [] if times is not None else ["time: not measured"]
+        if self.left_out:
+            said = ", ".join(f"{name} ({why})" for name, why in self.left_out.items())
+            notes.append(f"{LEFT_OUT}: {said}: nothing is known of contacts there")
         if self.markers < FEWEST_MARKERS:
             many = "1 marker was" if self.markers == 1 else f"{self.markers} markers were"
             notes.append(

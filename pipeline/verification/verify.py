@@ -22,6 +22,8 @@ from pipeline.verification.statistics import FEWEST, intervals, summarise, summa
 from pipeline.verification.verdict import Case, crowded, misses, missing, unresolved
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from numpy.typing import NDArray
 
     from pipeline.calibration import GravityModel
@@ -50,6 +52,8 @@ class VerifySettings:
         Of the bootstrap.
     mount : (3,), optional
         Angles that the orientations of a flange were turned by, degrees about fixed x, y, z: only kept with the result.
+    left_out : mapping of str to str
+        Marker -> why it need not be touched, such as that nothing reaches it. Touches of it count nevertheless.
     """
 
     protocol: ProtocolSettings = field(default_factory=ProtocolSettings)
@@ -59,6 +63,7 @@ class VerifySettings:
     resamples: int = 2000
     seed: int = 0
     mount: tuple[float, float, float] | None = None
+    left_out: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if (self.noise_force is None) != (self.noise_torque is None):
@@ -68,6 +73,8 @@ class VerifySettings:
             raise InputError(f"limits {limits}: give positive numbers.")
         if not 100 <= self.resamples <= 1_000_000 or self.seed < 0:
             raise InputError("bootstrap: give 100 to 1,000,000 resamples and a seed of at least 0.")
+        if unexplained := [name for name, why in self.left_out.items() if not why.strip()]:
+            raise InputError(f"left out: say why {', '.join(unexplained)} need not be touched.")
 
 
 def find_touches(
@@ -180,6 +187,9 @@ def judge(
     rate: float | None = None,
 ) -> Verification:
     """Return the verification of touches; `evidence` has a row for each accepted one of `figures`; `rate` is in Hz."""
+    names = placing.markers.names
+    if strangers := sorted(set(settings.left_out) - set(names)):
+        raise InputError(f"left out: there are no markers {', '.join(strangers)}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
     errors, enough = evidence.errors, len(accepted) >= FEWEST
     overall = summarise("all", errors) if accepted else None
@@ -191,11 +201,17 @@ def judge(
     case = Case(
         overall,
         unresolved(figures, settings.limits),
-        missing(figures, placing.markers.names, protocol.windows, protocol.repeats),
+        missing(
+            figures,
+            [name for name in names if name not in settings.left_out],
+            protocol.windows,
+            protocol.repeats,
+        ),
         len({figure.marker for figure in accepted}),
         settings.limits,
         (*faults, said) if said and hopeless else faults,
         dict(sorted(rejected.items())),
+        settings.left_out,
     )
     windows = [_span(window) for window in settings.protocol.windows]
     repeats = sorted({figure.repeat or 0 for figure in accepted})
@@ -357,6 +373,8 @@ def _plain(settings: VerifySettings, placing: Placing, rate: float | None) -> di
     """Return the settings without the limits, which stand beside them, and with what was found or is fixed."""
     plain = asdict(settings)
     del plain["limits"]
+    if not plain["left_out"]:  # as before there was such a thing: the same inputs give the same bytes
+        del plain["left_out"]
     noise = np.sqrt(np.diag(placing.noise.covariance)).tolist()
     gates = {name: _finite(value) for name, value in asdict(placing.solver.gates).items()}
     return {**plain, "noise": noise, "rate_Hz": rate, "filters": [], "gates": gates}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pipeline.config.runtime import ConfigError, RuntimeConfig
+from pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
 from pipeline.config.runtime.bench import export_from_session
 from pipeline.config.runtime.differ import differences
 from pipeline.config.runtime.options import ExportOptions
@@ -64,11 +64,14 @@ class ExportView:
     preview : Preview or None
     problem : str
         Why there is no preview; empty where there is one.
+    lacks : str
+        The option that somebody must give before there is one; empty: none.
     """
 
     items: tuple[CheckItem, ...]
     preview: Preview | None
     problem: str = ""
+    lacks: str = ""
 
 
 @dataclass(frozen=True)
@@ -99,6 +102,8 @@ def survey(session: Session) -> ExportView:
         refuse_without(session.state)
         config = built(session, unverified=True)
         return ExportView(items, _preview(session, config))
+    except RateUnknownError as error:
+        return ExportView(items, None, str(error), lacks="rate")
     except InputError as error:
         return ExportView(items, None, str(error))
 

@@ -123,6 +123,7 @@ class VerifyWork:
         self._tape: Tape | None = None
         self._name = ""
         self._order: tuple[str, ...] = ()
+        self._left_out: dict[str, str] = {}
         self._inputs: dict[str, str] = {}
         self._end: Callable[[], None] | None = None
         self._busy = threading.Lock()
@@ -210,7 +211,7 @@ class VerifyWork:
         if touches is None:
             return None
         touches.end()
-        self._order = touches.order
+        self._order, self._left_out = touches.order, touches.left_out
         return touches.view()
 
     def finish(self) -> Outcome | None:
@@ -228,10 +229,13 @@ class VerifyWork:
             if tape is None or seen is None:
                 return None
             tape.keep().result()
-            name, order, inputs = self._name, list(self._order), dict(self._inputs)
+            name, inputs = self._name, dict(self._inputs)
+            given: dict[str, Any] = {"order": list(self._order)} if self._order else {}
+            if self._left_out or parameters_of(self._desk.state).get("left_out"):
+                given["left_out"] = self._left_out
 
             def judge(session: Session) -> Outcome | None:
-                judge_recording(session, name, {"order": order} if order else None, inputs)
+                judge_recording(session, name, given, inputs)
                 return outcome_of(session.folder, session.state, session.stale(), seen)
 
             return self._desk.do(judge).result()

@@ -81,11 +81,12 @@ class Turns:
         return cls([name for _ in range(repeats * windows) for name in order])
 
     def skip(self, accepted: int) -> bool:
-        """Leave out what would come next; whether there is something left."""
-        if accepted >= len(self.names) or len(self.names) <= 1:
+        """Leave out the marker that would come next, this time and all others; whether there was one."""
+        if accepted >= len(self.names):
             return False
-        del self.names[accepted]
-        return accepted < len(self.names)
+        name = self.names[accepted]
+        self.names[accepted:] = [each for each in self.names[accepted:] if each != name]
+        return True
 
     def repeat(self, accepted: int, name: str) -> None:
         """Have a marker touched next."""

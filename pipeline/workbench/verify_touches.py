@@ -177,7 +177,7 @@ class LiveTouches:
         self._forces: deque[float] = deque(maxlen=_SMOOTH)
         self._poses: deque[tuple[float, bool]] = deque()
         self._first: list[float] = []
-        self._skipped: set[str] = set()
+        self._skipped: dict[str, str] = dict(settings.left_out)
         self._again: list[str] = []
         self._extra: Counter[str] = Counter()
         self._last: Touch | None = None
@@ -222,12 +222,21 @@ class LiveTouches:
 
     # ---- wishes ------------------------------------------------------------------------------
 
-    def skip(self) -> str | None:
-        """Leave out the next marker; returns its name. A verification says of it that it is missing."""
+    def skip(self, why: str = "", name: str | None = None) -> str | None:
+        """
+        Leave out the next marker; returns its name, None: nothing is left out.
+
+        Parameters
+        ----------
+        why : str
+            Kept with the verification. Without it, that says of the marker that it is missing.
+        name : str, optional
+            Only if it is this one.
+        """
         with self._lock:
             rows = self._rows()
             place = self._next(rows)
-            if place is None:
+            if place is None or name not in (None, self.markers[place].name):
                 return None
             name = self.markers[place].name
             if self._turns is not None:
@@ -236,13 +245,13 @@ class LiveTouches:
                 self._reorder()
             if name in self._again:
                 self._again.remove(name)
-            self._skipped.add(name)
+            self._skipped[name] = why.strip()
             return name
 
     def repeat(self, name: str) -> None:
         """Have a marker touched next, once more; all its touches count."""
         with self._lock:
-            self._skipped.discard(name)
+            self._skipped.pop(name, None)
             if name in self._again:
                 return
             if self._turns is not None:
@@ -259,6 +268,12 @@ class LiveTouches:
     def order(self) -> tuple[str, ...]:
         """In which markers were asked for, touch by touch; empty: any order. What the same recording is judged by."""
         return tuple(self._turns.names) if self._turns is not None else ()
+
+    @property
+    def left_out(self) -> dict[str, str]:
+        """Markers that were left out for a reason, and the reasons."""
+        with self._lock:
+            return {name: why for name, why in self._skipped.items() if why}
 
     # ---- what is seen ------------------------------------------------------------------------
 

@@ -97,6 +97,8 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
     window.bench.go_to.connect(went.append)
     page.checklist.wanted.emit(Step.VERIFY)
     assert went == [Step.VERIFY]
+    assert "fill in Readings" in page.standing.text()  # in the window's words, not the command line's
+    assert "--" not in page.standing.text()
     page.settings.rate.setValue(200.0)
     window.wait(lambda: "Not verified" in page.standing.text())
     assert not page.zip.isEnabled()

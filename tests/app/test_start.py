@@ -159,7 +159,8 @@ def test_dropped_folders_are_opened(qtbot, window, tmp_path):
         Qt.MouseButton.LeftButton,
         Qt.KeyboardModifier.NoModifier,
     )
-    shown(qtbot, window, lambda: window.start.dropEvent(event))
+    assert not window.start.acceptDrops(), "what is dropped on it goes to the window"
+    shown(qtbot, window, lambda: window.dropEvent(event))
     assert window.bench.desk.folder == tmp_path / "s"
 
 

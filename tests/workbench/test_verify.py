@@ -120,6 +120,20 @@ def test_a_marker_that_is_left_out_is_missing(bench):
     assert "M1" in " ".join(outcome.reasons)
 
 
+def test_a_marker_that_is_left_out_for_a_reason_is_not_missing(bench):
+    work = bench.start()
+    assert work.touches.skip("nothing reaches it") == "M1"
+    touch_all(bench.live, work)
+    outcome = work.finish()
+    assert "M1" not in " ".join(outcome.reasons)
+    assert any("M1 (nothing reaches it)" in note for note in outcome.notes)
+    state = bench.desk.state
+    made = state.current_results["verification", "verification.json"]
+    assert made.action.parameters["left_out"] == {"M1": "nothing reaches it"}
+    report = state.current_results["report", "report.html"].file.path
+    assert "nothing reaches it" in (bench.desk.folder / report).read_text()
+
+
 def test_a_verification_that_is_thrown_away_leaves_a_note_only(bench):
     work = bench.start()
     press(bench.live, work.touches.markers[0].point_S)

@@ -112,8 +112,26 @@ def test_in_a_given_order_a_touch_is_of_the_next_marker():
 def test_turns_go_round_once_per_repeat():
     turns = Turns.of(("a", "b"), 2, 1)
     assert turns.names == ["a", "b", "a", "b"]
-    assert turns.skip(3) is False
+    assert turns.skip(3)
     assert turns.names == ["a", "b", "a"]
+    assert turns.skip(3) is False
+    assert turns.skip(0)  # this time and all others
+    assert turns.names == ["b"]
+    assert turns.skip(0)
+    assert turns.skip(0) is False
+
+
+def test_the_last_of_an_order_can_be_left_out_too():
+    touches = following(order=("left", "middle", "right"))
+    play(touches, Push(0), Push(1))
+    assert touches.skip("nothing reaches it", "left") is None, "it is not the next one"
+    assert touches.skip("nothing reaches it", "right") == "right"
+    assert touches.view().next_one is None
+    assert touches.view().rows[2].state == "skipped"
+    assert touches.left_out == {"right": "nothing reaches it"}
+    assert touches.order == ("left", "middle")
+    touches.repeat("right")
+    assert touches.left_out == {}
 
 
 def test_a_press_that_goes_on_ends_with_the_stream():

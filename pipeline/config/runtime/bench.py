@@ -18,7 +18,7 @@ import numpy as np
 
 from pipeline.calibration.files.calibration_file import load_record
 from pipeline.config.runtime.build import Filters, RobotNames, build_config
-from pipeline.config.runtime.errors import ConfigError
+from pipeline.config.runtime.errors import ConfigError, RateUnknownError
 from pipeline.config.runtime.model import LimitsPart, SensorPart, SourcePart
 from pipeline.config.runtime.mounts import (
     UNTURNED,
@@ -161,7 +161,9 @@ def _built(
         rate = rate or verified.rate
         stale += rate_reasons(verified.rate, rate, settings.filters)
     if rate is None:
-        raise ConfigError("the readings a second are unknown: give them with --rate, as the sensor is set.")
+        raise RateUnknownError(
+            "the readings a second are unknown: give them with --rate, as the sensor is set."
+        )
     stale += mount_reasons(mount, mount_of(record) or mounts.calibrated, mounts.verified)
     return build_config(
         record.calibration,

@@ -9,6 +9,10 @@ class ConfigError(InputError):
     """A runtime config that cannot be made, written or trusted: names the file, the field, and the remedy."""
 
 
+class RateUnknownError(ConfigError):
+    """Nobody has said how many readings a second the sensor is set to."""
+
+
 class UnverifiedError(ConfigError):
     """
     An export that is refused because nobody has shown that its contacts are right.

@@ -12,6 +12,7 @@ from pipeline.config.runtime.canonical import fault_of
 from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.model import VerificationPart
 from pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
+from pipeline.verification.verdict import LEFT_OUT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -132,6 +133,7 @@ def _unsaid(content: Mapping[str, Any]) -> str:
 def _summary(content: Mapping[str, Any]) -> dict[str, Any]:
     overall, times, verdict = content["overall"], content["times"], content["verdict"]
     words = [*verdict["reasons"], *([] if content["diagnosis"] is None else [content["diagnosis"]["text"]])]
+    words += [note for note in verdict.get("notes", ()) if note.startswith(LEFT_OUT)]
     words += filter(None, [_unsaid(content)])
     return {
         "touches": overall["touches"],

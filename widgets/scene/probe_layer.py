@@ -57,10 +57,9 @@ class ProbeLayer:
         self._overlay = _surface(stage)
         self.fresh.show(False)
         self._coarse.show(False)
-        for lines, width in ((self._edges, 1.0), (self._hatching, 1.4)):
+        for lines in (self._edges, self._hatching):
             lines.plain()
             lines.lift(0.02)
-            lines.look.SetLineWidth(width)
         self._field.show(False)
         self._overlay.show(False)
         self._overlay.look.BackfaceCullingOn()
@@ -76,10 +75,11 @@ class ProbeLayer:
         colours = self._stage.colours
         # not see-through: such lines leave no depth, and what is painted later would cover them
         self._edges.colour("#7d8287")
-        self._hatching.colour("#262626")
+        # soft: on a narrow seam the lines are short, and black ones look like a fault of the picture
+        self._hatching.colour("#6f7478")
         self._overlay.colour(colours.series[5])
         for shape in (self._edges, self._hatching):
-            shape.look.SetLineWidth((1.0 if shape is self._edges else 1.4) * self._stage.ratio)
+            shape.look.SetLineWidth(self._stage.ratio)
 
     def turn(self) -> None:
         """Follow the tool."""

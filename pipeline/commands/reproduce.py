@@ -95,8 +95,9 @@ def dynamic(
     """Keep 7 N and the angle on a phantom that moves by 10 mm or 10 degrees, with every method.
 
     Writes tables (CSV, Markdown), plots and the course of each motion. All methods have the same gains and seeds.
-    Needs MuJoCo; the wrench-axis method needs Embree. Exit code 1 when a target is missed: at T = 10 s 0.8 degrees and
-    6.5 to 7.5 N, at 5 s 1.8 degrees, at 2 s 4 degrees, always followed.
+    Each run is kept in OUT/cells as it ends: started again, it goes on where it was stopped, as long as the code is the
+    same. Needs MuJoCo; the wrench-axis method needs Embree. Exit code 1 when a target is missed: at T = 10 s 0.8
+    degrees and 6.5 to 7.5 N, at 5 s 1.8 degrees, at 2 s 4 degrees, always followed.
     """
     from pipeline.commands.control import variants_of
     from pipeline.study.reproduce.dynamic import run
@@ -113,6 +114,7 @@ def dynamic(
             friction=friction,
             quick=quick,
             workers=workers,
+            kept=out / "cells",
             progress=bar,
         )
     _finish(result, out, as_json=as_json)

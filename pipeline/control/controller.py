@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 
 _CAREFUL = 1.2  # the step in which it touched may have begun in the air
 _PRESS_N = 0.8  # about what the small press may add to the force
+_REMEMBERED_S = 2.0  # how long tissue counts as moving after it did
 _UP = np.array([0.0, 0.0, 1.0])
 
 
@@ -92,6 +94,8 @@ class Controller:
         self._probed = settings.probing == 0
         self._q = np.array(q, dtype=np.float64)
         self._sent = self._pose(self._q)  # where that is
+        self._first_axis = self._sent[0][:, 2].copy()
+        self._moves = 0.0  # m/s, of the tissue along the axis, the largest of late
         self._speeds = np.zeros_like(self._q)
         self._last: Step | None = None
         self._before: Pose | None = None  # at the step before
@@ -185,6 +189,8 @@ class Controller:
             last=self._last,
             probed=self._probed,
             follows=follows,
+            turned=math.acos(min(max(float(R_BS[:, 2] @ self._first_axis), -1.0), 1.0)),
+            rising=self.surface.press(self.settings.desired_force).stiffness * self._moves,
             dt=dt,
         )
         if state is not before:
@@ -274,6 +280,8 @@ class Controller:
         leaning = (float(np.arctan2(F[1], -F[2])), float(np.arctan2(-F[0], -F[2])))
         sigmas = self._intake.sigmas(sensed.count)
         self.surface.update(self._unseen, tip, R_BS, force, known, leaning, sigmas)
+        faded = self._moves * math.exp(-self._unseen / _REMEMBERED_S)
+        self._moves = max(abs(self.surface.speed_along(R_BS[:, 2], 0.0)), faded)
         self._unseen = 0.0
         if self.state is not State.CONTACT or self._probed:
             return

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pipeline.control.arms import CartesianMount
+from pipeline.control.axes import cross
 from pipeline.control.faults import FaultyLine, ScriptedFault
 from pipeline.control.states import State
 from pipeline.control.trace import STATES, Trace
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from pipeline.control.arms import Arm
     from pipeline.control.command import Command
     from pipeline.control.controller import Controller
-    from pipeline.simulation.scenes import MovedScene
+    from pipeline.simulation.scenes import Moment, MovedScene
     from pipeline.simulation.sensor_model import SensorModel
 
 WARM_S = 3600.0  # a sensor is used warm
@@ -130,6 +131,8 @@ class Loop:
                 "sensed": command.force,
                 "offset": command.offset,
                 "place": moment.centroid_S[:2] - self.controller.wanted_S[:2],
+                "torsion": moment.torsion,
+                "shift": _shift(moment),
                 "angles": scene.angles(),
                 "phantom": self._in_P(*scene.surface()),
                 "probe": self._in_P(*self._tip()),
@@ -151,6 +154,16 @@ class Loop:
         R_BP, p_BP = self.scene.T_BP[:3, :3], self.scene.T_BP[:3, 3]
         x, y, z = (R_BP.T @ up).tolist()
         return float((point - p_BP) @ R_BP[:, 2]), float(np.arctan2(x, z)), float(np.arctan2(-y, z))
+
+
+def _shift(moment: Moment) -> float:
+    """Return how far the wrench's axis passes from the point of contact, m: |F x torsion n| / |F|², NaN in the air."""
+    force = moment.contact[:3]
+    size2 = float(force @ force)
+    if size2 == 0:
+        return float("nan")
+    across = cross(force, moment.normal_S)
+    return abs(moment.torsion) * float(np.sqrt(across @ across)) / size2
 
 
 def run_loop(

@@ -15,7 +15,8 @@ what happens                                in                    what follows
 ==========================================  ====================  ==================================================
 saturation                                  any but safe          retract
 no fresh sample for `stale` s, or stuck     approach to track     hold; after `give_up` s retract
-fresh samples again                         hold                  contact, if it touches; else approach
+... and tissue that moves                   hold                  retract before it could have pressed to 80 %
+fresh samples again                         hold                  contact, or track again, if it touches; else approach
 force over `touch_force`                    approach              contact
 farther than `approach_travel`              approach              retract
 wanted force reached                        contact               track
@@ -26,6 +27,9 @@ joint limit or singularity for 0.3 s        approach to track     retract
 arm not where it was sent for 0.06 s        approach to track     hold, and on from there; after `attempts` retract
 clock that goes back                        approach to track     as no fresh sample
 force or torque from any side over 80 %     any but safe          retract
+... or over the limit within 0.08 s         any but safe          retract
+force 50 % over the wanted one              hold                  retract
+turned by `max_tilt` from the first axis    contact, track        retract
 stopped                                     any but safe          retract
 gone back, nothing touches                  retract               safe
 ==========================================  ====================  ==================================================
@@ -51,6 +55,10 @@ if TYPE_CHECKING:
 _LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05
 _NEAR, _STEADY_S = 0.15, 0.2  # of the wanted force, and for how long, before tracking
 _ALARM = 0.8  # of the largest force
+# s until a retreat is under way: readings are 10 ms old, a set-point takes 20 ms to be reached, and to turn round takes
+# as much again.
+_REACTION_S = 0.08
+_PRESSED = 1.5  # of the wanted force: who stands still does not give in
 _LITTLE = 0.5  # of a step: less is no going on
 
 
@@ -102,6 +110,10 @@ class Safety:
         self._low = self._lost = self._blocked = self._steady = self._late = 0.0
         self._attempts = 0
         self._stop = False
+        self._loads = (math.nan, math.nan)  # |F| and |M| of the newest fresh step
+        self._load_age = 0.0
+        self._held_from = State.APPROACH
+        self._patience = settings.give_up
 
     def stop(self) -> None:
         """Have it end: it goes back."""
@@ -118,6 +130,8 @@ class Safety:
         probed: bool,
         dt: float,
         follows: bool = True,
+        turned: float = 0.0,
+        rising: float = 0.0,
     ) -> State:
         """
         Decide what to do in this step.
@@ -137,18 +151,24 @@ class Safety:
             Whether the stiffness is known.
         dt : float
             s.
+        follows : bool
+            Whether the arm is where it was sent.
+        turned : float
+            Between the probe's axis and the one that it began with, rad.
+        rising : float
+            How fast the force would grow if the probe stood still, at most, as far as is known, N/s.
         """
         self._now = now
         self._elapsed += dt
         self._count(sensed, force, last, follows, dt)
-        if self.state is not State.SAFE and self._alarm(sensed):
+        if self.state is not State.SAFE and self._alarm(sensed, force, turned, dt):
             return self.state  # what was travelled until now is not the way back
         late = self._late > _LATE_S
         match self.state:
             case State.APPROACH | State.CONTACT | State.TRACK if sensed.fault is not None:
-                self._to(State.HOLD, f"the sensor is {sensed.fault.value}: nothing moves on old readings.")
+                self._wait(f"the sensor is {sensed.fault.value}: nothing moves on old readings.", rising)
             case State.APPROACH | State.CONTACT | State.TRACK if late:
-                self._behind()
+                self._behind(rising)
             case State.APPROACH:
                 self._approach(force, travelled)
             case State.CONTACT:
@@ -176,9 +196,12 @@ class Safety:
         self._blocked = longer(self._blocked, last is not None and _blocked(last))
         self.turning = self._lost < _LOST_S
 
-    def _alarm(self, sensed: Sensed) -> bool:
+    def _alarm(self, sensed: Sensed, force: float, turned: float, dt: float) -> bool:
         """Have it go back at once, if it must; tell whether it does from now on."""
-        reason = None if self.state is State.RETRACT else self._danger(sensed)
+        overload = self._overload(sensed, dt)  # always: it remembers the loads
+        if self.state is State.RETRACT:
+            return False
+        reason = self._danger(sensed) or overload or self._askew(turned) or self._squeezed(sensed, force)
         if reason is not None:
             self._to(State.RETRACT, reason)
         return reason is not None
@@ -190,15 +213,33 @@ class Safety:
             return "the sensor is at the end of its range: the force may be anything."
         if self._blocked > _STOPPED_S and self.state is not State.HOLD:
             return "the arm can go no farther: a joint limit or a singularity."
-        return self._overload(sensed) if sensed.fresh else None
+        return None
 
-    def _overload(self, sensed: Sensed) -> str | None:
-        """Return why a load is too near to its limit, or None; from whatever side it comes."""
+    def _overload(self, sensed: Sensed, dt: float) -> str | None:
+        """Return why a load is too near to its limit, or will be, or None; from whatever side it comes."""
+        self._load_age += dt
+        if not sensed.fresh:
+            return None
+        before, age = self._loads, self._load_age
+        F, M = sensed.wrench[:3], sensed.wrench[3:]
+        self._loads, self._load_age = (math.sqrt(float(F @ F)), math.sqrt(float(M @ M))), 0.0
         limits = ("N", self.settings.max_force), ("N·m", self.settings.max_torque)
-        for (unit, most), load in zip(limits, (sensed.wrench[:3], sensed.wrench[3:]), strict=True):
-            size = math.sqrt(float(load @ load))
+        for (unit, most), size, old in zip(limits, self._loads, before, strict=True):
             if size > _ALARM * most:
                 return f"{size:.1f} {unit} come too near to the limit of {most:g} {unit}."
+            rate = (size - old) / age
+            if size + _REACTION_S * rate > most:  # never of NaN, as at first
+                return f"{size:.1f} {unit} grow by {rate:.0f} {unit} per s: soon over the limit of {most:g} {unit}."
+        return None
+
+    def _askew(self, turned: float) -> str | None:
+        if self.state in (State.CONTACT, State.TRACK) and turned > self.settings.max_tilt:
+            return f"it is turned by {math.degrees(turned):.0f} degrees from where it began: no tissue asks for that."
+        return None
+
+    def _squeezed(self, sensed: Sensed, force: float) -> str | None:
+        if self.state is State.HOLD and sensed.fresh and force > _PRESSED * self.settings.desired_force:
+            return f"the tissue pushes with {force:.1f} N while it stands still."
         return None
 
     # ---- one state each --------------------------------------------------------------------------
@@ -232,22 +273,29 @@ class Safety:
             self._to(State.APPROACH, "the tissue was lost: it looks for it again.")
         return True
 
-    def _behind(self) -> None:
+    def _behind(self, rising: float) -> None:
         self._attempts += 1
         if self._attempts > self.settings.attempts:
             self._to(State.RETRACT, f"the arm was not where it was sent {self._attempts} times.")
         else:
-            self._to(State.HOLD, "the arm is not where it was sent: nothing moves until it is.")
+            self._wait("the arm is not where it was sent: nothing moves until it is.", rising)
 
     def _hold(self, sensed: Sensed, force: float) -> None:
         if sensed.fresh and self._late == 0:
-            touches = force > self.settings.touch_force
-            after = State.CONTACT if touches else State.APPROACH
+            after = State.CONTACT if force > self.settings.touch_force else State.APPROACH
+            if self._held_from is State.TRACK and after is State.CONTACT:
+                after = State.TRACK  # all is known; and tissue that moves does not wait
             self._to(after, "the readings are fresh, and the arm is where it should be.")
-        elif self._elapsed > self.settings.give_up:
-            self._to(
-                State.RETRACT, f"{self.settings.give_up:g} s did not help: it goes back the way it came."
-            )
+        elif self._elapsed > self._patience:
+            self._to(State.RETRACT, f"{self._elapsed:.2g} s did not help: it goes back the way it came.")
+
+    def _wait(self, reason: str, rising: float) -> None:
+        """Hold, for no longer than moving tissue can be trusted not to press too hard meanwhile."""
+        self._held_from = self.state
+        room = _ALARM * self.settings.max_force - self._loads[0]
+        time = room / rising - _REACTION_S if rising > 0 else math.inf
+        self._patience = min(self.settings.give_up, max(time, 0.0))
+        self._to(State.HOLD, reason)
 
     def _retract(self, sensed: Sensed, force: float, travelled: float, last: Step | None) -> None:
         away = travelled >= self.settings.retract_travel

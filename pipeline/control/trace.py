@@ -36,6 +36,10 @@ class Trace:
         Sensed place of the contact less the wanted one, S, m; NaN where it was not known.
     place : (n, 2)
         Where it truly was at the end of the period, the same way; NaN in the air.
+    torsion : (n,)
+        Torque of the true contact about the normal at its point, N·m; NaN in the air.
+    shift : (n,)
+        How far that moves the wrench's axis away from the point, m: what a method that neglects it is off by.
     angles : (n, 2)
         Between the probe's axis and the phantom's normal, in plane and out of plane, rad.
     phantom, probe : (n, 3)
@@ -58,6 +62,8 @@ class Trace:
     sensed: NDArray[np.float64]
     offset: NDArray[np.float64]
     place: NDArray[np.float64]
+    torsion: NDArray[np.float64]
+    shift: NDArray[np.float64]
     angles: NDArray[np.float64]
     phantom: NDArray[np.float64]
     probe: NDArray[np.float64]
@@ -101,6 +107,8 @@ class Trace:
             self.sensed,
             *(1e3 * self.offset).T,
             *(1e3 * self.place).T,
+            1e3 * self.torsion,
+            1e3 * self.shift,
         ]
         columns += [*np.degrees(self.angles).T]
         for body in (self.phantom, self.probe):
@@ -122,6 +130,8 @@ _HEADS = (
     "offset_y_mm",
     "true_offset_x_mm",
     "true_offset_y_mm",
+    "torsion_Nmm",
+    "axis_shift_mm",
     "in_plane_deg",
     "out_of_plane_deg",
     "phantom_height_mm",

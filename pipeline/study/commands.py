@@ -6,8 +6,10 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import Bar, JsonOption, print_json, say
+from pipeline.console import JsonOption, print_json, say
 from pipeline.errors import InputError
+from pipeline.study.ablation.commands import add_ablation_command
+from pipeline.study.control_commands import add_control_commands
 from pipeline.study.device_commands import add_device_commands
 from pipeline.study.finishing import NOT_GOOD_ENOUGH, MarkdownOption, SeedOption, finish, show, write
 from pipeline.study.interactive_commands import add_commands
@@ -144,27 +146,6 @@ def runtime(
     finish(study.run(seconds, minutes, seed=seed, progress=say), out, as_json=as_json)
 
 
-@study_app.command("control-safety", epilog="Example: contactbench study control-safety --runs 100")
-def control_safety(
-    runs: Annotated[
-        int, typer.Option(help="Random starts; a fifth with each kind of fault, a fifth with none.")
-    ] = 1_000,
-    workers: Annotated[int | None, typer.Option(help="Processes [one for each core].")] = None,
-    seed: SeedOption = 0,
-    out: MarkdownOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Start motion control at random: tissue, friction, motion, sensor faults; the force's limit, and safe ends.
-
-    Needs MuJoCo. Exit code 1 when a force passed its limit by more than 20 %, an end was not safe, or a loop swung.
-    """
-    from pipeline.study import control_safety as study
-
-    with Bar("starting", counted=True) as bar:
-        report = study.run(runs, seed=seed, workers=workers, progress=bar)
-    finish(report, out, as_json=as_json)
-
-
 def _whole_number(text: str) -> int:
     try:
         value = int(text)
@@ -177,5 +158,7 @@ def _whole_number(text: str) -> int:
 
 add_preparation_commands(study_app)
 add_device_commands(study_app)
+add_control_commands(study_app)
 add_commands(study_app)
 add_sweep_commands(study_app)
+add_ablation_command(study_app)

@@ -92,11 +92,7 @@ def test_no_motion_on_old_data():
     assert held[-1].state is State.HOLD
     assert np.abs(held[-1].q - q).max() < 3e-4
     run.run(1.5)
-    assert [each.after for each in run.controller.safety.changes][-3:] == [
-        State.HOLD,
-        State.CONTACT,
-        State.TRACK,
-    ]
+    assert [each.after for each in run.controller.safety.changes][-2:] == [State.HOLD, State.TRACK]
 
 
 def test_silence_ends_safe_and_away():

@@ -38,6 +38,8 @@ class Drive:
                 last=what.get("last", FREE),
                 probed=what.get("probed", True),
                 follows=what.get("follows", True),
+                turned=what.get("turned", 0.0),
+                rising=what.get("rising", 0.0),
                 dt=DT,
             )
         return self.safety.state
@@ -56,6 +58,7 @@ def test_the_usual_course():
     drive = Drive()
     assert drive(0.5, force=0.0) is State.APPROACH
     assert drive(force=1.0) is State.CONTACT
+    assert drive(force=4.0) is State.CONTACT
     assert drive(0.4, force=7.0) is State.CONTACT, "not before the force has grown"
     assert drive(0.5, force=7.0, probed=False) is State.CONTACT, "not before the stiffness is known"
     assert drive(0.3, force=7.0) is State.TRACK
@@ -90,6 +93,57 @@ def test_a_force_from_the_side_and_a_torque_count_too():
         sensed = Sensed(0.0, np.array(wrench), None, None, 0.0, 4)
         after = safety.update(0.0, sensed, 0.0, travelled=0, last=FREE, probed=True, dt=DT)
         assert after is State.RETRACT
+
+
+@pytest.mark.parametrize("state", WORKING)
+def test_a_force_that_would_soon_be_over_the_limit_makes_it_go_back(state):
+    drive = Drive(state)
+    drive(force=7.0)
+    assert drive(force=11.0) is not State.RETRACT, "200 N/s for 0.08 s: 27 N"
+    drive = Drive(state)
+    drive(force=7.0)
+    assert drive(force=13.0) is State.RETRACT
+    assert "soon over the limit of 30 N" in drive.reason
+
+
+def test_the_rate_counts_from_the_newest_reading_there_was():
+    drive = Drive(State.TRACK)
+    drive(force=7.0)
+    drive(2 * DT, count=0)
+    assert drive(force=14.0) is State.TRACK, "7 N in 60 ms"
+
+
+def test_standing_still_is_no_way_to_be_squeezed():
+    drive = Drive(State.HOLD)
+    assert drive(force=10.0, follows=False) is State.HOLD
+    assert drive(force=11.0, follows=False) is State.RETRACT
+    assert "stands still" in drive.reason
+
+
+@pytest.mark.parametrize(("rising", "seconds"), [(0.0, 0.2), (50.0, 0.2), (100.0, 0.09), (300.0, 0.0)])
+def test_blind_on_tissue_that_moves_it_waits_no_longer_than_it_may(rising, seconds):
+    drive = Drive(State.TRACK)
+    drive(force=7.0)
+    assert drive(fault=Fault.STALE, rising=rising) is State.HOLD
+    if seconds > DT:
+        assert drive(seconds - DT, fault=Fault.STALE) is State.HOLD
+    assert drive(2 * DT, fault=Fault.STALE) is State.RETRACT
+
+
+@pytest.mark.parametrize("state", [State.CONTACT, State.TRACK])
+def test_turned_too_far_it_goes_back(state):
+    drive = Drive(state)
+    assert drive(turned=0.99 * SETTINGS.max_tilt, probed=False) is state
+    assert drive(turned=1.01 * SETTINGS.max_tilt) is State.RETRACT
+    assert "turned by 35 degrees" in drive.reason
+
+
+def test_held_while_it_tracked_it_tracks_again():
+    drive = Drive(State.TRACK)
+    assert drive(fault=Fault.STALE) is State.HOLD
+    assert drive() is State.TRACK
+    assert drive(fault=Fault.STALE) is State.HOLD
+    assert drive(force=0.1) is State.APPROACH
 
 
 @pytest.mark.parametrize("state", WORKING)
@@ -132,7 +186,7 @@ def test_an_arm_that_does_not_follow_is_held_then_drawn_back(state):
 def test_an_arm_that_stays_behind_again_and_again_goes_back():
     drive = Drive(State.TRACK, replace(SETTINGS, attempts=1))
     assert drive(3 * DT, follows=False) is State.HOLD
-    assert drive() is State.CONTACT
+    assert drive() is State.TRACK
     assert drive(3 * DT, follows=False) is State.RETRACT
     assert "2 times" in drive.reason
 

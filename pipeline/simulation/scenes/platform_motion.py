@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from pipeline.errors import InputError
 
+_INSTANT_S = 1e-9  # times of a scene are sums of its steps
 AXES = ("x", "y", "z", "rx", "ry", "rz")
 
 
@@ -71,8 +73,15 @@ class PlatformMotion:
         """Return position and angles, (6,), at a time, s."""
         since = max(time - self.start, 0.0)
         share = 1.0 if self.ease == 0 else min(since / self.ease, 1.0)
-        return np.asarray(self.amplitude * (share * np.sin(2 * np.pi * since / self.period)))
+        return np.asarray(self.amplitude * (share * math.sin(2 * math.pi * since / self.period)))
 
     def speed(self, time: float) -> NDArray[np.float64]:
-        """Return how fast they change, (6,), m/s and rad/s."""
-        return np.asarray((self.at(time + 1e-5) - self.at(time - 1e-5)) / 2e-5)
+        """Return how fast they change, (6,), m/s and rad/s; where that jumps, the mean of both sides."""
+        since, turn = time - self.start, 2 * math.pi / self.period
+        if since < -_INSTANT_S:
+            return np.zeros(6)
+        if since >= self.ease - _INSTANT_S:
+            share = 1.0 if since > _INSTANT_S or self.ease > 0 else 0.5
+            return np.asarray(self.amplitude * (share * turn * math.cos(turn * since)))
+        growing = math.sin(turn * since) + turn * since * math.cos(turn * since)
+        return np.asarray(self.amplitude * (growing / self.ease))

@@ -45,7 +45,7 @@ class SetPoints:
         period: float,
     ) -> None:
         self._from = self._to = np.array(start, dtype=np.float64)
-        self._speed_from = self._speed_to = np.zeros_like(self._from)
+        self._speed_to = np.zeros_like(self._from)
         self._given = -period
         self._fastest, self._hardest, self._period = np.asarray(fastest), np.asarray(hardest), period
         if not (0 < period < np.inf and (self._fastest > 0).all() and (self._hardest > 0).all()):
@@ -53,6 +53,7 @@ class SetPoints:
                 f"set-points every {period} s, speeds up to {self._fastest.tolist()}, accelerations up to"
                 f" {self._hardest.tolist()}: give positive numbers."
             )
+        self._set(np.zeros_like(self._from))
 
     def give(self, time: float, point: NDArray[np.float64]) -> None:
         """
@@ -72,12 +73,22 @@ class SetPoints:
         reach = self._hardest * self._period
         going = speed + np.clip(wanted - speed, -reach, reach)
         self._from, self._to = here, here + going * self._period
-        self._speed_from, self._speed_to = speed, going
+        self._speed_to = going
         self._given = time
+        self._set(speed)
+
+    def _set(self, speed: NDArray[np.float64]) -> None:
+        """Have the cubic begin with a speed, (n,): Hermite, u³ (a + b - 2 g) + u² (3 g - 2 a - b) + u a."""
+        gone, a, b = self._to - self._from, speed * self._period, self._speed_to * self._period
+        self._first, self._second, self._third = a, 3 * gone - 2 * a - b, a + b - 2 * gone
 
     def at(self, time: float) -> NDArray[np.float64]:
         """Return where it should be at a time, (n,)."""
-        return self.state(time)[0]
+        u = (time - self._given) / self._period
+        if u >= 1 + 1e-9:
+            return self._stopping((u - 1) * self._period)[0]
+        u = max(u, 0.0)
+        return self._from + u * (self._first + u * (self._second + u * self._third))
 
     def state(self, time: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return where it should be at a time, and how fast it should go, both (n,)."""
@@ -85,12 +96,8 @@ class SetPoints:
         if u >= 1 + 1e-9:
             return self._stopping((u - 1) * self._period)
         u = max(u, 0.0)
-        gone, rest = self._to - self._from, self._period
-        a, b = self._speed_from * rest, self._speed_to * rest
-        # Hermite: u³ (a + b - 2 g) + u² (3 g - 2 a - b) + u a.
-        where = self._from + u * (a + u * ((3 * gone - 2 * a - b) + u * (a + b - 2 * gone)))
-        speed = (a + u * (2 * (3 * gone - 2 * a - b) + 3 * u * (a + b - 2 * gone))) / rest
-        return where, speed
+        speed = (self._first + u * (2 * self._second + 3 * u * self._third)) / self._period
+        return self.at(time), speed
 
     def _stopping(self, late: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the same when the next set-point is late, by some s: braking, within a period at the earliest."""

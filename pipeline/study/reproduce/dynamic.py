@@ -25,10 +25,11 @@ from pipeline.study.reproduce.dynamic_cells import (
     VERTICAL,
     Cell,
     Outcome,
-    run_cells,
 )
 from pipeline.study.reproduce.dynamic_paper import DIFFERENCES
 from pipeline.study.reproduce.dynamic_plot import draw_course, draw_methods
+from pipeline.study.reproduce.dynamic_runs import run_cells
+from pipeline.study.reproduce.dynamic_store import Store
 from pipeline.study.reproduce.dynamic_tables import order_notes, runs, table_one, table_two
 from pipeline.study.reproduce.sheets import write_bytes, write_text
 
@@ -174,6 +175,7 @@ def run(
     quick: bool = False,
     workers: int | None = None,
     settings: ControlSettings | None = None,
+    kept: Path | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> DynamicResult:
     """
@@ -199,6 +201,8 @@ def run(
         Processes; left out, one for each core.
     settings : ControlSettings, optional
         Gains; left out, those for the probe.
+    kept : Path, optional
+        Folder where each run is kept as it ends, and found again when the same is asked for later.
     progress : callable, optional
         Told how many of how many runs are done.
 
@@ -221,6 +225,7 @@ def run(
         workers=count,
         progress=progress,
         settings=settings,
+        store=None if kept is None else Store(kept, settings),
     )
     base = settings or ControlSettings.for_probe(foundation_of(probe), desired_force=FORCE_N)
     about_x, about_y = np.degrees(tilt_bound(base, foundation_of(probe), USUAL_MODULUS)).tolist()

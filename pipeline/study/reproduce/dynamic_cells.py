@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +14,8 @@ from pipeline.simulation.scenes import PlatformMotion, Tissue
 from pipeline.study.control_rig import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from pipeline.control.trace import Trace
     from pipeline.simulation.scenes import MovedScene
 
@@ -27,7 +26,7 @@ VERTICAL, IN_PLANE, OUT_OF_PLANE = "vertical", "in plane", "out of plane"
 MOTIONS = {VERTICAL: ("z", 0.010), IN_PLANE: ("ry", np.radians(10)), OUT_OF_PLANE: ("rx", np.radians(10))}
 PERIODS_S = (10.0, 5.0, 2.0)
 METHODS = ("contactbench", "algorithm1", "wrench_axis", "iterative")
-_MOVING_S = 20.0
+_MOVING_S = 10.0
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,7 @@ class Cell:
 
     @property
     def seconds(self) -> float:
-        """How long the platform moves: whole periods, 20 s or as much as the paper's figures show."""
+        """How long the platform moves: whole periods, two of them and 10 s at least."""
         periods = 1 if self.quick else max(round(_MOVING_S / self.period), 2)
         return periods * self.period
 
@@ -91,6 +90,9 @@ class Outcome:
         How often the probe left the phantom after its first touch, until the end.
     place : float
         Root mean square distance from sensed to true contact, mm.
+    torsion : (float, float)
+        Root mean square of the true contact's torque about its own normal, N·mm, and of how far that moves the
+        wrench's axis from the contact, mm.
     speed : float
         Largest share of a joint's speed limit that a set-point asked for.
     held : float
@@ -110,6 +112,7 @@ class Outcome:
     first: float
     lost: int
     place: float
+    torsion: tuple[float, float]
     speed: float
     held: float
     step_ms: tuple[float, float]
@@ -163,7 +166,7 @@ def outcome_of(cell: Cell, trace: Trace, scene: MovedScene) -> Outcome:
     if not len(moving):
         nothing = (float("nan"), float("nan"))
         moved: dict[str, Any] = {"force": (*nothing, float("nan")), "angle": nothing, "other": nothing}
-        moved |= {"whole": float("nan"), "place": float("nan"), "held": float("nan")}
+        moved |= {"whole": float("nan"), "place": float("nan"), "torsion": nothing, "held": float("nan")}
     else:
         moved = _moving(cell, moving)
     return Outcome(
@@ -187,65 +190,12 @@ def _moving(cell: Cell, moving: Trace) -> dict[str, Any]:
         "angle": (float(errors[:, mine].mean()), float(errors[:, mine].std())),
         "other": (float(errors[:, 1 - mine].mean()), float(errors[:, 1 - mine].std())),
         "whole": float(np.degrees(moving.tilt).mean()),
-        "place": float(1e3 * np.sqrt(np.nanmean((off**2).sum(axis=1)))),
+        "place": _rms(1e3 * np.linalg.norm(off, axis=1)),
+        "torsion": (_rms(1e3 * moving.torsion), _rms(1e3 * moving.shift)),
         "held": float((moving.share < 0.999).mean()),
     }
 
 
-def run_cells(
-    cells: Sequence[Cell],
-    kept: Callable[[Cell], bool],
-    *,
-    workers: int,
-    progress: Callable[[int, int], None] = lambda _done, _total: None,
-    settings: ControlSettings | None = None,
-) -> tuple[list[Outcome], dict[Cell, Trace]]:
-    """
-    Run many, each with its own seed: the results do not depend on how many processes share them.
-
-    Parameters
-    ----------
-    cells : sequence of Cell
-    kept : callable
-        Whose trace is wanted.
-    workers : int
-        Processes; 1: in this one.
-    progress : callable, optional
-        Told how many of how many are done. What it raises ends the work, as Ctrl-C does.
-    settings : ControlSettings, optional
-        As of `run_cell`.
-
-    Returns
-    -------
-    list of Outcome
-        In the order of `cells`.
-    dict of Cell to Trace
-    """
-    outcomes: dict[Cell, Outcome] = {}
-    traces: dict[Cell, Trace] = {}
-
-    def take(outcome: Outcome, trace: Trace | None) -> None:
-        outcomes[outcome.cell] = outcome
-        if trace is not None:
-            traces[outcome.cell] = trace
-        progress(len(outcomes), len(cells))
-
-    if workers == 1:
-        for cell in cells:
-            outcome, trace = run_cell(cell, settings)
-            take(outcome, trace if kept(cell) else None)
-        return [outcomes[cell] for cell in cells], traces
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        try:
-            jobs = [pool.submit(_run, cell, kept(cell), settings) for cell in cells]
-            for job in as_completed(jobs):
-                take(*job.result())
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-    return [outcomes[cell] for cell in cells], traces
-
-
-def _run(cell: Cell, keep: bool, settings: ControlSettings | None) -> tuple[Outcome, Trace | None]:
-    outcome, trace = run_cell(cell, settings)
-    return outcome, trace if keep else None
+def _rms(values: NDArray[np.float64]) -> float:
+    known = values[np.isfinite(values)]
+    return float(np.sqrt((known**2).mean())) if len(known) else float("nan")

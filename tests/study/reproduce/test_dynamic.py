@@ -9,9 +9,19 @@ import pytest
 from pipeline.control.settings import ControlSettings, Variant
 from pipeline.errors import InputError
 from pipeline.study.control_rig import make_rig
+from pipeline.study.reproduce import dynamic_runs
 from pipeline.study.reproduce.dynamic import run
-from pipeline.study.reproduce.dynamic_cells import IN_PLANE, OUT_OF_PLANE, START_S, VERTICAL, outcome_of
+from pipeline.study.reproduce.dynamic_cells import (
+    IN_PLANE,
+    OUT_OF_PLANE,
+    START_S,
+    VERTICAL,
+    Cell,
+    outcome_of,
+    run_cell,
+)
 from pipeline.study.reproduce.dynamic_paper import TABLE_1, TABLE_2
+from pipeline.study.reproduce.dynamic_store import Store
 from pipeline.study.reproduce.dynamic_tables import order_notes
 
 
@@ -54,6 +64,17 @@ def test_the_moved_axis_is_the_one_that_errs(result):
     for motion in (IN_PLANE, OUT_OF_PLANE):
         one = outcome(result, Variant.PLAIN, motion)
         assert one.angle[0] > 2 * one.other[0]
+
+
+def test_the_arm_follows_the_quickest_turns_within_its_limits():
+    # Its joints are asked for nearly all they can: a servo without a reserve fell behind, and the loop swung.
+    cell = Cell("arm", "convex", "contactbench", Variant.AWARE, IN_PLANE, 2.0, 0, quick=True)
+    one, trace = run_cell(cell)
+    assert one.followed == 1.0
+    assert [str(each.after) for each in trace.changes] == ["contact", "track"]
+    assert one.angle[0] < 4.0
+    assert 6.5 < one.force[0] < one.force[2] < 7.5
+    assert 0.3 < one.speed < 1.0
 
 
 def test_figures_are_those_of_the_course(result):
@@ -118,6 +139,41 @@ def test_a_run_that_gave_up_did_not_follow(result):
     never = outcome_of(cell, trace.between(0.0, START_S - 1.0), scene)
     assert never.followed == 0.0
     assert np.isnan(never.angle[0])
+
+
+def test_runs_that_are_kept_are_not_done_again(result, tmp_path, monkeypatch):
+    cell, trace = next(iter(result.traces.items()))
+    one = next(o for o in result.outcomes if o.cell == cell)
+    Store(tmp_path).keep(replace(one, place=float("nan")), trace)
+    monkeypatch.setattr(dynamic_runs, "run_cell", None)
+    told = []
+    outcomes, traces = dynamic_runs.run_cells(
+        [cell], lambda _: True, workers=1, store=Store(tmp_path), progress=lambda *done: told.append(done)
+    )
+    assert replace(outcomes[0], place=one.place) == one
+    assert np.isnan(outcomes[0].place)
+    assert traces[cell].csv() == trace.csv()
+    assert traces[cell].changes == trace.changes
+    assert told == [(1, 1)]
+
+
+def test_what_is_kept_is_for_the_same_run_only(result, tmp_path):
+    cell, trace = next(iter(result.traces.items()))
+    one = next(o for o in result.outcomes if o.cell == cell)
+    store = Store(tmp_path)
+    store.keep(one, None)
+    assert store.take(cell, traced=False) == (one, None)
+    assert store.take(cell, traced=True) is None, "without its trace it is not whole"
+    assert store.take(replace(cell, seed=9), traced=False) is None
+    other_gains = Store(tmp_path, replace(ControlSettings(), force_gain=3.0))
+    assert other_gains.take(cell, traced=False) is None
+    file = next(tmp_path.glob("*.json"))
+    file.write_bytes(file.read_bytes()[:100])
+    assert store.take(cell, traced=False) is None
+    store.keep(one, trace)
+    (file,) = tmp_path.glob("*.npz")
+    file.write_bytes(b"nothing")
+    assert store.take(cell, traced=True) is None
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,9 @@ if TYPE_CHECKING:
 
 
 def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table; the first column is read from the left, the others are figures."""
-    lines = ["| " + " | ".join(columns) + " |", "|---|" + "---:|" * (len(columns) - 1)]
+    """Return a table; columns of figures are flush right."""
+    figures = [any(row[i][:1].isdigit() or row[i][:1] in "-–" for row in rows) for i in range(len(columns))]
+    lines = ["| " + " | ".join(columns) + " |", "|" + "".join("---:|" if f else "---|" for f in figures)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
 
 

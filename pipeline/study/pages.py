@@ -107,9 +107,11 @@ def _origin(results: Results) -> str:
     versions = ", ".join(
         f"{name} {facts[name]}" for name in ("contactbench", "python", "numpy", "scipy") if name in facts
     )
+    compiler = str(facts.get("compiler", "?"))
+    compiler = f"GCC {compiler}" if compiler[:1].isdigit() else compiler
     return (
         f"*Computed {str(facts.get('finished', 'at an unknown time'))[:10]} on {machine},"
-        f" {facts.get('kernel', '?')} kernel, {facts.get('compiler', 'unknown compiler')}; {versions}."
+        f" {facts.get('kernel', '?')} kernel, {compiler}; {versions}."
         f" Repeat with `{results.command}`.*"
     )
 

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 _PATIENCE_S = 180
 _WIDTH, _HEIGHT = 300, 300  # pixels of a panel
 _TRUE, _FOUND, _FORCE, _BODY = "#009e73", "#d55e00", "#0072b2", "#c9cdd1"
-_ARROW_M = 0.03
+_ARROW_M, _POINT_M = 0.03, 0.004
+_FINE = 1_000  # facets: below, the mesh alone is far off
 
 
 @dataclass(frozen=True)
@@ -74,8 +75,8 @@ def astray(rows: Sequence[Row], meshes: Mapping[str, Mapping[str, str]]) -> list
     return lines
 
 
-def _badness(row: Row) -> tuple[bool, float]:
-    return row["worst_reason"][0] != "ambiguous", _distance(row)
+def _badness(row: Row) -> tuple[bool, bool, float]:
+    return row["facets_found"] >= _FINE, row["worst_reason"][0] != "ambiguous", _distance(row)
 
 
 def _distance(row: Row) -> float:
@@ -84,8 +85,8 @@ def _distance(row: Row) -> float:
 
 def _panel(row: Row, mesh: Mapping[str, str]) -> Panel:
     title = (
-        f"{row['method']}, {plain(row['probe'])}\n{row['force']:g} N, {row['angle']:g} deg:"
-        f" {1e3 * _distance(row):.0f} mm off ({row['worst_reason'][0]})"
+        f"{row['method']}, {plain(row['probe'])}\n{row['force']:g} N, {row['angle']:g} deg, {row['facets']:,} facets:\n"
+        f"{1e3 * _distance(row):.0f} mm off ({row['worst_reason'][0]})"
     )
     return Panel(mesh, title, *(list(row[f"worst_{name}"][:3]) for name in ("true", "found", "force")))
 
@@ -143,12 +144,15 @@ def _draw_panel(plotter: Any, pv: Any, panel: dict[str, Any]) -> None:
     plotter.add_mesh(
         pv.PolyData.from_regular_faces(vertices, faces), color=_BODY, opacity=0.45, smooth_shading=False
     )
-    plotter.add_mesh(pv.Sphere(0.0035, true), color=_TRUE)
-    plotter.add_mesh(pv.Sphere(0.0035, found), color=_FOUND)
+    plotter.add_mesh(pv.Sphere(_POINT_M, true), color=_TRUE, lighting=False)
+    plotter.add_mesh(pv.Sphere(_POINT_M, found), color=_FOUND, lighting=False)
     plotter.add_mesh(pv.Line(true, found), color=_FOUND, line_width=2)
     plotter.add_mesh(
-        pv.Arrow(true - _ARROW_M * along, along, scale=_ARROW_M, tip_radius=0.12, shaft_radius=0.04),
+        pv.Arrow(
+            true - (_ARROW_M + _POINT_M) * along, along, scale=_ARROW_M, tip_radius=0.12, shaft_radius=0.04
+        ),
         color=_FORCE,
+        lighting=False,
     )
     plotter.add_text(panel["title"], font_size=7, color="black")
     centre = (vertices.min(axis=0) + vertices.max(axis=0)) / 2

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pipeline.errors import InputError
 from pipeline.study.results import environment, write_results
 from pipeline.study.sweep.bodies import packed_mesh
-from pipeline.study.sweep.cell import run_cell
+from pipeline.study.sweep.cell import gates_for, run_cell
 from pipeline.study.sweep.plan import label
 from pipeline.study.sweep.store import Store
 
@@ -121,8 +121,8 @@ def tasks_of(cells: list[Cell]) -> list[list[Cell]]:
     return parts
 
 
-def _heaviest_first(cell: Cell) -> tuple[int, str, str, str]:
-    return -cell.facets, cell.probe, cell.noise, cell.filter
+def _heaviest_first(cell: Cell) -> tuple[int, str, str, str, float]:
+    return -cell.facets, cell.probe, cell.noise, cell.filter, gates_for(cell.angle).torque_ratio
 
 
 def run_task(cells: list[Cell], timed: bool) -> list[dict[str, Any]]:

@@ -8,13 +8,14 @@ import numpy as np
 
 from pipeline.study.markdown import number, table
 from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power
-from pipeline.study.sweep.targets import is_noisy, needed_facets, plain, targets
+from pipeline.study.sweep.targets import OURS, is_noisy, needed_facets, plain, targets
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from pipeline.study.sweep.growth import Power
 
+_STEEP_DEG = 45.0
 _REASONS = ("ok", "vertex", "ambiguous", "off_surface", "tangential", "low_force")
 
 
@@ -26,6 +27,7 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
         ("Speed against error: the knees", knee_table(noisy)),
         ("Growth with the mesh", growth_table(rows)),
         ("Facets at which the mesh adds 1 % to the noise", needed_table(rows)),
+        ("Steep touches, without noise", steep_table(rows)),
         ("Reasons, and answers on another part of the probe", reason_table(noisy or rows)),
     ]
     return [(title, text) for title, text in made if text]
@@ -49,15 +51,39 @@ def knee_table(rows: Sequence[Row]) -> str:
         best = knee(here)
         if best is not None:
             ends = ", ".join(f"{row['method']} {row['facets']:,}" for row in front(here))
-            shown.append([plain(probe), f"**{best['method']}, {best['facets']:,} facets**", _us(best[TIME])])
-            shown[-1] += [number(best[ERROR], ".2f"), number(best["over_bound"], ".2f"), ends]
+            ours = knee([row for row in here if row["method"] == OURS])
+            shown.append([plain(probe), _knee(best), _knee(ours), ends])
+    columns = ("probe", "knee of all methods", f"knee of {OURS}", "the front, fastest first")
+    return table(columns, shown)
+
+
+def _knee(row: Row | None) -> str:
+    if row is None:
+        return "–"
+    return (
+        f"**{row['method']}, {row['facets']:,} facets**: {_us(row[TIME])} µs, {number(row[ERROR], '.2f')} mm"
+    )
+
+
+def steep_table(rows: Sequence[Row]) -> str:
+    """Return how far all answers and sure ones are off, by angle, without noise; empty without steep angles."""
+    quiet = [row for row in rows if not is_noisy(row)]
+    points = merged(quiet, ("angle", "method"))
+    if not any(row["angle"] >= _STEEP_DEG for row in points):
+        return ""
+    shown = []
+    for row in sorted(points, key=lambda row: (row["angle"], row["method"])):
+        figures = [number(row[name], ".2f") for name in (ERROR, "mean_sure_mm")]
+        figures += [number(100 * row[name], ".2f") for name in ("sure", "astray", "astray_sure")]
+        shown.append([f"{row['angle']:g}°", row["method"], *figures])
     columns = (
-        "probe",
-        "knee",
-        "µs, Python",
-        "mean error, mm",
-        "RMS of sure ones / bound",
-        "the front, fastest first",
+        "angle",
+        "method",
+        "mean of all, mm",
+        "mean of sure ones, mm",
+        "sure %",
+        "astray %",
+        "astray, yet sure %",
     )
     return table(columns, shown)
 

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.heatmap_viewer.reading import ReadingBox
 from widgets.icons import icon
 from widgets.progress import show_value
 from widgets.range_slider import RangeSlider
@@ -52,6 +53,7 @@ class Controls(QWidget):
         self.compare = QCheckBox(self.tr("Compare two side by side"), self)
         self.message = QLabel(self)
         self.bar, self.stop = QProgressBar(self), QPushButton(self.tr("Cancel"), self)
+        self.reading = ReadingBox(self)
         self._saving: list[QPushButton] = []
         self._opening: list[QPushButton] = []
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
@@ -173,6 +175,7 @@ class Controls(QWidget):
             )
         )
         column.addWidget(self.message)
+        column.addWidget(self.reading)
         column.addStretch(1)
         work = QHBoxLayout()
         work.addWidget(self.bar, 1)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.heatmap_viewer.how import HowRead
 from pipeline.calibration.files.calibration_file import load_calibration
 from pipeline.calibration.files.capture_recording import is_recording
 from pipeline.contact import Gates
@@ -23,6 +24,7 @@ from pipeline.mesh.sidecar import load_probe_file
 from pipeline.report.making import check_sources, sha256_of
 from pipeline.report.reading import read_verification
 from pipeline.session import Session
+from pipeline.session.making import mount_of, mount_rotation
 from pipeline.session.recompute import lay_out, newest_inputs
 from pipeline.verification.figures import SCHEMA as VERIFICATION
 
@@ -36,6 +38,7 @@ _MESHES = (".ply", ".stl", ".obj", ".off", ".3mf")
 _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
 _MARKER_DISTANCE = 0.010  # m: as the command has it
+_USUAL = HowRead()
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +55,15 @@ class Source:
         In order of time.
     notes : tuple of str
         Sentences.
+    origin : Files or None
+        What it was read from, with what it was read with: to be read again in another way.
     """
 
     name: str
     probe: ProbeFile
     contacts: Contacts
     notes: tuple[str, ...] = ()
+    origin: Files | None = None
 
 
 @dataclass(frozen=True)
@@ -85,6 +91,20 @@ class Files:
     def contacts(self) -> tuple[Path, ...]:
         """All that holds contacts."""
         return (*self.recordings, *self.tables, *self.verifications, *self.sessions)
+
+    def only(self, path: Path) -> Files:
+        """Return one of those that hold contacts, with what it is shown with."""
+
+        def those(paths: tuple[Path, ...]) -> tuple[Path, ...]:
+            return tuple(each for each in paths if each == path)
+
+        return replace(
+            self,
+            sessions=those(self.sessions),
+            recordings=those(self.recordings),
+            tables=those(self.tables),
+            verifications=those(self.verifications),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,6 +201,7 @@ def _kind_of_json(path: Path) -> str:
 
 def open_files(
     files: Files,
+    how: HowRead = _USUAL,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Opened:
@@ -190,6 +211,7 @@ def open_files(
     Parameters
     ----------
     files : Files
+    how : HowRead
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
 
@@ -213,16 +235,45 @@ def open_files(
         told(0, 1)
         try:
             if path in files.sessions:
-                sources.extend(_of_session(path, files, told, problems))
+                found = _of_session(path, files, how, told, problems)
             else:
-                sources.append(_of_file(path, files, told))
+                found = [_of_file(path, files, how, told)]
+            sources += [replace(source, origin=files.only(path)) for source in found]
         except InputError as error:
             problems.append(str(error))
         told(1, 1)
     return Opened(tuple(sources), tuple(problems), files)
 
 
-def _of_file(path: Path, files: Files, told: Callable[[int, int], None], name: str = "") -> Source:
+def read_again(
+    sources: Iterable[Source],
+    how: HowRead,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> Opened:
+    """Read those that come from recordings once more, in another way; as `open_files`."""
+    origins = {
+        source.origin.contacts: source.origin
+        for source in sources
+        if source.origin is not None and (source.origin.recordings or source.origin.sessions)
+    }
+    found: list[Source] = []
+    problems: list[str] = []
+    for number, origin in enumerate(origins.values()):
+
+        def told(share: float, number: int = number) -> None:
+            if progress is not None:
+                progress((number + share) / len(origins))
+
+        opened = open_files(origin, how, told, cancelled)
+        found += opened.sources
+        problems += opened.problems
+    return Opened(tuple(found), tuple(problems))
+
+
+def _of_file(
+    path: Path, files: Files, how: HowRead, told: Callable[[int, int], None], name: str = ""
+) -> Source:
     if files.probe is None:
         raise HeatmapError(f"{path.name}: give the probe that was touched, too: the .ply that was prepared.")
     probe = load_probe_file(files.probe)
@@ -232,7 +283,7 @@ def _of_file(path: Path, files: Files, told: Callable[[int, int], None], name: s
             " align it first."
         )
     if path in files.recordings:
-        contacts = _of_recording(path, files, probe, told)
+        contacts = _of_recording(path, files, probe, how, told)
     elif path in files.tables:
         contacts = read_contacts(path, files.wrenches)
     else:
@@ -247,13 +298,23 @@ def _of_file(path: Path, files: Files, told: Callable[[int, int], None], name: s
     return Source(name or path.name, probe, in_order(contacts), (*probe.notes, *contacts.notes))
 
 
-def _of_recording(path: Path, files: Files, probe: ProbeFile, told: Callable[[int, int], None]) -> Contacts:
+def _of_recording(
+    path: Path, files: Files, probe: ProbeFile, how: HowRead, told: Callable[[int, int], None]
+) -> Contacts:
     if files.calibration is None:
         raise HeatmapError(
             f"{path.name}: give its calibration.json, too: the weight of the probe is in its readings."
         )
     model = load_calibration(files.calibration).model
-    return locate_recording(path, probe.probe, model, gates=Gates(min_force=0.5), progress=told)
+    return locate_recording(
+        path,
+        probe.probe,
+        model,
+        gates=Gates(min_force=how.min_force),
+        R_ES=mount_rotation(how.mount),
+        delay=how.delay,
+        progress=told,
+    )
 
 
 def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
@@ -264,12 +325,13 @@ def _with_errors(contacts: Contacts, markers: Path) -> Contacts:
 
 
 def _of_session(
-    folder: Path, given: Files, told: Callable[[int, int], None], problems: list[str]
+    folder: Path, given: Files, how: HowRead, told: Callable[[int, int], None], problems: list[str]
 ) -> list[Source]:
     """Return the newest recording of a session, and the touches of its verification."""
     found: list[Source] = []
     reasons: list[str] = []
     with Session.open(folder, write=False) as session:
+        how = replace(how, mount=how.mount or mount_of(session.state))
         for kind, main in _OF_SESSION:
             try:
                 roles = newest_inputs(session.state, kind)
@@ -289,7 +351,8 @@ def _of_session(
                     calibration=laid.get("calibration"),
                 )
                 try:
-                    found.append(_of_file(laid[main], files, told, f"{folder.name}: {laid[main].name}"))
+                    name = f"{folder.name}: {laid[main].name}"
+                    found.append(_of_file(laid[main], files, how, told, name))
                 except InputError as error:
                     problems.append(f"{folder.name}: {error}")
     if not found and len(reasons) == len(_OF_SESSION):

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
+    from app.heatmap_viewer.how import HowRead
     from app.heatmap_viewer.sources import Files, Opened, Source
     from pipeline.heatmap.playback import Playback
     from pipeline.heatmap.windowing import Selection
@@ -112,6 +113,7 @@ class HeatmapViewer(QWidget):
         controls.changed.connect(self._redraw.start)
         controls.widened.connect(lambda _metres: self._make_all())
         controls.compared.connect(self._compare)
+        controls.reading.changed.connect(self._read_again)
         controls.asked_open.connect(self._ask_open)
         controls.asked_save.connect(self._saving.ask)
         self.time.changed.connect(self._redraw.start)
@@ -155,7 +157,7 @@ class HeatmapViewer(QWidget):
 
     def open(self, paths: Iterable[Path]) -> None:
         """Open files and folders of sessions, beside what is open; what is missing is said."""
-        before, given = self._files, tuple(paths)
+        before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
             from app.heatmap_viewer.sources import open_files, sorted_files
@@ -163,7 +165,7 @@ class HeatmapViewer(QWidget):
             found = sorted_files(given, before)
             if before is not None and not found.contacts:  # a probe alone: what waited for it is tried again
                 found = sorted_files((*before.contacts, *given), before)
-            return open_files(found, progress, cancelled)
+            return open_files(found, how, progress, cancelled)
 
         self.work.start(self.tr("Opening"), work, self._opened)
 
@@ -190,6 +192,26 @@ class HeatmapViewer(QWidget):
         self.controls.set_ready(True)
         self.time.setEnabled(True)
         self._sources_changed()
+
+    def _read_again(self, how: HowRead) -> None:
+        """Read the recordings once more, in another way; what cannot be stays as it was."""
+        before = tuple(self.sources)
+        if not before:
+            return
+
+        def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
+            from app.heatmap_viewer.sources import read_again
+
+            return read_again(before, how, progress, cancelled)
+
+        def came(opened: Opened) -> None:
+            fresh = {source.name: source for source in opened.sources}
+            self.sources = [fresh.get(source.name, source) for source in self.sources]
+            said = [*opened.problems, *(note for source in opened.sources for note in source.notes)]
+            self.controls.say("\n".join(dict.fromkeys(said)), bad=bool(opened.problems))
+            self._sources_changed()
+
+        self.work.start(self.tr("Reading again"), work, came)
 
     def _sources_changed(self) -> None:
         names = [source.name for source in self.sources]

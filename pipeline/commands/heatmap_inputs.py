@@ -24,11 +24,12 @@ _HEAD = 4096  # bytes that tell a verification from a table
 
 @dataclass(frozen=True)
 class Files:
-    """What a heatmap is made from."""
+    """What a heatmap is made from; `mount` as a session says, degrees about x, y, z."""
 
     contacts: Path
     probe: Path
     calibration: Path | None
+    mount: tuple[float, float, float] | None = None
 
 
 @contextmanager
@@ -47,6 +48,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
         yield Files(contacts, probe, calibration)
         return
     from pipeline.session import Session
+    from pipeline.session.making import mount_of
     from pipeline.session.recompute import lay_out, newest_inputs
 
     with Session.open(contacts, write=False) as session, tempfile.TemporaryDirectory() as scratch:
@@ -56,7 +58,7 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
         say(f"from the session: {said}")
         main = found["verification" if judged else "recording"]
         own = None if judged else found["calibration"]
-        yield Files(main, probe or found["probe"], calibration or own)
+        yield Files(main, probe or found["probe"], calibration or own, mount_of(session.state))
 
 
 def probe_in_sensor_frame(file: Path) -> ProbeFile:
@@ -115,15 +117,17 @@ def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, 
     from pipeline.calibration.files.calibration_file import load_calibration
     from pipeline.contact import Gates
     from pipeline.heatmap.contacts import locate_recording
+    from pipeline.session.making import mount_rotation as of_degrees
 
     model = load_calibration(files.calibration).model
+    R_ES = mount_rotation(mount) if mount is not None else of_degrees(files.mount)
     with Bar("reading") as bar:
         return locate_recording(
             files.contacts,
             content.probe,
             model,
             gates=Gates(min_force=min_force),
-            R_ES=mount_rotation(mount),
+            R_ES=R_ES,
             delay=delay,
             progress=bar,
         )

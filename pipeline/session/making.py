@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from pipeline.session.errors import SessionError
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import NDArray
+
+    from pipeline.session.state import State
 
 _P = TypeVar("_P", bound=BaseModel)
 
@@ -60,6 +62,27 @@ def mount_rotation(degrees: Three | None) -> NDArray[np.float64] | None:
         return None
     R: NDArray[np.float64] = Rotation.from_euler("xyz", degrees, degrees=True).as_matrix()
     return R
+
+
+def mount_of(state: State) -> Three | None:
+    """
+    Return how a session says that its sensor is mounted, degrees about the fixed axes x, y, z; None: it does not.
+
+    Raises
+    ------
+    SessionError
+        What it says is not three angles.
+    """
+    setting = state.settings.get("devices.mount")
+    if setting is None or setting.value is None:
+        return None
+    try:
+        angles: Three = TypeAdapter(Three).validate_python(setting.value)
+    except ValidationError:
+        raise SessionError(
+            "devices.mount: give three angles, degrees about the fixed axes x, y, z: set it anew."
+        ) from None
+    return angles
 
 
 def metres(millimetres: float | None) -> float | None:

@@ -156,6 +156,7 @@ class VerifyWork:
         with self._busy:
             if self.touches is not None:
                 return
+            self._wait_for_devices(cancelled)
             if self._live.pair is None:
                 raise InputError("No sensor is open: connect one in step 1, Devices, then start again.")
             settings = checked_parameters(parameters_of(self._desk.state)).settings()
@@ -177,6 +178,11 @@ class VerifyWork:
             raise InputError("The markers are not in the session yet: wait a moment, then start again.")
         probe, calibration = tool.content
         return {"probe": probe, "calibration": calibration, "markers": kept.content}
+
+    def _wait_for_devices(self, cancelled: Callable[[], bool]) -> None:
+        """Wait for devices that are just being opened, as when a session was opened a moment ago."""
+        while self._live.pair is None and self._live.opening and not cancelled():
+            time.sleep(0.05)
 
     def _measured(self, cancelled: Callable[[], bool]) -> Any:
         """Return the noise of the last second; None: it was cancelled."""

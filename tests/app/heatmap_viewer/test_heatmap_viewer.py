@@ -234,6 +234,54 @@ def test_a_session_is_opened(qtbot, viewer, files, tmp_path):
     assert [source.name for source in viewer.sources] == ["s: one.mcap"]
 
 
+def saved_mesh(qtbot, viewer, file, monkeypatch):
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(file), ""))
+    viewer.controls.asked_save.emit("mesh")
+    qtbot.waitUntil(lambda: "Saved" in viewer.controls.message.text(), timeout=LONG)
+    return file.read_bytes()
+
+
+def command(*arguments):
+    done = CliRunner().invoke(commands, ["heatmap", *map(str, arguments)])
+    assert done.exit_code == 0, done.output
+
+
+def test_how_a_recording_is_read_is_chosen_as_on_the_command_line(
+    qtbot, viewer, files, tmp_path, monkeypatch
+):
+    opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
+    box, first = viewer.controls.reading, viewer.sources[0]
+    assert not box.mount[2].isEnabled()
+    box.own_mount.setChecked(True)
+    box.mount[2].setValue(90.0)
+    box.delay.setValue(20.0)
+    box.least.setValue(2.0)
+    qtbot.waitUntil(lambda: viewer.sources[0] is not first and settled(viewer), timeout=LONG)
+    viewer.controls.bandwidth.setValue(3.0)
+    mine = saved_mesh(qtbot, viewer, tmp_path / "mine.ply", monkeypatch)
+    arguments = [files / "one.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json"]
+    arguments += ["--mount", "0,0,90", "--delay", 0.02, "--min-force", 2, "--bandwidth", 3]
+    command(*arguments, "--out", tmp_path / "theirs.ply")
+    assert mine == (tmp_path / "theirs.ply").read_bytes()
+    command(*arguments[:5], "--bandwidth", 3, "--out", tmp_path / "plain.ply")
+    assert mine != (tmp_path / "plain.ply").read_bytes()
+
+
+def test_the_mount_that_a_session_knows_counts_by_itself(qtbot, viewer, files, tmp_path, monkeypatch):
+    with Session.create(tmp_path / "s", by="ada") as session:
+        for kind, name in (("recording", "one.mcap"), ("probe", "p.ply"), ("calibration", "c.json")):
+            session.add_input(files / name, kind)
+        session.set_parameter("devices.mount", [0.0, 0.0, 90.0])
+    viewer.open([tmp_path / "s"])
+    qtbot.waitUntil(lambda: settled(viewer), timeout=LONG)
+    viewer.controls.bandwidth.setValue(3.0)
+    mine = saved_mesh(qtbot, viewer, tmp_path / "mine.ply", monkeypatch)
+    command(tmp_path / "s", "--bandwidth", 3, "--out", tmp_path / "session.ply")
+    arguments = [files / "one.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json"]
+    command(*arguments, "--mount", "0,0,90", "--bandwidth", 3, "--out", tmp_path / "mount.ply")
+    assert mine == (tmp_path / "session.ply").read_bytes() == (tmp_path / "mount.ply").read_bytes()
+
+
 def test_work_is_shown_and_can_be_stopped(qtbot, viewer, files, tmp_path, monkeypatch):
     opened(qtbot, viewer, files, "one.mcap", "p.ply", "c.json")
     viewer.time.speed.setCurrentIndex(viewer.time.speed.findData(0.1))

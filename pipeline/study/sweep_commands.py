@@ -69,7 +69,7 @@ def run(
         if value is not None
         for w in (name, str(value))
     ]
-    say(f"{plan.name}: {len(plan):,} cells of {plan.touches:,} touches")
+    say(f"{plan.name}: up to {len(plan):,} cells of {plan.touches:,} touches")
     with Bar("computing", counted=True) as bar:
         done = sweep(
             plan,

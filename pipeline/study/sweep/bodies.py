@@ -107,6 +107,11 @@ def unpacked_mesh(packed: dict[str, str]) -> tuple[NDArray[np.float64], NDArray[
     return vertices, np.frombuffer(parts["faces"], "<i4").reshape(-1, 3).astype(np.int32)
 
 
+def file_facets(name: str) -> int | None:
+    """Return how many facets a file has; None for a bundled probe, which can have any number; InputError."""
+    return None if name in assets.PROBE_NAMES else len(_file(name).faces)
+
+
 @lru_cache(maxsize=_KEPT)
 def _file(name: str) -> Probe:
     content = load_probe_file(Path(name))

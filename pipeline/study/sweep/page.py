@@ -23,12 +23,12 @@ _SAID = {
     " noise, of sure answers on the right part of the probe.",
     "force.png": "Error against force, with the bound that the sensor's noise sets.",
     "angle.png": "Error against the angle between force and normal, with the bound.",
-    "Steep touches, without noise": "Of several candidates contactbench takes the one with the smallest local torque, which"
-    " for one wrench is the one with the smallest angle between force and normal. Where touches are as steep as these, the"
-    " true candidate is often the steeper one; the wrench axis takes the first that it meets, which then is right more"
-    " often, and is wrong more often where touches are not steep. The wrench does not tell which; friction does: 60 degrees"
-    " need a coefficient of 1.7. Such answers are called ambiguous if `Gates.torque_ratio` allows for the steepest touch,"
-    " as it does here.",
+    "Steep touches, without noise": "Of several candidates contactbench takes the one with the smallest local torque,"
+    " which for one wrench is the one with the smallest angle between force and normal. Where touches are as steep as"
+    " these, the true candidate is often the steeper one; the wrench axis takes the first that it meets, which then is"
+    " right more often, and is wrong more often where touches are not steep. The wrench does not tell which; friction"
+    " does: 60 degrees need a coefficient of 1.7. Such answers are called ambiguous if `Gates.torque_ratio` allows for"
+    " the steepest touch, as it does here.",
     "astray.png": "The worst touches that were located on another part of the probe: true point green, located point"
     " orange, force blue. A line for each method that has any; sure answers before doubtful ones.",
 }

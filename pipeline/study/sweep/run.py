@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from pipeline.errors import InputError
 from pipeline.study.results import environment, write_results
-from pipeline.study.sweep.bodies import packed_mesh
+from pipeline.study.sweep.bodies import file_facets, packed_mesh
 from pipeline.study.sweep.cell import gates_for, run_cell
 from pipeline.study.sweep.plan import label
 from pipeline.study.sweep.store import Store
@@ -84,7 +84,7 @@ def run(
     InputError
         The folder or the scheduler cannot be used.
     """
-    cells = plan.cells()
+    cells = _distinct(plan)
     count = workers or os.cpu_count() or 1
     with Store(out) as store:
         todo = [cell for cell in cells if store.rows.get(cell.key, {"failed": "not yet"})["failed"]]
@@ -102,6 +102,16 @@ def run(
     facts = environment(workers=count, scheduler="a cluster" if scheduler else "this machine")
     file = write_results(out, KIND, command, rows, facts, _about(plan))
     return Swept(file, len(cells), computed, failed)
+
+
+def _distinct(plan: Plan) -> list[Cell]:
+    """Return the cells of a plan; of meshes finer than a file's own only the coarsest, because all are the file's."""
+    finest = {}
+    for probe in plan.probes:
+        own = file_facets(probe)
+        enough = [facets for facets in plan.facets if own is not None and facets >= own]
+        finest[probe] = min(enough, default=max(plan.facets))
+    return [cell for cell in plan.cells() if cell.facets <= finest[cell.probe]]
 
 
 def _about(plan: Plan) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """The wrench axis as a ray, traced by Embree: what contact sensing was before local torque."""
 
+from abc import ABC, abstractmethod
 from importlib import import_module
 
 import numpy as np
@@ -12,37 +13,26 @@ from pipeline.kernel import Batch, Contact
 Float = NDArray[np.float64]
 
 
-class EmbreeAxis:
-    """The first facet that the wrench axis enters, looking along the force.
+class WrenchAxis(ABC):
+    """The first facet that the wrench axis enters, looking along the force; how it is found is left open.
 
     Assumes k = 0: ``p x F = M - (M . F) F / |F|^2``, so p is where the axis
-    ``r = F x M / |F|^2 + t F`` meets the surface. Embree finds the facet in single precision; the point is
+    ``r = F x M / |F|^2 + t F`` meets the surface. A ray tracer finds the facet in single precision; the point is
     then computed on that facet's plane in double precision.
-
-    Raises
-    ------
-    InputError
-        Embree's bindings are not installed.
     """
 
     def __init__(self, solver: ContactSolver) -> None:
-        try:
-            scene_module = import_module("embreex.rtcore_scene")
-            mesh_module = import_module("embreex.mesh_construction")
-        except ImportError as error:
-            raise InputError(
-                "the wrench_axis method needs Embree: pip install 'contactbench[rivals]'"
-            ) from error
         self._solver = solver
         probe = solver.probe
         self._offset = np.einsum("ij,ij->i", probe.normals, probe.vertices[probe.faces[:, 0]])
         # Away from the origin single precision would blur the mesh: trace about its centre.
         self._centre = probe.bounds.mean(axis=0)
         self._far = 2.0 * float(np.linalg.norm(np.diff(probe.bounds, axis=0))) + probe.size
-        self.scene = scene_module.EmbreeScene()
-        self._mesh = mesh_module.TriangleMesh(
-            self.scene, (probe.vertices - self._centre).astype(np.float32), probe.faces.astype(np.int32)
-        )
+        self._single = (probe.vertices - self._centre).astype(np.float32), probe.faces.astype(np.int32)
+
+    @abstractmethod
+    def trace(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.int32]:
+        """Return the first facet that each ray (n, 3), (n, 3) enters, (n,); -1 for none."""
 
     def rays(self, wrenches: Float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Return origins (n, 3) about the mesh centre, m, and unit directions (n, 3), upstream of the probe."""
@@ -60,7 +50,7 @@ class EmbreeAxis:
         usable = np.isfinite(origins).all(axis=1) & np.isfinite(directions).all(axis=1)
         faces = np.full(len(rows), -1, dtype=np.int32)
         if usable.any():
-            faces[usable] = self.scene.run(origins[usable], directions[usable], query="INTERSECT")
+            faces[usable] = self.trace(origins[usable], directions[usable])
         points = self._points(rows, faces)
         return self._solver.foreign_batch(rows, points, faces, np.zeros(len(rows)))
 
@@ -80,3 +70,30 @@ class EmbreeAxis:
         t = (self._offset[faces[hit]] - np.einsum("ij,ij->i", normal, foot)) / along
         points[hit] = foot + t[:, None] * force
         return points
+
+
+class EmbreeAxis(WrenchAxis):
+    """The wrench axis traced by Embree.
+
+    Raises
+    ------
+    InputError
+        Embree's bindings are not installed.
+    """
+
+    def __init__(self, solver: ContactSolver) -> None:
+        try:
+            scene_module = import_module("embreex.rtcore_scene")
+            mesh_module = import_module("embreex.mesh_construction")
+        except ImportError as error:
+            raise InputError(
+                "the wrench_axis method needs Embree: pip install 'contactbench[rivals]'"
+            ) from error
+        super().__init__(solver)
+        self.scene = scene_module.EmbreeScene()
+        self._mesh = mesh_module.TriangleMesh(self.scene, *self._single)
+
+    def trace(self, origins: NDArray[np.float32], directions: NDArray[np.float32]) -> NDArray[np.int32]:
+        """Return the first facet that each ray enters; see `WrenchAxis`."""
+        faces: NDArray[np.int32] = self.scene.run(origins, directions, query="INTERSECT")
+        return faces

@@ -217,9 +217,19 @@ def run(
 
 
 def ride(
-    make: Callable[..., MovedScene], axis: str, size: float, period: float, depth: float
+    make: Callable[..., MovedScene],
+    axis: str,
+    size: float,
+    period: float,
+    depth: float,
+    *,
+    seen: Callable[[Moment], None] = lambda _: None,
 ) -> tuple[Ride, float]:
-    """Move a probe beside a phantom for a period and a quarter; return what was met, and simulated over real time."""
+    """
+    Move a probe beside a phantom for a period and a quarter; return what was met, and simulated over real time.
+
+    `seen` is told every moment of it.
+    """
     motion = PlatformMotion.along(axis, size, period, _REST_S)
     followed = PlatformMotion.along(axis, _SHARE * size, period, _REST_S)
     scene = make(motion=motion, gap=-depth)
@@ -237,6 +247,7 @@ def ride(
             moment = scene.moment()
             if k >= settled:
                 rows.append(_row(scene, moment))
+                seen(moment)
         spent += time.perf_counter() - begun
         if k >= settled:
             behind.append((q - scene.true_joints, (q - before) / _PERIOD_S))

@@ -1,0 +1,133 @@
+"""The ablation's curves as pictures, by Matplotlib; importing this module imports it, which takes a while."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from pipeline.study.ablation import locating, reading
+from pipeline.study.ablation.effects import FILTERED
+from pipeline.study.ablation.verdicts import MATTERS, noise_name, share_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+Row = dict[str, Any]
+# Okabe and Ito: everybody can tell them apart.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
+_STYLE: dict[Any, Any] = {
+    "font.size": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e5e7",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 4.0,
+    "legend.frameon": False,
+}
+_PANEL, _HEIGHT, _DPI = 3.4, 2.9, 80
+
+
+def plots(rows: Sequence[Row]) -> dict[str, bytes]:
+    """Return PNG images by file name."""
+    curves = [row for row in rows if row["kind"] == "curve"]
+    if not curves:
+        return {}
+    return {
+        "smooth.png": _panels(_smooth(curves)),
+        "torque.png": _panels(_torque(curves)),
+        "reading.png": _panels(_readings(curves)),
+    }
+
+
+Panel = tuple[str, str, str, dict[str, tuple[list[float], list[float], str]], float | None]
+
+
+def _smooth(curves: Sequence[Row]) -> list[Panel]:
+    panels: list[Panel] = []
+    for choice in locating.SMOOTHED:
+        mine = [r for r in curves if r["choice"] == choice]
+        noisy = [r for r in mine if r["x_name"] == "noise"]
+        lines = _lines(noisy, "facets", lambda facets: f"{facets:,} facets")
+        panels.append((choice, "noise, times that of a reading", "share of the error bought", lines, MATTERS))
+        twisted = [r for r in mine if r["x_name"] != "noise" and r["noise_times"] == FILTERED]
+        lines = _lines(twisted, "facets", lambda facets: f"{facets:,} facets")
+        panels.append((choice, "torsion, mm (noise filtered)", "share of the error bought", lines, MATTERS))
+    return panels
+
+
+def _torque(curves: Sequence[Row]) -> list[Panel]:
+    panels: list[Panel] = []
+    for choice, name in (
+        (locating.LOCAL_TORQUE, "torsion, mm"),
+        (locating.LOCAL_TORQUE, "noise"),
+        (locating.VERTICES, "torsion, mm"),
+        (locating.GATE, "force angle up to, deg"),
+    ):
+        mine = [r for r in curves if r["choice"] == choice and r["x_name"] == name]
+        split = "probe" if name == "noise" else "noise_times"
+        lines = _lines(
+            mine, split, lambda v: v if isinstance(v, str) else f"noise: {noise_name(v)}", share_of
+        )
+        shown = "noise, times that of a reading" if name == "noise" else name
+        panels.append((choice, shown, "share of the error bought", lines, MATTERS))
+    return panels
+
+
+def _readings(curves: Sequence[Row]) -> list[Panel]:
+    panels: list[Panel] = []
+    for choice in reading.CHOICES:
+        mine = [r for r in curves if r["choice"] == choice]
+        lines: dict[str, tuple[list[float], list[float], str]] = {}
+        for which, style in (("without", "--"), ("made", "-")):
+            for label, (xs, ys, _) in _lines(mine, "probe", str, _mean_of(f"{which}_mean_mm")).items():
+                lines[f"{label}, {'modelled' if which == 'made' else 'left out'}"] = (xs, ys, style)
+        panels.append((choice, reading.UNITS[choice], "mean error, mm", lines, None))
+    return panels
+
+
+def _mean_of(name: str) -> Callable[[Sequence[Row]], float]:
+    return lambda rows: float(np.mean([row[name] for row in rows]))
+
+
+def _lines(
+    rows: Sequence[Row],
+    split: str,
+    label: Callable[[Any], str],
+    figure: Callable[[Sequence[Row]], float] = share_of,
+) -> dict[str, tuple[list[float], list[float], str]]:
+    """Return x, y and the style of a line for each value of a column, over probes and repetitions."""
+    found = {}
+    for value in dict.fromkeys(row[split] for row in rows):
+        mine = [row for row in rows if row[split] == value]
+        xs = sorted({row["x"] for row in mine})
+        ys = [figure([row for row in mine if row["x"] == x]) for x in xs]
+        found[label(value)] = (xs, ys, "-")
+    return found
+
+
+def _panels(panels: Sequence[Panel]) -> bytes:
+    with rc_context(_STYLE):
+        figure = Figure(figsize=(_PANEL * len(panels), _HEIGHT), dpi=_DPI, layout="constrained")
+        for axes, (title, x_name, y_name, lines, mark) in zip(
+            figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
+        ):
+            colours: dict[str, str] = {}
+            for name, (xs, ys, style) in lines.items():
+                colour = colours.setdefault(name.split(", ")[0], _COLOURS[len(colours) % len(_COLOURS)])
+                axes.plot(xs, ys, style, marker="o", color=colour, label=name)
+            least = min((x for xs, _, _ in lines.values() for x in xs if x > 0), default=1.0)
+            axes.set_xscale("symlog", linthresh=least)
+            axes.set_xlim(left=0)
+            if mark is not None:
+                axes.axhline(mark, color="#6b6b6b", linewidth=0.8, linestyle=":")
+            axes.set(title=title, xlabel=x_name, ylabel=y_name)
+            axes.legend(fontsize=6.5)
+        data = BytesIO()
+        figure.savefig(data, format="png", metadata={"Software": None})
+    return data.getvalue()

@@ -1,0 +1,176 @@
+"""Choices of how a wrench is read: the sensor's crosstalk, its rotation on the flange, and its drift."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from itertools import count, cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import PoseNoise, PoseSample, calibrate
+from pipeline.calibration.drift import BiasTracker
+from pipeline.calibration.mounting import estimate_mount
+from pipeline.calibration.reachable import by_hand
+from pipeline.calibration.suggest import plan_poses
+from pipeline.simulation.sensor_model import preset
+from pipeline.study.ablation.locating import SENSOR, sigmas_of
+from pipeline.study.ablation.records import WEIGHT
+from pipeline.timing import time_calls
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.study.ablation.records import Record
+
+DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
+# What each is varied by, and what it is where nothing else is said.
+UNITS = {DRIFT: "K", MOUNT: "deg", CROSSTALK: "% of full scale"}
+USUAL = {DRIFT: 4.0, MOUNT: 2.0, CROSSTALK: 0.5}
+_POSES, _MEANED = 12, 200  # readings of a pose: a second
+_FREE_S, _FREE = (60.0, 3600.0), 12
+_FLOOR = np.repeat([1e-4, 2e-6], 3)  # N, N·m: below it a calibration would find no noise at all
+
+
+@dataclass(frozen=True, eq=False)
+class Read:
+    """
+    The same wrenches without a choice and with it.
+
+    Attributes
+    ----------
+    without, made : (n, 6)
+        After compensation, S, N and N·m.
+    turns : tuple of (3, 3)
+        R_ES as it is, as it is taken to be without the choice, and with it: what a robot sees of a contact.
+    """
+
+    without: NDArray[np.float64]
+    made: NDArray[np.float64]
+    turns: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
+
+def read(choice: str, record: Record, amount: float, noise: float, rng: np.random.Generator) -> Read:
+    """
+    Read a record with a sensor that is not perfect.
+
+    Parameters
+    ----------
+    choice : str
+        Of CHOICES.
+    record : Record
+    amount : float
+        In the unit of UNITS.
+    noise : float
+        Times that of one reading.
+    rng : numpy.random.Generator
+    """
+    drawn = sigmas_of(noise) * rng.standard_normal(record.contacts.shape)
+    return {DRIFT: _drift, MOUNT: _mount, CROSSTALK: _crosstalk}[choice](record, amount, drawn, rng)
+
+
+def costs(rng: np.random.Generator, rounds: int) -> dict[str, tuple[float, float]]:
+    """Time what each choice adds, µs, medians; interleaved: a moment without contact, a calibration, a reading."""
+    R_WE = _orientations()
+    readings = WEIGHT.predict(R_WE) + _bias() + _pose_noise().sigmas * rng.standard_normal((_POSES, 6))
+    poses = _poses(R_WE, readings)
+    calibration = calibrate(poses)
+    inverse, rows = np.linalg.inv(crosstalk_of(USUAL[CROSSTALK])), list(readings)
+    tracker = BiasTracker(calibration.model)
+    moments = zip(count(60.0, 60.0), cycle(readings), strict=False)
+    model, R, told = calibration.model, R_WE[0], _pose_noise()
+    calls: dict[str, Any] = {
+        "compensate": (lambda row: model.compensate(R, row), rows),
+        CROSSTALK: (lambda row: model.compensate(R, inverse @ row), rows),
+        "calibrate": (lambda _: calibrate(poses), rows),
+        MOUNT: (lambda _: estimate_mount(poses), rows),
+    }
+    timed = {name: timing.median / 1e3 for name, timing in time_calls(calls, rounds=rounds, block=12).items()}
+
+    def follow(_: None) -> None:
+        t, reading = next(moments)
+        tracker.update(t, R, reading, told)
+
+    once = time_calls({DRIFT: (follow, [None] * 12)}, rounds=rounds, block=12)
+    return {
+        DRIFT: (0.0, once[DRIFT].median / 1e3),
+        MOUNT: (timed["calibrate"], timed[MOUNT]),
+        CROSSTALK: (timed["compensate"], timed[CROSSTALK]),
+    }
+
+
+def crosstalk_of(percent: float) -> NDArray[np.float64]:
+    """Return the matrix (6, 6) of a sensor with so much crosstalk: the pattern of the noisy preset, scaled."""
+    pattern = preset("noisy").crosstalk - np.eye(6)
+    return np.asarray(np.eye(6) + percent / 0.5 * pattern)
+
+
+def _crosstalk(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
+    C = crosstalk_of(amount)
+    back = np.linalg.inv(C)
+    bias, noise = _bias(), _pose_noise()
+    R = _orientations()
+    still = WEIGHT.predict(R) @ C.T + bias + noise.sigmas * rng.standard_normal((_POSES, 6))
+    readings = (record.contacts + WEIGHT.predict(record.R_WS)) @ C.T + bias + drawn
+    plain = calibrate(_poses(R, still)).model
+    mended = calibrate(_poses(R, still @ back.T)).model
+    same = (np.eye(3),) * 3
+    return Read(
+        plain.compensate(record.R_WS, readings), mended.compensate(record.R_WS, readings @ back.T), same
+    )
+
+
+def _mount(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
+    axis = rng.standard_normal(3)
+    R_SE = Rotation.from_rotvec(np.radians(amount) * axis / np.linalg.norm(axis)).as_matrix()
+    bias, noise, R_WE = _bias(), _pose_noise(), _orientations()
+    still = WEIGHT.predict(R_WE @ R_SE.T) + bias + noise.sigmas * rng.standard_normal((_POSES, 6))
+    poses = _poses(R_WE, still)  # their orientations are the flange's
+    readings = record.contacts + WEIGHT.predict(record.R_WS) + bias + drawn
+    used = record.R_WS @ R_SE  # R_WE while it is used
+    believed, estimated = calibrate(poses), estimate_mount(poses)
+    return Read(
+        believed.model.compensate(used, readings),
+        estimated.compensate(used, readings),
+        (R_SE.T, np.eye(3), estimated.R_SE.T),
+    )
+
+
+def _drift(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
+    drift, bias, noise = preset(SENSOR).drift, _bias(), _pose_noise()
+    R = _orientations()
+    still = WEIGHT.predict(R) + bias + noise.sigmas * rng.standard_normal((_POSES, 6))
+    model = calibrate(_poses(R, still)).model
+    tracker = BiasTracker(model)
+    first, last = _FREE_S
+    for number, t in enumerate(np.linspace(first, last, _FREE)):
+        warmer = amount * (t - first) / (last - first)
+        free = WEIGHT.predict(R[number % _POSES]) + bias + warmer * drift
+        free = free + noise.sigmas * rng.standard_normal(6)
+        tracker.update(float(t), R[number % _POSES], free, noise)
+    readings = record.contacts + WEIGHT.predict(record.R_WS) + bias + amount * drift + drawn
+    return Read(
+        model.compensate(record.R_WS, readings),
+        tracker.corrected_model().compensate(record.R_WS, readings),
+        (np.eye(3),) * 3,
+    )
+
+
+def _bias() -> NDArray[np.float64]:
+    return preset(SENSOR).bias
+
+
+def _pose_noise() -> PoseNoise:
+    sigmas = np.maximum(preset(SENSOR).noise / np.sqrt(_MEANED), _FLOOR)
+    return PoseNoise(sigmas[:3], sigmas[3:])
+
+
+def _poses(R: NDArray[np.float64], readings: NDArray[np.float64]) -> list[PoseSample]:
+    return [PoseSample(each, w[:3], w[3:]) for each, w in zip(R, readings, strict=True)]
+
+
+@cache
+def _orientations() -> NDArray[np.float64]:
+    return plan_poses(_POSES, by_hand()).R_WS

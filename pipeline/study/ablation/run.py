@@ -1,0 +1,225 @@
+"""All of the ablation: every choice in every scene, curves of where it begins to matter, and what it costs."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assets
+from pipeline.errors import InputError
+from pipeline.study.ablation import locating, reading, scenery
+from pipeline.study.ablation.effects import CHOICES, FILTERED, NOISES, QUIET, RAW, effect, meaningful
+from pipeline.study.ablation.locating import locators, sigmas_of
+from pipeline.study.ablation.records import SCENES, Record, drawn, record
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+Row = dict[str, Any]
+KIND = "ablation"
+_MOST_SEEDS = 100
+_NOISE_STEPS = (0.0, 0.001, 0.003, 0.01, 0.03, 0.1, FILTERED, 0.3, 1.0)
+_TORSIONS_MM = (0.0, 0.1, 0.3, 1.0, 2.0, 3.0, 5.0, 10.0)
+_ANGLES_DEG = (15.0, 30.0, 45.0, 60.0, 70.0, 80.0)
+_AMOUNTS = {
+    reading.DRIFT: (0.1, 0.3, 1.0, 2.0, 4.0, 8.0),
+    reading.MOUNT: (0.1, 0.3, 1.0, 2.0, 5.0, 10.0),
+    reading.CROSSTALK: (0.01, 0.03, 0.1, 0.3, 1.0, 3.0),
+}
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """
+    How much is done.
+
+    Attributes
+    ----------
+    probes, scenes : tuple of str
+    facets : int
+        Of the mesh in the scenes.
+    coarse : tuple of int
+        Of the meshes on which smooth normals are tried.
+    size : int
+        Markers, and fifths of a second, of a scene.
+    touches : int
+        Drawn for each point of a curve.
+    seeds : int
+    rounds : int
+        Of timed blocks.
+    motions : tuple of str
+        Of the platform.
+    """
+
+    probes: tuple[str, ...] = assets.PROBE_NAMES
+    scenes: tuple[str, ...] = SCENES
+    facets: int = 2_000
+    coarse: tuple[int, ...] = (300, 500, 1_000, 2_000)
+    size: int = 15
+    touches: int = 4_000
+    seeds: int = 5
+    rounds: int = 20
+    motions: tuple[str, ...] = ("vertical", "in plane", "out of plane")
+
+    def __post_init__(self) -> None:
+        for probe in self.probes:
+            if probe not in assets.PROBE_NAMES:
+                raise InputError(f"--probe {probe}: choose of {', '.join(assets.PROBE_NAMES)}.")
+        for scene in self.scenes:
+            if scene not in SCENES:
+                raise InputError(f"--scene {scene}: choose of {', '.join(SCENES)}.")
+        if not 1 <= self.seeds <= _MOST_SEEDS:
+            raise InputError(f"--seeds {self.seeds}: give 1 to {_MOST_SEEDS}.")
+
+
+QUICK = Sizes(
+    probes=("linear",),
+    scenes=("touch", "platform"),
+    coarse=(500,),
+    size=3,
+    touches=400,
+    seeds=2,
+    rounds=2,
+    motions=("in plane",),
+)
+
+
+def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
+    """
+    Measure everything.
+
+    Parameters
+    ----------
+    sizes : Sizes
+    seed : int
+        Of touches and noise; that of each repetition is this one plus its number.
+    progress : callable
+        Told what is being done.
+
+    Returns
+    -------
+    list of dict
+        Plain rows of four kinds: ``effect``, ``curve``, ``scenery`` and ``cost``.
+
+    Raises
+    ------
+    InputError
+        MuJoCo is missing.
+    """
+    rows: list[Row] = []
+    progress("costs")
+    rows += costs(sizes, seed)
+    for probe in sizes.probes:
+        progress(f"{probe}: touches drawn on the exact surface")
+        rows += _curves(probe, sizes, seed)
+        rows += effects(drawn(probe, sizes.touches, np.random.default_rng([seed, 14])), sizes, seed)
+        for scene in sizes.scenes:
+            progress(f"{probe}: scene {scene}")
+            rows += effects(record(scene, probe, sizes.size), sizes, seed)
+            rows += [{"kind": "scenery", **asdict(each)} for each in _scenery(scene, probe, sizes)]
+    return rows
+
+
+def effects(made: Record, sizes: Sizes, seed: int) -> Iterator[Row]:
+    """Give every choice that can matter on a record, at every noise and for every seed."""
+    for choice in CHOICES:
+        if not meaningful(choice, made.scene):
+            continue
+        for name, noise in NOISES.items():
+            for number in _seeds(noise, choice, sizes.seeds):
+                about = {"choice": choice, "scene": made.scene, "probe": made.probe, "noise": name}
+                figures = effect(choice, made, sizes.facets, noise, seed + number)
+                yield {"kind": "effect", **about, "facets": sizes.facets, "seed": seed + number} | figures
+
+
+def costs(sizes: Sizes, seed: int) -> list[Row]:
+    """Time every choice beside doing without it."""
+    rng = np.random.default_rng([seed, 12])
+    rows = []
+    for probe in sizes.probes:
+        wrenches = drawn(probe, 2_000, rng).contacts
+        wrenches = wrenches + sigmas_of(FILTERED) * rng.standard_normal(wrenches.shape)
+        timed = locators(probe, sizes.facets, FILTERED).costs(wrenches, sizes.rounds)
+        rows += [_cost(choice, probe, "a solve", *pair) for choice, pair in timed.items()]
+    per = {
+        reading.DRIFT: "a moment without contact",
+        reading.MOUNT: "a calibration",
+        reading.CROSSTALK: "a reading",
+    }
+    timed = reading.costs(rng, max(sizes.rounds // 2, 2))
+    return rows + [_cost(choice, "", per[choice], *pair) for choice, pair in timed.items()]
+
+
+def _cost(choice: str, probe: str, per: str, without: float, made: float) -> Row:
+    return {
+        "kind": "cost",
+        "choice": choice,
+        "probe": probe,
+        "per": per,
+        "without_us": without,
+        "made_us": made,
+    }
+
+
+def _scenery(scene: str, probe: str, sizes: Sizes) -> Iterator[scenery.Difference]:
+    if scene == "press":
+        yield scenery.phantom_pressed(probe, sizes.size)
+    for motion in sizes.motions:
+        if scene == "platform":
+            yield scenery.phantom_ridden(probe, motion)
+        if scene == "arm":
+            yield scenery.arm_ridden(probe, motion)
+
+
+def _curves(probe: str, sizes: Sizes, seed: int) -> Iterator[Row]:
+    for number in range(sizes.seeds):
+        usual = drawn(probe, sizes.touches, np.random.default_rng([seed + number, 13]))
+        for noise in _NOISE_STEPS:
+            for facets, choice in product(sizes.coarse, locating.SMOOTHED):
+                yield _point(choice, usual, facets, noise, seed + number, "noise", noise)
+            yield _point(locating.LOCAL_TORQUE, usual, sizes.facets, noise, seed + number, "noise", noise)
+        yield from _twisted(probe, sizes, seed + number)
+        for choice, amounts in _AMOUNTS.items():
+            for amount in amounts:
+                unit = reading.UNITS[choice]
+                yield _point(choice, usual, sizes.facets, FILTERED, seed + number, unit, amount, amount)
+
+
+def _twisted(probe: str, sizes: Sizes, seed: int) -> Iterator[Row]:
+    """Vary the local torque, and the angle of the force."""
+    for torsion in _TORSIONS_MM:
+        made = drawn(probe, sizes.touches, np.random.default_rng([seed, 13]), torsion=1e-3 * torsion)
+        for noise in (QUIET, FILTERED, RAW):
+            for choice, facets in (
+                (locating.LOCAL_TORQUE, sizes.facets),
+                (locating.VERTICES, sizes.facets),
+                *product(locating.SMOOTHED, sizes.coarse),
+            ):
+                yield _point(choice, made, facets, noise, seed, "torsion, mm", torsion)
+    for angle in _ANGLES_DEG:
+        made = drawn(probe, sizes.touches, np.random.default_rng([seed, 13]), angle=angle)
+        for noise in (QUIET, FILTERED, RAW):
+            yield _point(locating.GATE, made, sizes.facets, noise, seed, "force angle up to, deg", angle)
+
+
+def _point(
+    choice: str,
+    made: Record,
+    facets: int,
+    noise: float,
+    seed: int,
+    name: str,
+    x: float,
+    amount: float | None = None,
+) -> Row:
+    about = {"choice": choice, "scene": made.scene, "probe": made.probe, "facets": facets, "seed": seed}
+    figures = effect(choice, made, facets, noise, seed, amount)
+    return {"kind": "curve", **about, "noise_times": noise, "x_name": name, "x": x} | figures
+
+
+def _seeds(noise: float, choice: str, count: int) -> Sequence[int]:
+    """Return the repetitions that differ: without noise only the sensors of the choices of reading do."""
+    return range(count if noise > 0 or choice in reading.CHOICES else 1)

@@ -23,10 +23,10 @@ from widgets.icons import icon
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from PySide6.QtWidgets import QMenu
+    from PySide6.QtWidgets import QMenu, QWidget
 
     from app.about import AboutDialog
-    from app.heatmap_viewer import HeatmapViewer
+    from app.motion import MotionWindow
     from app.window import MainWindow
 
 _KEY = QKeySequence.StandardKey
@@ -45,7 +45,7 @@ class Menus(QObject):
         super().__init__(window)
         self._window = window
         self._only_open: list[QAction] = []
-        self._viewers: list[HeatmapViewer] = []
+        self._viewers: list[QWidget] = []
         self._file()
         self._edit()
         self._view()
@@ -116,6 +116,7 @@ class Menus(QObject):
     def _tools(self) -> None:
         menu = self._menu(self.tr("&Tools"))
         self._add(menu, self.tr("&Heatmap viewer"), self.show_heatmap_viewer, "Ctrl+H")
+        self._add(menu, self.tr("&Motion control on the virtual bench"), self.show_motion, "Ctrl+M")
 
     def _help(self) -> None:
         menu = self._menu(self.tr("&Help"))
@@ -171,13 +172,26 @@ class Menus(QObject):
 
         bench = self._window.bench
         viewer = HeatmapViewer()
+        self._show_beside(viewer, self.tr("Heatmap viewer"))
+        if bench is not None:
+            viewer.open([bench.desk.folder])
+
+    def show_motion(self) -> MotionWindow:
+        """Show a closed loop in a window of its own; with a session, on the bundle that it would give."""
+        from app.motion import MotionWindow
+
+        motion = MotionWindow(lambda: self._window.bench)
+        self._show_beside(motion, self.tr("Motion control on the virtual bench"))
+        if self._window.bench is not None:
+            motion.use_session()
+        return motion
+
+    def _show_beside(self, viewer: QWidget, title: str) -> None:
         viewer.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        viewer.setWindowTitle(self.tr("Heatmap viewer"))
+        viewer.setWindowTitle(title)
         self._viewers = [each for each in self._viewers if isValid(each)] + [viewer]
         viewer.resize(1280, 800)
         viewer.show()
-        if bench is not None:
-            viewer.open([bench.desk.folder])
 
     def close_windows(self) -> None:
         """Close what was opened beside the window."""

@@ -147,6 +147,8 @@ def read_line(line: str | bytes) -> Beginning | Frame | dict[str, Any]:
 
 def _checked(kind: type, content: dict[str, Any]) -> dict[str, Any]:
     """Return the fields of a kind, arrays as tuples, numbers finite."""
+    if unknown := set(content) - {each.name for each in fields(kind)}:
+        raise ValueError(f"{sorted(unknown)[0]} is unknown")
     found = {}
     for each in fields(kind):
         value = content[each.name]

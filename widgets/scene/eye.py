@@ -95,22 +95,22 @@ class Eye:
             return None
         ratio = self._view.devicePixelRatioF()
         begin, end = self.screen().ray(place.x() * ratio, place.y() * ratio, 4.0 * self.reach + 1.0)
-        turn = self._stage.turn[:3, :3]
-        return picker.along(turn.T @ begin, turn.T @ end)
+        turn, origin = self._stage.turn[:3, :3], self._stage.turn[:3, 3]
+        return picker.along(turn.T @ (begin - origin), turn.T @ (end - origin))
 
     def sees(self, point: NDArray[np.float64]) -> bool:
         """Whether no part of the probe hides a point of S."""
         picker = self._probe.picker
         if picker is None:
             return True
-        turn = self._stage.turn[:3, :3]
-        world = turn @ point
+        turn, origin = self._stage.turn[:3, :3], self._stage.turn[:3, 3]
+        world = turn @ point + origin
         into = self.look.axes[2]
         if self.look.perspective:
             eye = np.asarray(self.look.focal) - self.look.distance * into
             into = (world - eye) / max(float(np.linalg.norm(world - eye)), 1e-9)
         begin, end = world - 4.0 * self.reach * into, world - 0.01 * self._stage.size * into
-        return picker.along(turn.T @ begin, turn.T @ end) is None
+        return picker.along(turn.T @ (begin - origin), turn.T @ (end - origin)) is None
 
     def _ball(self) -> tuple[tuple[float, float, float], float]:
         """Return the middle and the radius of what is to be seen: in the world, whichever way the tool is held."""

@@ -164,7 +164,10 @@ class PoseLayer:
         """Put the letters where the axes end."""
         turn = self._stage.turn
         ends = np.vstack(
-            [self._ends @ turn[:3, :3].T, [[-1.15 * self._stage.size, 0.0, -0.15 * self._stage.size]]]
+            [
+                self._ends @ turn[:3, :3].T + turn[:3, 3],
+                [[-1.15 * self._stage.size, 0.0, -0.15 * self._stage.size]],
+            ]
         )
         places = screen.project(ends)
         for place, label in zip(places, (*self._letters, self._down_word), strict=True):

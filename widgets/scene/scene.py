@@ -197,9 +197,11 @@ class Scene(QWidget):
 
     # ---- how it stands -----------------------------------------------------------------------------
 
-    def show_orientation(self, R_WS: NDArray[np.float64] | None) -> None:
-        """Turn the tool as it stands in the world; None: show it in S."""
-        self.stage.turn = homogeneous(R_WS)
+    def show_orientation(
+        self, R_WS: NDArray[np.float64] | None, p_WS_W: NDArray[np.float64] | None = None
+    ) -> None:
+        """Show the tool as it stands in the world, and where (3,), m; None: show it in S."""
+        self.stage.turn = homogeneous(R_WS, p_WS_W)
         for layer in (self.probe_layer, self._force, self._contact, self._markers, self._poses, self._brush):
             layer.turn()
         self._poses.show_orientation(R_WS is not None, self.tr("down"))

@@ -108,11 +108,13 @@ def frame_on(point: ArrayLike, normal: ArrayLike, radius: float = 1.0) -> NDArra
     return T
 
 
-def homogeneous(R: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    """Return a rotation (3, 3) as (4, 4); None is none."""
+def homogeneous(R: NDArray[np.float64] | None, p: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
+    """Return a rotation (3, 3) and a place (3,) as (4, 4); None is none."""
     T = np.eye(4)
     if R is not None:
         T[:3, :3] = R
+    if p is not None:
+        T[:3, 3] = p
     return T
 
 

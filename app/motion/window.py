@@ -1,0 +1,263 @@
+"""The window in which a closed loop is watched."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PySide6.QtCore import QTimer
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
+
+from app.errors import in_words
+from app.jobs import Jobs
+from app.motion.controls import Controls
+from app.motion.picture import Picture
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from PySide6.QtGui import QCloseEvent
+
+    from app.bench import Bench
+    from pipeline.config.runtime import RuntimeConfig
+    from pipeline.session import Session
+    from pipeline.workbench.motion import MotionRun
+
+_TICK_MS = 40
+_CHARTS_EVERY = 2  # ticks
+_PATIENCE_S = 10.0
+_REAL = 0.9  # of real time: less is seen
+
+
+class MotionWindow(QWidget):
+    """
+    Runs the controller of a bundle on a virtual robot, and shows it.
+
+    Parameters
+    ----------
+    bench : callable
+        Returns the bench of the open session, or None.
+
+    Attributes
+    ----------
+    controls : Controls
+    picture : Picture
+    run : MotionRun or None
+        What runs, or has run.
+    """
+
+    def __init__(self, bench: Callable[[], Bench | None], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._bench = bench
+        self.jobs = Jobs(self)
+        self.controls, self.picture = Controls(self), Picture(self)
+        self.run: MotionRun | None = None
+        self._bundle: Path | None = None
+        self._made = tempfile.TemporaryDirectory(prefix="contactbench-", ignore_cleanup_errors=True)
+        self._busy = self._closed = False
+        self._ticks = self._told = 0
+        self._tick = QTimer(self, interval=_TICK_MS)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        row.addWidget(self.picture, 1)
+        row.addWidget(self.controls)
+        self._connect()
+        self.controls.show_numbers(None, None)
+        self._show_ready()
+        self.controls.say(self.tr("Choose a bundle; then press Start. All is simulated: nothing real moves."))
+
+    def _connect(self) -> None:
+        controls = self.controls
+        controls.asked_bundle.connect(lambda of_session: self.use_session() if of_session else self._ask())
+        controls.asked_start.connect(self.begin)
+        controls.asked_stop.connect(self.stop)
+        self._tick.timeout.connect(self._show)
+        self.picture.scene.dropped.connect(self.use_bundle)
+        shortcut = QShortcut(QKeySequence("Esc"), self)
+        shortcut.activated.connect(self.stop)
+
+    # ---- which bundle ------------------------------------------------------------------------------
+
+    def use_session(self) -> None:
+        """Take what the open session would export now."""
+        bench = self._bench()
+        if bench is None:
+            self.controls.say(self.tr("No session is open: open one, or choose a bundle."), bad=True)
+            return
+        place = Path(self._made.name) / "session.zip"
+
+        def write(session: Session) -> Path:
+            from pipeline.workbench.export import built
+
+            built(session, unverified=True).write(place)
+            return place
+
+        self._begin_work(self.tr("Making the session's bundle…"))
+        future = bench.desk.do(write)
+        self.jobs.follow(
+            self.tr("Making a bundle"),
+            future,
+            lambda made: self._load(made, bench.desk.folder.name),
+            self._failed,
+        )
+
+    def use_bundle(self, bundle: Path) -> None:
+        """Take an exported bundle."""
+        if self.run is None or not self.run.running:
+            self._begin_work(self.tr("Opening the bundle…"))
+            self._load(bundle, bundle.name)
+
+    def _load(self, bundle: Path, name: str) -> None:
+        def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> RuntimeConfig:
+            from pipeline.config.runtime import RuntimeConfig
+
+            return RuntimeConfig.load(bundle)
+
+        self.jobs.start(
+            self.tr("Opening a bundle"), work, lambda config: self._loaded(bundle, name, config), self._failed
+        )
+
+    def _loaded(self, bundle: Path, name: str, config: RuntimeConfig) -> None:
+        if self._closed:
+            return
+        self._bundle, self._busy = bundle, False
+        self.picture.show_probe(config.probe)
+        self.controls.bundle.setText(self._words_on(config, name))
+        self.controls.say("")
+        self._show_ready()
+
+    def _words_on(self, config: RuntimeConfig, name: str) -> str:
+        model = config.model
+        words = self.tr("{name}, probe “{probe}”.").format(name=name, probe=model.probe.name)
+        if not model.verified:
+            words += " " + self.tr("It is not verified: for trials only.")
+        if model.controller is None:
+            return words + " " + self.tr("It has no gains: the usual ones for its probe are taken.")
+        gains = self.tr("It presses with {force:g} N.").format(force=model.controller.desired_force_N)
+        return f"{words} {gains}"
+
+    def _ask(self) -> None:
+        name, _ = QFileDialog.getOpenFileName(
+            self,
+            self.tr("Open a bundle"),
+            "",
+            self.tr("Bundles (*.zip contactbench.json);;All files (*)"),
+        )
+        if name:
+            chosen = Path(name)
+            self.use_bundle(chosen.parent if chosen.name == "contactbench.json" else chosen)
+
+    # ---- running -----------------------------------------------------------------------------------
+
+    def begin(self) -> None:
+        """Begin to run what is chosen."""
+        from pipeline.workbench.motion import MotionRun
+
+        if self._bundle is None or self._busy or (self.run is not None and self.run.running):
+            return
+        if self.run is not None:
+            self.run.close()
+            self.run = None
+        try:
+            self.run = MotionRun(self._bundle, self.controls.choice())
+        except ValueError as error:
+            self.controls.say(in_words(error)[0], bad=True)
+            return
+        self._ticks = self._told = 0
+        self.controls.show_changes(())
+        self.controls.say(self.tr("The virtual robot is being made…"))
+        self.controls.set_running(True, ready=True)
+        self._tick.start()
+
+    def stop(self) -> None:
+        """Have the probe go back."""
+        if self.run is not None and self.run.running:
+            self.controls.stop.setEnabled(False)
+            self.run.stop()
+
+    def _show(self) -> None:
+        run = self.run
+        if run is None or self._closed:
+            return
+        over = not run.running  # first: what comes after it is seen below
+        beginning, frame = run.beginning, run.newest
+        if beginning is not None and frame is not None:
+            self.controls.say(self._words_on_pace(run.pace))
+            self._ticks += 1
+            self.picture.show_frame(beginning, frame)
+            self.controls.show_state(frame.state)
+            within, out = np.degrees(frame.angles_rad)
+            self.controls.show_numbers(frame.force_N, (float(within), float(out)))
+            changes = run.changes
+            if len(changes) != self._told:
+                self._told = len(changes)
+                self.controls.show_changes(changes)
+            if over or self._ticks % _CHARTS_EVERY == 1:
+                self.picture.show_course(run.course(self.picture.span_s), beginning.wanted_N)
+        if over:
+            self._over(run)
+
+    def _words_on_pace(self, pace: float | None) -> str:
+        if pace is None or pace > _REAL:
+            return ""
+        words = self.tr(
+            "This computer is too slow for real time: what is seen goes {pace:.1f} times as fast."
+        )
+        return words.format(pace=pace)
+
+    def _over(self, run: MotionRun) -> None:
+        self._tick.stop()
+        self._show_ready()
+        outcome = run.outcome
+        if outcome is None:
+            self.controls.show_state(None)
+            self.controls.say(run.failure, bad=True)
+        elif outcome["faults"]:
+            self.controls.say(" ".join(outcome["faults"]), bad=True)
+        else:
+            self.controls.say(self._summary(outcome))
+
+    def _summary(self, outcome: dict[str, Any]) -> str:
+        low, high = outcome["force_N"]
+        within, out = outcome["angle_error_deg"]
+        return self.tr(
+            "It tracked for {seconds:.0f} s with {low:.1f} to {high:.1f} N, on average {within:.1f}° off along the face"
+            " and {out:.1f}° across it."
+        ).format(seconds=outcome["tracked_s"], low=low, high=high, within=within, out=out)
+
+    # ---- work and end ------------------------------------------------------------------------------
+
+    def _begin_work(self, words: str) -> None:
+        self._busy = True
+        self.controls.say(words)
+        self._show_ready()
+
+    def _failed(self, error: BaseException) -> None:
+        if not self._closed:
+            self._busy = False
+            self.controls.say(in_words(error)[0], bad=True)
+            self._show_ready()
+
+    def _show_ready(self) -> None:
+        self.controls.set_running(False, ready=self._bundle is not None and not self._busy)
+
+    def close_window(self) -> None:
+        """End what runs and give the scene back; it is of no use afterwards."""
+        if self._closed:
+            return
+        self._closed = True
+        self._tick.stop()
+        if self.run is not None:
+            self.run.close()
+        self.picture.scene.close_scene()
+        self.jobs.wait(_PATIENCE_S)
+        self._made.cleanup()
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """Close for good."""
+        self.close_window()
+        super().closeEvent(event)

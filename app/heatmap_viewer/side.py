@@ -14,7 +14,6 @@ from widgets.scene import Scene
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from app.heatmap_viewer.sources import Source
     from pipeline.heatmap.playback import Frame, Playback
     from pipeline.heatmap.windowing import Selection
     from widgets.scene import Pick
@@ -88,14 +87,14 @@ class Side(QWidget):
         self.source.addItems(list(names))
         self.source.setCurrentIndex(current)
 
-    def set_playback(self, source: Source, playback: Playback) -> None:
+    def set_playback(self, playback: Playback) -> None:
         """Show another one."""
         self.playback, self._pick = playback, None
-        if self._probe_of is not source.probe:
+        if self._probe_of is not playback.probe:
             first = self._probe_of is None
-            self._probe_of = source.probe
+            self._probe_of = playback.probe
             self.scene.show_field(None)
-            self.scene.show_probe(source.probe.probe)
+            self.scene.show_probe(playback.probe)
             if first:
                 self.scene.look("fit")
 

@@ -280,7 +280,7 @@ class HeatmapViewer(QWidget):
         key = (id(source), bandwidth)
         kept = self._playbacks.get(key)
         if kept is not None and kept.contacts is source.contacts:  # a number may belong to another one by now
-            self._made(number, source, kept)
+            self._made(number, kept)
             return
         self._making.add(number)
 
@@ -290,7 +290,7 @@ class HeatmapViewer(QWidget):
             self._playbacks[key] = playback
             self._making.discard(number)
             if self._wanted[number] == (source, bandwidth):
-                self._made(number, source, playback)
+                self._made(number, playback)
             else:
                 self._make(number)
 
@@ -307,8 +307,8 @@ class HeatmapViewer(QWidget):
 
         self.work.start(self.tr("Spreading contacts"), work, done, failed)
 
-    def _made(self, number: int, source: Source, playback: Playback) -> None:
-        self.sides[number].set_playback(source, playback)
+    def _made(self, number: int, playback: Playback) -> None:
+        self.sides[number].set_playback(playback)
         if number == 1:
             self._camera.follow_first()
         self._redraw.start()

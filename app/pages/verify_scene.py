@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pipeline.errors import InputError
+from pipeline.heatmap.finer import drawing_of
 from pipeline.heatmap.heatmap import default_bandwidth, heatmap
 
 if TYPE_CHECKING:
@@ -128,7 +129,7 @@ class TouchScene:
 
         def work(_progress: object, _cancelled: object) -> Any:
             try:
-                return heatmap(probe, points, bandwidth=width, counted="samples")
+                return heatmap(drawing_of(probe), points, bandwidth=width, counted="samples")
             except InputError:  # a bandwidth that does not suit a tiny probe: no colours then
                 return None
 
@@ -137,7 +138,8 @@ class TouchScene:
     def _drawn(self, found: Any) -> None:
         self._busy = False
         if found is not None and self.heat:
-            self._scene.show_field(found.values, f"{found.title} [{found.unit}]", (0.0, found.top))
+            title = f"{found.title} [{found.unit}]"
+            self._scene.show_field(found.values, title, (0.0, found.top), on=found.probe)
 
     def _not_drawn(self, error: BaseException) -> None:
         self._busy = self.heat = False

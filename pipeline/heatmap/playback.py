@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.heatmap.bells import Bells
+from pipeline.heatmap.finer import drawing_of
 from pipeline.heatmap.heatmap import (
     _DENSITY_UNITS,
     _SCALES,
@@ -82,6 +83,7 @@ class Playback:
     Contacts on a probe, ready to be shown for any window of time and range of force.
 
     Making one takes as long as a heatmap; its frames take milliseconds. Any thread may use it, one at a time.
+    `probe` is then the one that it draws on, whose facets are small enough, see `drawing_of`.
 
     Parameters
     ----------
@@ -98,16 +100,16 @@ class Playback:
     """
 
     def __init__(self, probe: Probe, contacts: Contacts, bandwidth: float | None = None) -> None:
-        self.probe, self.contacts = probe, contacts
+        self.probe, self.contacts = drawing_of(probe), contacts
         self.bandwidth = default_bandwidth(contacts.sigmas) if bandwidth is None else bandwidth
         if not len(contacts.points):
             raise HeatmapError("there is no contact to draw: touch the probe while recording.")
         _check_bandwidth(probe, self.bandwidth)
-        self._bells = Bells(probe, contacts.points, self.bandwidth)
+        self._bells = Bells(self.probe, contacts.points, self.bandwidth)
         self._tops: dict[tuple[object, ...], float] = {}
         self._masks: dict[tuple[object, ...], NDArray[np.bool_]] = {}
         self._matrix = self._bells._bells.T.tocsr()
-        self._peaks = _Peaks(self._bells, len(probe.vertices))
+        self._peaks = _Peaks(self._bells, len(self.probe.vertices))
 
     @property
     def duration(self) -> float:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pipeline.heatmap.finer import drawing_of
 from pipeline.heatmap.heatmap import HeatmapError, Normalisation, Quantity, default_bandwidth, heatmap
 
 if TYPE_CHECKING:
@@ -202,7 +203,7 @@ def drawn(
     use: NDArray[np.bool_],
 ) -> Heatmap:
     """
-    Return the heatmap of contacts that were selected already.
+    Return the heatmap of contacts that were selected already; it is drawn on facets small enough, see `drawing_of`.
 
     Parameters
     ----------
@@ -213,7 +214,7 @@ def drawn(
     """
     per_second = selection.quantity == "density" and selection.normalisation == "seconds"
     return heatmap(
-        probe,
+        drawing_of(probe),
         contacts.points[use],
         contacts.seconds[use] if per_second else None,
         selection.quantity,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.heatmap import Heatmap, heatmap
+from pipeline.heatmap.finer import drawing_of
 from pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -82,4 +83,4 @@ def error_map(touches: Sequence[TouchFigure], probe: Probe) -> Heatmap | None:
     points = 1e-3 * np.array([touch.point_mm for touch in known], dtype=np.float64)
     errors = 1e-3 * np.array([touch.distance_mm for touch in known], dtype=np.float64)
     bandwidth = min(_BANDWIDTH, 0.1 * probe.size)
-    return heatmap(probe, points, None, "error", bandwidth, values=errors, counted="touches")
+    return heatmap(drawing_of(probe), points, None, "error", bandwidth, values=errors, counted="touches")

@@ -8,6 +8,7 @@ import pytest
 from pipeline.contact import WrenchNoise
 from pipeline.heatmap import HeatmapError
 from pipeline.heatmap.contacts import Contacts
+from pipeline.heatmap.finer import drawing_of
 from pipeline.heatmap.playback import Playback
 from pipeline.heatmap.windowing import Selection, selected_heatmap
 from pipeline.mesh import Probe
@@ -27,7 +28,7 @@ def bench():
     order = top[np.argsort(centroids[top, 0])]
     at = centroids[order[np.arange(N) * len(order) // N]]
     found = Contacts(at, np.full(N, 0.01), np.full(N, 1e-3), np.linspace(1, 9, N), 0.01 * N, {})
-    return probe, replace(found, times=0.01 * np.arange(N))
+    return drawing_of(probe), replace(found, times=0.01 * np.arange(N))
 
 
 @pytest.fixture(scope="module")

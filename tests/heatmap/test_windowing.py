@@ -7,6 +7,7 @@ import pytest
 
 from pipeline.heatmap import HeatmapError, heatmap
 from pipeline.heatmap.contacts import Contacts
+from pipeline.heatmap.finer import drawing_of
 from pipeline.heatmap.windowing import (
     OUTSIDE_FORCE,
     OUTSIDE_TIME,
@@ -110,7 +111,7 @@ def test_a_part_is_drawn_like_these_contacts_alone(probe):
     found = replace(contacts(probe), times=np.arange(10) * 0.1)
     part = selected_heatmap(probe, found, Selection("force", bandwidth=0.003, start=0.25, end=0.65))
     alone = heatmap(
-        probe,
+        drawing_of(probe),
         found.points[3:7],
         quantity="force",
         bandwidth=0.003,

@@ -185,8 +185,10 @@ class ProbeLayer:
         self._overlay.give(vtkPolyData() if probe is None else triangles(probe.vertices, probe.faces))
         self._overlay.look.SetOpacity(opacity)
 
-    def show_field(self, values: NDArray[np.float64] | None, limits: tuple[float, float]) -> None:
-        """Show a scalar per vertex as colours, or the facets' own colours again."""
+    def show_field(
+        self, values: NDArray[np.float64] | None, limits: tuple[float, float], on: Probe | None = None
+    ) -> None:
+        """Show a scalar per vertex, of the probe or of `on`, as colours, or the facets' own colours again."""
         shown = values is not None and self.probe is not None
         self._field.show(shown)
         self._coarse.show(False)
@@ -194,7 +196,7 @@ class ProbeLayer:
         if values is None or self.probe is None:
             return
         data = vtkPolyData()
-        data.ShallowCopy(self._fine())
+        data.ShallowCopy(self._fine() if on is None else triangles(on.vertices, on.faces))
         data.GetCellData().SetScalars(None)
         data.GetPointData().SetScalars(numpy_to_vtk(np.ascontiguousarray(values, np.float64), deep=True))
         mapper = self._field.mapper

@@ -145,10 +145,15 @@ class Scene(QWidget):
         values: NDArray[np.float64] | None,
         title: str = "",
         limits: tuple[float, float] | None = None,
+        on: Probe | None = None,
     ) -> None:
-        """Show a scalar per vertex (n,) as colours (cividis) with a bar; None: none. NaN stays plain."""
+        """
+        Show a scalar per vertex (n,) as colours (cividis) with a bar; None: none. NaN stays plain.
+
+        The vertices are those of the probe that is shown, or of `on`: its surface in other facets.
+        """
         ends = limits or (limits_of(values) if values is not None else (0.0, 1.0))
-        self.probe_layer.show_field(values, ends)
+        self.probe_layer.show_field(values, ends, on)
         self.colour_bar.setVisible(values is not None and self.probe_layer.probe is not None)
         self.colour_bar.tell(title, ends)
         self._arrange()

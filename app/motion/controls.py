@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from pipeline.workbench.motion import Change, MotionChoice
 
-_WIDTH_PX, _BUTTON_PX = 348, 40
+_WIDTH_PX, _BUTTON_PX, _LINES_PX = 348, 40, 40
 _PERIODS_S = (20.0, 10.0, 5.0, 2.0)
 _SHOWN = 6  # changes
 
@@ -119,7 +119,7 @@ class Controls(QWidget):
         self.state.setAccessibleName(self.tr("What the controller does"))
         self.force.setAccessibleName(self.tr("Force"))
         self.angle.setAccessibleName(self.tr("Angle to the phantom"))
-        self.does.setMinimumHeight(44)  # two lines: the panel must not jump
+        self.message.setMinimumHeight(_LINES_PX)  # the panel must not jump
         for button in (self.of_session, self.other):
             button.setMinimumHeight(36)
             button.setStyleSheet("padding: 4px 6px;")
@@ -163,6 +163,10 @@ class Controls(QWidget):
         column.addWidget(self.state)
         column.addWidget(self.does)
         column.addLayout(_row(self.force, self.angle))
+        captions = QLabel(self.tr("force"), card), QLabel(self.tr("angle to the phantom"), card)
+        for caption in captions:
+            caption.setProperty("role", "muted")
+        column.addLayout(_row(*captions))
         return card
 
     def _connect(self) -> None:

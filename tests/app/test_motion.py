@@ -1,10 +1,16 @@
 """The window of the closed loop: it takes a bundle, runs it, shows it, stops it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from shiboken6 import isValid
+from workbench.touch_session import make_session, verify
 
 from app.motion import MotionWindow
+from pipeline.session import Session
 from pipeline.study.bundle_example import example_config
+from pipeline.workbench.desk import Desk
 from widgets.theme import use_theme
 
 LONG_MS = 60_000
@@ -67,6 +73,34 @@ def test_wrong_bundles_are_said_in_words(qtbot, window, tmp_path):
     assert "No session is open" in window.controls.message.text()
     window.begin()  # of no effect
     assert window.run is None
+
+
+def test_the_session_that_is_open_is_what_is_run(qtbot, tmp_path):
+    (tmp_path / "files").mkdir()
+    make_session(tmp_path / "bench 1", tmp_path / "files")
+    verify(tmp_path / "bench 1")
+    desk = Desk(Session.open(tmp_path / "bench 1", by="ada"))
+    made = MotionWindow(lambda: SimpleNamespace(desk=desk))
+    made.show()
+    try:
+        made.use_session()
+        assert not made.controls.start.isEnabled()
+        qtbot.waitUntil(made.controls.start.isEnabled, timeout=LONG_MS)
+        assert made.controls.bundle.text().startswith("bench 1, ")
+        assert "no gains" in made.controls.bundle.text()
+    finally:
+        made.close()
+        made.deleteLater()
+        desk.close()
+
+
+def test_the_menu_opens_it_and_the_main_window_closes_it(qtbot, make_window):
+    main = make_window()
+    motion = main.menus.show_motion()
+    qtbot.waitExposed(motion)
+    assert "virtual bench" in motion.windowTitle()
+    main.close()
+    qtbot.waitUntil(lambda: not isValid(motion) or not motion.isVisible(), timeout=LONG_MS)
 
 
 def test_closing_ends_what_runs(qtbot, window, bundle):

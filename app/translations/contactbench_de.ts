@@ -580,6 +580,206 @@
         <source>{title}: {percent}</source>
         <translation>{title}: {percent}</translation>
     </message>
+    <message>
+        <source>This session</source>
+        <translation>Diese Sitzung</translation>
+    </message>
+    <message>
+        <source>Open bundle</source>
+        <translation>Paket öffnen</translation>
+    </message>
+    <message>
+        <source>Start</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Stop</source>
+        <translation>Stopp</translation>
+    </message>
+    <message>
+        <source>Robot</source>
+        <translation>Roboter</translation>
+    </message>
+    <message>
+        <source>Both are simulated: nothing real moves.</source>
+        <translation>Beide sind simuliert: Nichts Wirkliches bewegt sich.</translation>
+    </message>
+    <message>
+        <source>Elfin3 arm</source>
+        <translation>Elfin3-Arm</translation>
+    </message>
+    <message>
+        <source>stiff mount</source>
+        <translation>steife Halterung</translation>
+    </message>
+    <message>
+        <source>The phantom</source>
+        <translation>Das Phantom</translation>
+    </message>
+    <message>
+        <source>How the soft phantom moves under the probe.</source>
+        <translation>Wie sich das weiche Phantom unter der Sonde bewegt.</translation>
+    </message>
+    <message>
+        <source>tilts along the face</source>
+        <translation>kippt längs der Fläche</translation>
+    </message>
+    <message>
+        <source>tilts across the face</source>
+        <translation>kippt quer zur Fläche</translation>
+    </message>
+    <message>
+        <source>goes up and down</source>
+        <translation>geht auf und ab</translation>
+    </message>
+    <message>
+        <source>rests</source>
+        <translation>ruht</translation>
+    </message>
+    <message>
+        <source>There and back in</source>
+        <translation>Hin und zurück in</translation>
+    </message>
+    <message>
+        <source>Period T of the phantom&apos;s motion.</source>
+        <translation>Periode T der Bewegung des Phantoms.</translation>
+    </message>
+    <message>
+        <source>{seconds:g} s</source>
+        <translation>{seconds:g} s</translation>
+    </message>
+    <message>
+        <source>Control</source>
+        <translation>Regelung</translation>
+    </message>
+    <message>
+        <source>Aware: how the phantom moves is estimated and led. Plain: force and place alone.</source>
+        <translation>Vorausschauend: Die Bewegung des Phantoms wird geschätzt und vorweggenommen. Einfach: nur Kraft und Ort.</translation>
+    </message>
+    <message>
+        <source>as in the bundle</source>
+        <translation>wie im Paket</translation>
+    </message>
+    <message>
+        <source>aware</source>
+        <translation>vorausschauend</translation>
+    </message>
+    <message>
+        <source>plain</source>
+        <translation>einfach</translation>
+    </message>
+    <message>
+        <source>How far</source>
+        <translation>Wie weit</translation>
+    </message>
+    <message>
+        <source>Amplitude of the phantom&apos;s motion, to either side.</source>
+        <translation>Ausschlag des Phantoms, nach jeder Seite.</translation>
+    </message>
+    <message>
+        <source>What the controller does</source>
+        <translation>Was die Regelung tut</translation>
+    </message>
+    <message>
+        <source>Angle to the phantom</source>
+        <translation>Winkel zum Phantom</translation>
+    </message>
+    <message>
+        <source>What would be exported of the open session now.</source>
+        <translation>Was aus der offenen Sitzung jetzt exportiert würde.</translation>
+    </message>
+    <message>
+        <source>A folder or zip file that was exported.</source>
+        <translation>Ein Ordner oder eine Zip-Datei, die exportiert wurde.</translation>
+    </message>
+    <message>
+        <source>The probe goes back and stands still (Esc).</source>
+        <translation>Die Sonde geht zurück und steht still (Esc).</translation>
+    </message>
+    <message>
+        <source>Motion control</source>
+        <translation>Bewegungsregelung</translation>
+    </message>
+    <message>
+        <source>force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>angle to the phantom</source>
+        <translation>Winkel zum Phantom</translation>
+    </message>
+    <message>
+        <source> mm</source>
+        <translation> mm</translation>
+    </message>
+    <message>
+        <source>°</source>
+        <translation>°</translation>
+    </message>
+    <message>
+        <source>Not running</source>
+        <translation>Läuft nicht</translation>
+    </message>
+    <message>
+        <source>{:.1f} N</source>
+        <translation>{:.1f} N</translation>
+    </message>
+    <message>
+        <source>{:.1f}°</source>
+        <translation>{:.1f}°</translation>
+    </message>
+    <message>
+        <source>{time:.1f} s  {state}: {why}</source>
+        <translation>{time:.1f} s  {state}: {why}</translation>
+    </message>
+    <message>
+        <source>Approaching</source>
+        <translation>Nähert sich</translation>
+    </message>
+    <message>
+        <source>The probe goes slowly towards the phantom.</source>
+        <translation>Die Sonde geht langsam auf das Phantom zu.</translation>
+    </message>
+    <message>
+        <source>In contact</source>
+        <translation>In Kontakt</translation>
+    </message>
+    <message>
+        <source>The force grows; then the stiffness is felt.</source>
+        <translation>Die Kraft wächst; dann wird die Steifigkeit ertastet.</translation>
+    </message>
+    <message>
+        <source>Tracking</source>
+        <translation>Folgt</translation>
+    </message>
+    <message>
+        <source>It keeps its force and stands upright.</source>
+        <translation>Sie hält ihre Kraft und steht senkrecht.</translation>
+    </message>
+    <message>
+        <source>Holding</source>
+        <translation>Hält an</translation>
+    </message>
+    <message>
+        <source>Nothing moves until it is sure again.</source>
+        <translation>Nichts bewegt sich, bis alles wieder sicher ist.</translation>
+    </message>
+    <message>
+        <source>Going back</source>
+        <translation>Geht zurück</translation>
+    </message>
+    <message>
+        <source>The probe leaves the phantom.</source>
+        <translation>Die Sonde verlässt das Phantom.</translation>
+    </message>
+    <message>
+        <source>Standing still</source>
+        <translation>Steht still</translation>
+    </message>
+    <message>
+        <source>It has ended; nothing moves any more.</source>
+        <translation>Es ist zu Ende; nichts bewegt sich mehr.</translation>
+    </message>
 </context>
 <context>
     <name>Coverage</name>
@@ -790,6 +990,17 @@
     </message>
 </context>
 <context>
+    <name>DiskWatch</name>
+    <message>
+        <source>Nothing is written into this session at the moment, because the last write failed. Free some space, or check the disk: the session goes on by itself then, and says so.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>The disk can be written again, and the session goes on. Do again what was refused; what was recorded before is there.</source>
+        <translation type="unfinished"></translation>
+    </message>
+</context>
+<context>
     <name>Docks</name>
     <message>
         <source>Steps</source>
@@ -895,6 +1106,10 @@
     <message>
         <source>Looking at the bundle</source>
         <translation>Das Paket wird angesehen</translation>
+    </message>
+    <message>
+        <source>How many readings a second the robot will get is not known: a verification would have told. Verify in step 5, or fill in Readings under Settings, as the sensor is set.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>together {size}, SHA-256 {sha256}…</source>
@@ -1500,6 +1715,10 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Geben Sie jetzt an, was sie berührt hat: eine Aufzeichnung, Kontakte oder eine Überprüfung.</translation>
     </message>
     <message>
+        <source>Reading again</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
         <source>Open the folder of a session</source>
         <translation>Ordner einer Sitzung öffnen</translation>
     </message>
@@ -1532,6 +1751,49 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Keeping the regions</source>
         <translation>Die Regionen werden behalten</translation>
+    </message>
+</context>
+<context>
+    <name>Leaving</name>
+    <message>
+        <source>Leave {name} out</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Why is {name} not touched? The report says so.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>nothing reaches it</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the mark cannot be seen any more</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>the housing gives way there</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>a touch there would do damage</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Leave it out</source>
+        <translation type="unfinished">Auslassen</translation>
+    </message>
+    <message>
+        <source>{name} is not left out: that needs a reason.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name} is not left out: it was touched meanwhile.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>{name} is left out: {why}. The verdict and the report say so.</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -1955,6 +2217,10 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>&amp;Heatmap-Betrachter</translation>
     </message>
     <message>
+        <source>&amp;Motion control on the virtual bench</source>
+        <translation>&amp;Bewegungsregelung am virtuellen Messplatz</translation>
+    </message>
+    <message>
         <source>&amp;Help</source>
         <translation>&amp;Hilfe</translation>
     </message>
@@ -1993,6 +2259,10 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Heatmap viewer</source>
         <translation>Heatmap-Betrachter</translation>
+    </message>
+    <message>
+        <source>Motion control on the virtual bench</source>
+        <translation>Bewegungsregelung am virtuellen Messplatz</translation>
     </message>
     <message>
         <source>Save diagnostics</source>
@@ -2165,6 +2435,69 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
+    <name>MotionWindow</name>
+    <message>
+        <source>Choose a bundle; then press Start. All is simulated: nothing real moves.</source>
+        <translation>Wählen Sie ein Paket und drücken Sie Starten. Alles ist simuliert: Nichts Wirkliches bewegt sich.</translation>
+    </message>
+    <message>
+        <source>No session is open: open one, or choose a bundle.</source>
+        <translation>Keine Sitzung ist offen: Öffnen Sie eine, oder wählen Sie ein Paket.</translation>
+    </message>
+    <message>
+        <source>Making the session&apos;s bundle…</source>
+        <translation>Das Paket der Sitzung wird gemacht…</translation>
+    </message>
+    <message>
+        <source>Making a bundle</source>
+        <translation>Ein Paket wird gemacht</translation>
+    </message>
+    <message>
+        <source>Opening the bundle…</source>
+        <translation>Das Paket wird geöffnet…</translation>
+    </message>
+    <message>
+        <source>Opening a bundle</source>
+        <translation>Ein Paket wird geöffnet</translation>
+    </message>
+    <message>
+        <source>{name}, probe “{probe}”.</source>
+        <translation>{name}, Sonde „{probe}“.</translation>
+    </message>
+    <message>
+        <source>It is not verified: for trials only.</source>
+        <translation>Es ist nicht überprüft: nur für Versuche.</translation>
+    </message>
+    <message>
+        <source>It has no gains: the usual ones for its probe are taken.</source>
+        <translation>Es hat keine Verstärkungen: Die üblichen für seine Sonde werden genommen.</translation>
+    </message>
+    <message>
+        <source>It presses with {force:g} N.</source>
+        <translation>Es drückt mit {force:g} N.</translation>
+    </message>
+    <message>
+        <source>Open a bundle</source>
+        <translation>Ein Paket öffnen</translation>
+    </message>
+    <message>
+        <source>Bundles (*.zip contactbench.json);;All files (*)</source>
+        <translation>Pakete (*.zip contactbench.json);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>The virtual robot is being made…</source>
+        <translation>Der virtuelle Roboter wird gemacht…</translation>
+    </message>
+    <message>
+        <source>This computer is too slow for real time: what is seen goes {pace:.1f} times as fast.</source>
+        <translation>Dieser Rechner ist zu langsam für Echtzeit: Was zu sehen ist, geht {pace:.1f}-mal so schnell.</translation>
+    </message>
+    <message>
+        <source>It tracked for {seconds:.0f} s with {low:.1f} to {high:.1f} N, on average {within:.1f}° off along the face and {out:.1f}° across it.</source>
+        <translation>Sie folgte {seconds:.0f} s lang mit {low:.1f} bis {high:.1f} N, im Mittel {within:.1f}° daneben längs der Fläche und {out:.1f}° quer dazu.</translation>
+    </message>
+</context>
+<context>
     <name>NextBar</name>
     <message>
         <source>How far the work is</source>
@@ -2180,6 +2513,33 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Looking at the session</source>
         <translation>Die Sitzung wird angesehen</translation>
+    </message>
+</context>
+<context>
+    <name>Picture</name>
+    <message>
+        <source>Force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>force</source>
+        <translation>Kraft</translation>
+    </message>
+    <message>
+        <source>wanted</source>
+        <translation>gewollt</translation>
+    </message>
+    <message>
+        <source>angle along the face</source>
+        <translation>Winkel längs der Fläche</translation>
+    </message>
+    <message>
+        <source>across it</source>
+        <translation>quer dazu</translation>
+    </message>
+    <message>
+        <source>Angle to the phantom</source>
+        <translation>Winkel zum Phantom</translation>
     </message>
 </context>
 <context>
@@ -2448,6 +2808,41 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Stopping</source>
         <translation>Wird angehalten</translation>
+    </message>
+</context>
+<context>
+    <name>ReadingBox</name>
+    <message>
+        <source>Reading recordings</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mount of the sensor, degrees</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Off: as the session says, or not turned. On: about the flange&apos;s fixed axes x, y, z.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Mount about {axis}, degrees</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How much later a wrench is heard than its pose, ms</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>A touch is above this force, N</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Delay</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Touched above</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 <context>
@@ -3713,8 +4108,8 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Auslassen</translation>
     </message>
     <message>
-        <source>Go on with the marker after the next one; the verdict says that it is missing</source>
-        <translation>Mit dem übernächsten Marker weitermachen; das Urteil sagt, dass dieser fehlt</translation>
+        <source>Go on with the marker after the next one; you say why, and the report repeats it</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Touch it for me</source>
@@ -3934,10 +4329,6 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>Ending the recording</source>
         <translation>Die Aufzeichnung wird beendet</translation>
-    </message>
-    <message>
-        <source>{name} is left out: the verdict will say that it is missing.</source>
-        <translation>{name} ist ausgelassen: Das Urteil wird sagen, dass er fehlt.</translation>
     </message>
 </context>
 <context>

@@ -1,0 +1,190 @@
+"""The solver, and the long double that judges it, against exact rational numbers."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.contact import ContactSolver
+from pipeline.study import hard_meshes as hm
+from pipeline.study.stability import theory
+from pipeline.study.stability.amplification import OPEN, QUIET
+from pipeline.study.stability.rows import Row
+
+if TYPE_CHECKING:
+    from pipeline.contact import Contact
+    from pipeline.study.hard_meshes import Body, Drawn, Float
+
+    Vector = tuple[Fraction, Fraction, Fraction]
+
+PART = "exact"
+ERROR = "error against exact arithmetic, times the cosine of the friction angle"
+OTHERWISE = "facets accepted or refused otherwise than in exact arithmetic"
+DEPTH = "how far from the edge the exact point was then, times that cosine"
+NONE, SPREAD = "wrenches without an answer", "answers of one wrench on a convex body, apart"
+DOUBLE, LONG = "double", "long double"
+# Stated: rounding decides only within this of an edge, mm; an answer is as near to the exact one.
+MOST_MM = 1e-12
+# Long double finds what exact arithmetic need not look at: it is itself right to far less than this share of a facet.
+_SURE = 1e-9
+
+
+def run(samples: int, seed: int) -> list[Row]:
+    """
+    Compare on facets, edges, vertices and in the gaps between facets.
+
+    Parameters
+    ----------
+    samples : int
+        Touches of each case.
+    seed : int
+    """
+    round_body, bent = hm.ellipsoid(), hm.bundled("t-shape", 1000)
+    rng = np.random.default_rng(seed)
+    rows: list[Row] = []
+    for case, body, drawn in (
+        ("ellipsoid, inside facets", round_body, hm.press(*hm.places(round_body, samples, rng), rng)),
+        (
+            "ellipsoid, on edges",
+            round_body,
+            hm.press(*hm.places(round_body, samples, rng, "edge"), rng, arm=0.003),
+        ),
+        (
+            "ellipsoid, on vertices",
+            round_body,
+            hm.press(*hm.places(round_body, samples, rng, "vertex"), rng, arm=0.0),
+        ),
+        (
+            "ellipsoid, in the gaps at vertices",
+            round_body,
+            hm.press(*hm.places(round_body, samples, rng, "cone"), rng, pitch=0.03),
+        ),
+        ("T-shape, inside facets", bent, hm.press(*hm.places(bent, samples, rng), rng)),
+        ("T-shape, on edges", bent, hm.press(*hm.places(bent, samples, rng, "edge"), rng)),
+    ):
+        rows += _compared(case, body, drawn)
+    return rows
+
+
+def _compared(case: str, body: Body, drawn: Drawn) -> list[Row]:
+    solver = ContactSolver(body.probe(), QUIET, OPEN)
+    off, long_off, depths, apart, none = [], [], [0.0], [0.0], 0
+    for wrench in drawn.wrenches:
+        answers = _answers(solver.locate(wrench))
+        facets = {face for face, vertex, _, _ in answers if vertex is None}
+        F, M = _vector(wrench[:3]), _vector(wrench[3:])
+        none += not answers
+        apart += [float(np.linalg.norm(a[2] - answers[0][2])) for a in answers[1:]]
+        for face, vertex, point, cosine in answers:
+            truth = _facet_point(body, face, F, M) if vertex is None else _vector(body.vertices[vertex])
+            off.append(cosine * _distance(_vector(point), truth))
+            if vertex is None:
+                long = theory.answers_on(body, np.array([face]), wrench[None])[0]
+                long_off.append(cosine * _distance(_long_vector(long), truth))
+        for face in facets | _possible(body, wrench):
+            margins = _margins(body, face, F, M)
+            # On the very edge, the solver's rule for ties decides.
+            if max(margins) != 0 and (max(margins) < 0) != (face in facets):
+                depths.append(_depth(body, face, F, margins))
+    count = len(drawn)
+    rows = [
+        Row.of(PART, case, DOUBLE, ERROR, "mm", 1e3 * np.array(off), most=MOST_MM),
+        Row.count(PART, case, DOUBLE, OTHERWISE, len(depths) - 1, count),
+        Row.of(PART, case, DOUBLE, DEPTH, "mm", 1e3 * np.array(depths), most=MOST_MM),
+        Row.count(PART, case, DOUBLE, NONE, none, count, most=0.0),
+    ]
+    if long_off:
+        rows.append(Row.of(PART, case, LONG, ERROR, "mm", 1e3 * np.array(long_off), most=1e-3 * MOST_MM))
+    if solver.convex:
+        rows.append(Row.of(PART, case, DOUBLE, SPREAD, "mm", 1e3 * np.array(apart), most=MOST_MM))
+    return rows
+
+
+def _answers(contact: Contact) -> list[tuple[int, int | None, Float, float]]:
+    """Return facet, vertex, point and cosine of the friction angle of all candidates."""
+    found = [(c.face, c.vertex, c.point, _cosine(c.friction_angle)) for c in contact.candidates]
+    if contact.point is not None and contact.face is not None:
+        found.append((contact.face, contact.vertex, contact.point, _cosine(contact.friction_angle)))
+    return found
+
+
+def _cosine(degrees: float) -> float:
+    return math.cos(math.radians(degrees))
+
+
+def _possible(body: Body, wrench: Float) -> set[int]:
+    """Return facets that may accept a wrench (6,), as far as long double tells."""
+    every = np.arange(len(body.faces))
+    hit = theory.answers_on(body, every, np.tile(wrench, (len(every), 1)))
+    facing = -(body.normals @ wrench[:3].astype(np.longdouble))
+    least = hm.areal(body, every, hit).min(axis=1)
+    edge_on = np.abs(facing) < _SURE * np.linalg.norm(wrench[:3])
+    # Edge-on facets hold a contact only at a grazing angle that no gate lets through.
+    return {int(f) for f in np.flatnonzero((facing > 0) & (least > -_SURE) & ~edge_on)}
+
+
+def _corners(body: Body, face: int) -> tuple[Vector, Vector, Vector]:
+    a, b, c = (_vector(body.vertices[v]) for v in body.faces[face])
+    return a, b, c
+
+
+def _facet_point(body: Body, face: int, F: Vector, M: Vector) -> Vector:
+    """Solve Eq. 6 on a facet's plane: p (n . F) = n x M + (n . a) F, whatever the length of n."""
+    a, b, c = _corners(body, face)
+    n = _cross(_minus(b, a), _minus(c, a))
+    along, height, turned = _dot(n, F), _dot(n, a), _cross(n, M)
+    x, y, z = ((t + height * f) / along for t, f in zip(turned, F, strict=True))
+    return x, y, z
+
+
+def _margins(body: Body, face: int, F: Vector, M: Vector) -> tuple[Fraction, ...]:
+    """Return the wrench's moments about the three edges: all negative, and the facet accepts it."""
+    corners = _corners(body, face)
+    return tuple(
+        _dot(M, _minus(b, a)) + _dot(F, _cross(a, b))
+        for a, b in zip(corners, (*corners[1:], corners[0]), strict=True)
+    )
+
+
+def _depth(body: Body, face: int, F: Vector, margins: tuple[Fraction, ...]) -> float:
+    """Return how far the exact point is from the edge that decides, times the cosine of the friction angle, m."""
+    corners = _corners(body, face)
+    worst = max(range(3), key=lambda i: margins[i])
+    edge = _minus(corners[(worst + 1) % 3], corners[worst])
+    # A moment about an edge is its length times the point's distance times the unit normal's n . F.
+    return abs(float(margins[worst])) / (_length(edge) * _length(F))
+
+
+def _vector(values: Float) -> Vector:
+    x, y, z = (Fraction(float(v)) for v in values)
+    return x, y, z
+
+
+def _long_vector(values: np.ndarray[tuple[int, ...], np.dtype[np.longdouble]]) -> Vector:
+    high = values.astype(np.float64)
+    low = (values - high).astype(np.float64)
+    x, y, z = (Fraction(float(h)) + Fraction(float(v)) for h, v in zip(high, low, strict=True))
+    return x, y, z
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def _dot(a: Vector, b: Vector) -> Fraction:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def _length(a: Vector) -> float:
+    return math.sqrt(float(_dot(a, a)))
+
+
+def _distance(a: Vector, b: Vector) -> float:
+    return _length(_minus(a, b))

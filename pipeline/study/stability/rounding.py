@@ -1,0 +1,97 @@
+"""How much of a solve is rounding: errors in double and single precision, over what the condition explains."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from pipeline.contact import ContactSolver
+from pipeline.study import hard_meshes as hm
+from pipeline.study.stability import builds, theory
+from pipeline.study.stability.amplification import COSINE, OPEN, QUIET
+from pipeline.study.stability.rows import Row
+
+if TYPE_CHECKING:
+    from pipeline.study.hard_meshes import Body, Float
+    from pipeline.study.stability.builds import Rows, Workshop
+    from pipeline.study.stability.theory import Touches
+
+PART = "rounding"
+ERROR = "error against long double"
+RATIO = "error over unit roundoff times condition"
+FACETS, FAR = "facets", "distance of the mesh from the sensor origin, m"
+DOUBLE, SINGLE = "double", "single"
+_UNITS = {DOUBLE: theory.DOUBLE, SINGLE: theory.SINGLE}
+# Stated, up to 100,000 facets: an answer is the exact one of a wrench and a mesh this many roundoffs away.
+MOST_ROUNDOFFS = 16.0
+
+
+def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = False) -> list[Row]:
+    """
+    Measure rounding towards n . F = 0, with finer meshes and further from the sensor origin.
+
+    Parameters
+    ----------
+    samples : int
+        Touches of each figure.
+    seed : int
+    workshop : Workshop, optional
+        Where the single-precision solver is built; without one there is only double precision.
+    quick : bool
+        No large meshes.
+    """
+    rows: list[Row] = []
+    for power in range(8):
+        rng = np.random.default_rng((seed, power))
+        angle = np.full(samples, np.degrees(np.arccos(10.0**-power)))
+        touches = theory.touch(hm.ellipsoid(), samples, rng, angle=angle)
+        case = "ellipsoid, force turned towards the facet"
+        rows += _rows(case, hm.ellipsoid(), touches, workshop, x=10.0**-power, axis=COSINE)
+    for subdivisions in (1, 2, 3) if quick else (1, 2, 3, 4, 5, 6):
+        body, rng = hm.ellipsoid(subdivisions), np.random.default_rng((seed, 20 + subdivisions))
+        touches = theory.touch(body, samples, rng)
+        rows += _rows("ellipsoid, finer and finer", body, touches, workshop, x=len(body.faces), axis=FACETS)
+    for i, far in enumerate((0.0, 0.1, 1.0, 10.0)):
+        body = hm.ellipsoid().moved(far * np.array([0.6, -0.64, 0.48]))
+        touches = theory.touch(body, samples, np.random.default_rng((seed, 40 + i)))
+        rows += _rows("ellipsoid, further and further away", body, touches, workshop, x=far, axis=FAR)
+    return rows
+
+
+def _rows(case: str, body: Body, touches: Touches, workshop: Workshop | None, **more: Any) -> list[Row]:
+    return measure(PART, case, body, touches, both_precisions(body, touches, workshop), **more)
+
+
+def both_precisions(body: Body, touches: Touches, workshop: Workshop | None) -> dict[str, Rows]:
+    """Return the answers without gates or noise, as :data:`builds.ROW`: of the kernel, and in single precision."""
+    solver = ContactSolver(body.probe(), QUIET, OPEN)
+    answers = {DOUBLE: builds.kernel_rows(solver.locate_batch(touches.wrenches))}
+    if workshop is not None:
+        answers[SINGLE] = workshop.solve(builds.SINGLE, solver, touches.wrenches)[0]
+    return answers
+
+
+def measure(
+    part: str, case: str, body: Body, touches: Touches, answers: dict[str, Rows], **more: Any
+) -> list[Row]:
+    """
+    Give the errors of answers against the exact solution of the facet or vertex that each names.
+
+    A row of the errors, mm, and one of them over unit roundoff and condition, which is judged.
+    """
+    normals = body.normals[touches.faces].astype(np.float64)
+    scale = theory.condition(normals, touches.points, touches.wrenches) + reach(body)
+    rows = []
+    for by, found in answers.items():
+        off = theory.errors(body, found["point"], found["face"], found["vertex"], touches.wrenches)
+        ratio = off / (_UNITS[by] * scale)
+        rows.append(Row.of(part, case, by, ERROR, "mm", 1e3 * off, **more))
+        rows.append(Row.of(part, case, by, RATIO, "", ratio, most=MOST_ROUNDOFFS, **more))
+    return rows
+
+
+def reach(body: Body) -> float:
+    """Return the largest distance of a vertex from the sensor origin, m: what the mesh's own rounding is worth."""
+    used: Float = body.vertices[np.unique(body.faces)]
+    return float(np.linalg.norm(used, axis=1).max())

@@ -1,0 +1,179 @@
+"""The stability study: every part, one after the other."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from pipeline.durable import make_folder
+from pipeline.errors import InputError
+from pipeline.study.stability import (
+    amplification,
+    bias,
+    builds,
+    edges,
+    exact,
+    precision,
+    repeat,
+    rounding,
+    thin,
+    units,
+)
+from pipeline.study.stability.verdicts import verdicts
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from rich.table import Table
+
+    from pipeline.study.stability.builds import Workshop
+    from pipeline.study.stability.rows import Row
+
+KIND = "stability"
+FEWEST = 50
+
+
+@dataclass(frozen=True)
+class StabilityReport:
+    """
+    Every figure.
+
+    Attributes
+    ----------
+    samples, seed, quick
+        As given to :func:`run`.
+    rows : tuple of Row
+    """
+
+    samples: int
+    seed: int
+    quick: bool
+    rows: tuple[Row, ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every bound was kept."""
+        return all(row.met for row in self.rows)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain data for ``--json``."""
+        return {
+            "passed": self.passed,
+            "samples": self.samples,
+            "seed": self.seed,
+            "quick": self.quick,
+            "verdicts": [{"part": v.part, "passed": v.passed, "words": v.words} for v in verdicts(self.rows)],
+            "rows": [row.to_json() for row in self.rows],
+        }
+
+    def table(self) -> Table:
+        """Build the verdicts for a terminal; what broke a bound is red."""
+        from rich.table import Table
+        from rich.text import Text
+
+        built = Table(title=f"Numerical stability, {self.samples} touches a figure, seed {self.seed}")
+        for heading in ("part", "verdict", ""):
+            built.add_column(heading)
+        for verdict in verdicts(self.rows):
+            said = "" if verdict.passed is None else "kept" if verdict.passed else "BROKEN"
+            built.add_row(
+                Text(verdict.part),
+                Text(verdict.words),
+                said,
+                style="" if verdict.passed is not False else "red",
+            )
+        return built
+
+    def markdown(self) -> str:
+        """Write the verdicts and the tables as Markdown."""
+        from pipeline.study.stability.page import tables, verdict_list
+
+        parts = [f"### {title}\n\n{text}" for title, text in tables(self.rows)]
+        return "\n\n".join([verdict_list(self.rows), *parts]) + "\n"
+
+
+def run(
+    *,
+    samples: int = 1000,
+    seed: int = 0,
+    quick: bool = False,
+    progress: Callable[[str], None] = lambda _: None,
+) -> StabilityReport:
+    """
+    Measure every part.
+
+    Without g++ nothing is said of single precision and of builds.
+
+    Parameters
+    ----------
+    samples : int
+        Touches of each figure, at least 50; a fifth of them in exact arithmetic.
+    seed : int
+    quick : bool
+        Coarse meshes and one build of each compiler.
+    progress : callable
+        Told in words what is being measured.
+
+    Raises
+    ------
+    InputError
+        Too few samples, or a compiler that fails.
+    """
+    if samples < FEWEST:
+        raise InputError(f"samples: {samples} are too few to meet the worst: give at least {FEWEST}.")
+    with builds.Workshop() as made:
+        workshop = made if shutil.which(builds.SINGLE.compiler) else None
+        rows: list[Row] = []
+        for said, part in _parts(samples, seed, workshop, quick=quick):
+            progress(said)
+            rows += part()
+    return StabilityReport(samples, seed, quick, tuple(rows))
+
+
+def keep(report: StabilityReport, folder: Path) -> Path:
+    """
+    Write a report's results, its page and its pictures; `pipeline.study.pages` makes the latter again.
+
+    Parameters
+    ----------
+    report : StabilityReport
+    folder : Path
+        Made if it is not there.
+
+    Returns
+    -------
+    Path
+        Of the page.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written.
+    """
+    from pipeline.study.pages import PAGE, make_page
+    from pipeline.study.results import environment, write_results
+
+    make_folder(folder)
+    command = f"contactbench study stability --samples {report.samples} --seed {report.seed}"
+    command += " --quick" if report.quick else ""
+    rows = [row.to_json() for row in report.rows]
+    write_results(folder, KIND, command, rows, environment())
+    make_page(folder)
+    return folder / PAGE
+
+
+def _parts(
+    samples: int, seed: int, workshop: Workshop | None, *, quick: bool
+) -> Iterator[tuple[str, Callable[[], list[Row]]]]:
+    yield "what an error of the wrench does", lambda: amplification.run(samples, seed)
+    yield "rounding", lambda: rounding.run(samples, seed, workshop, quick=quick)
+    yield "edges and vertices", lambda: edges.run(samples, seed, workshop)
+    if workshop is not None:
+        yield "single precision", lambda: precision.run(samples, seed, workshop, quick=quick)
+    yield "thin facets", lambda: thin.run(samples, seed, workshop)
+    yield "units", lambda: units.run(samples, seed, workshop)
+    yield "bias", lambda: bias.run(samples, seed, workshop)
+    yield "exact arithmetic", lambda: exact.run(max(FEWEST, samples // 5) if not quick else FEWEST // 2, seed)
+    yield "the same bits", lambda: repeat.run(samples, seed, workshop, quick=quick)

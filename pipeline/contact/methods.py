@@ -6,7 +6,7 @@ or none and no doubt: only the complete solver says ``ambiguous``.
 =============  ========================================================================================
 algorithm1     the paper's loop taken literally: one 4x4 solve a plane, priority planes first, first accepted
                wins; compiled
-wrench_axis    k = 0: the wrench axis as a ray against the mesh, by Embree (extra ``rivals``)
+wrench_axis    k = 0: the wrench axis as a ray against the mesh, by Embree (extra ``embree``)
 iterative      Levenberg-Marquardt on a paraboloid fitted to the contact face; compiled, or by SciPy
 scan           closed form over every facet and vertex, chosen among like contactbench; compiled
 contactbench   the pruned, complete solver

@@ -87,7 +87,7 @@ class EmbreeAxis(WrenchAxis):
             mesh_module = import_module("embreex.mesh_construction")
         except ImportError as error:
             raise InputError(
-                "the wrench_axis method needs Embree: pip install 'contactbench[rivals]'"
+                "the wrench_axis method needs Embree: pip install 'contactbench[embree]'"
             ) from error
         super().__init__(solver)
         self.scene = scene_module.EmbreeScene()

@@ -9,7 +9,7 @@ import numpy as np
 
 from pipeline.calibration import Calibration, calibrate
 from pipeline.calibration.fit import parameter_covariance
-from pipeline.calibration.model import CENTRE_OF_MASS, cross_matrix, prediction_jacobian
+from pipeline.calibration.model import CENTRE_OF_MASS, prediction_jacobian
 from pipeline.calibration.poses import stack
 from pipeline.calibration.reachable import by_robot
 from pipeline.calibration.suggest import plan_error, plan_poses
@@ -17,6 +17,7 @@ from pipeline.errors import InputError
 from pipeline.robot import Robot
 from pipeline.simulation.weighing import Weighing, bump, draw_weighing
 from pipeline.study.blind_sets import BLIND_SETS, try_blind
+from pipeline.study.rivals.calibrators import measured_regressor
 from pipeline.timing import time_calls
 
 if TYPE_CHECKING:
@@ -257,12 +258,8 @@ def light_load(trials: int, seed: int) -> list[Figure]:
 def _paper(weighing: Weighing) -> NDArray[np.float64]:
     """Return the centre of mass by the paper's second stage, whose regressor is the *measured* force (Eq. 2)."""
     arrays = stack(weighing.poses)
-    n = len(arrays)
-    identity = np.broadcast_to(np.eye(3), (n, 3, 3))
-    forces = np.concatenate([arrays.R_SW, identity], axis=2).reshape(-1, 6)
-    F0 = np.linalg.lstsq(forces, arrays.F.ravel(), rcond=None)[0][3:]
-    torques = np.concatenate([-cross_matrix(arrays.F - F0), identity], axis=2).reshape(-1, 6)
-    return np.asarray(np.linalg.lstsq(torques, arrays.M.ravel(), rcond=None)[0][:3], dtype=np.float64)
+    found = measured_regressor(arrays.R_SW, arrays.F, arrays.M)
+    return np.asarray(found[CENTRE_OF_MASS], dtype=np.float64)
 
 
 # ---- sets that do not show everything ----------------------------------------------------------

@@ -116,7 +116,7 @@ class Locators:
         }
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=64)
 def locators(probe: str, facets: int, noise: float) -> Locators:
     """Return those of a bundled probe."""
     return Locators(model_of(probe, facets), model_of(probe, _FINER * facets), noise)

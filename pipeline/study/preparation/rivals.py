@@ -29,8 +29,14 @@ if TYPE_CHECKING:
 
     Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
 
-_MODULES = {"fast-simplification": "fast_simplification", "pymeshlab": "pymeshlab"}
-RIVALS = tuple(_MODULES)
+_MODULES = {
+    "fast-simplification": "fast_simplification",
+    "pymeshlab": "pymeshlab",
+    "open3d": "open3d",
+    "point_cloud_utils": "point_cloud_utils",
+}
+LIBRARIES = tuple(_MODULES)
+RIVALS = LIBRARIES[:2]  # those that are measured wherever probes are prepared
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +65,7 @@ class Rival:
     Parameters
     ----------
     library : str
-        One of `RIVALS`.
+        One of `LIBRARIES`.
     folder : Path
         Where meshes are passed as files.
 
@@ -83,7 +89,8 @@ class Rival:
             self._answer()
         except InputError:
             self.close()
-            raise InputError(f"{library} is not installed: pip install contactbench[meshlab]") from None
+            extra = "meshlab" if library in RIVALS else "rivals"
+            raise InputError(f"{library} is not installed: pip install contactbench[{extra}]") from None
 
     def __enter__(self) -> Rival:
         return self
@@ -149,7 +156,12 @@ class Rival:
 
 def _serve(library: str) -> None:
     module = importlib.import_module(_MODULES[library])
-    simplify = {"fast-simplification": _fast, "pymeshlab": _meshlab}[library]
+    simplify = {
+        "fast-simplification": _fast,
+        "pymeshlab": _meshlab,
+        "open3d": _open3d,
+        "point_cloud_utils": _point_cloud_utils,
+    }[library]
     # What the libraries print must not get between the answers.
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
@@ -180,6 +192,22 @@ def _meshlab(
     meshes.meshing_decimation_quadric_edge_collapse(targetfacenum=count)
     mesh = meshes.current_mesh()
     return mesh.vertex_matrix(), mesh.face_matrix()
+
+
+def _open3d(
+    module: Any, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
+) -> tuple[Any, Any]:
+    vector = module.utility
+    mesh = module.geometry.TriangleMesh(vector.Vector3dVector(vertices), vector.Vector3iVector(faces))
+    made = mesh.simplify_quadric_decimation(target_number_of_triangles=count)
+    return made.vertices, made.triangles
+
+
+def _point_cloud_utils(
+    module: Any, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
+) -> tuple[Any, Any]:
+    made, facets, *_ = module.decimate_triangle_mesh(vertices, faces, max_faces=count)
+    return made, facets
 
 
 def _say(answers: IO[str], line: dict[str, Any]) -> None:

@@ -1,0 +1,153 @@
+"""Where a probe is touched: our solver beside Algorithm 1, ray tracers along the wrench axis, Levenberg-Marquardt."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import assets
+from pipeline.contact import ContactSolver, WrenchNoise, methods
+from pipeline.errors import InputError
+from pipeline.simulation import draw_touches
+from pipeline.study.ablation.effects import NOISES
+from pipeline.study.ablation.locating import sigmas_of
+from pipeline.study.reproduce.touching import model_of
+from pipeline.study.rivals.interleave import medians
+from pipeline.study.rivals.rays import TRACERS, bare_ray
+from pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from numpy.typing import NDArray
+
+    from pipeline.kernel import Batch
+    from pipeline.simulation import Touches
+
+FAMILY = "contact location"
+WRENCH, RAY, BATCH, COMPILED = (
+    "one wrench, from Python",
+    "one ray, from Python",
+    "1,000 wrenches, each",
+    "compiled",
+)
+_ACCEPTED = 1
+_QUIETEST = np.repeat([1e-6, 1e-8], 3)
+_TOGETHER = 1_000
+_FEW = 300  # wrenches of methods that take up to a millisecond each
+_SLOW = ("Algorithm 1, C++", "Levenberg-Marquardt, SciPy", "closed form over all facets, C++")
+
+
+@dataclass(frozen=True, eq=False)
+class _Built:
+    contender: Contender
+    locate: Callable[[Any], object]
+    batch: Callable[[Any], Batch]
+    engine: Any
+
+
+def place_rows(probe: str, facets: int, touches: int, rounds: int, seed: int) -> Iterator[Row]:
+    """
+    Measure all contenders on one mesh of a bundled probe.
+
+    Parameters
+    ----------
+    probe : str
+    facets, touches, rounds, seed : int
+
+    Yields
+    ------
+    dict
+        Versions and what is missing, errors at every noise, times in every mode.
+    """
+    rng = np.random.default_rng([seed, 21])
+    truth = draw_touches(assets.surface(probe), touches, rng, above=0.02)
+    drawn = rng.standard_normal(truth.wrenches.shape)
+    for name, noise in NOISES.items():
+        built, absent = _build(probe, facets, noise)
+        if name == "filtered":
+            yield from absent
+            yield from (known(FAMILY, each.contender) for each in built)
+        wrenches = truth.wrenches + sigmas_of(noise) * drawn
+        yield from _errors(built, probe, facets, name, truth, wrenches)
+        if name == "filtered":
+            yield from _times(built, probe, facets, wrenches, rounds)
+
+
+def _build(probe: str, facets: int, noise: float) -> tuple[list[_Built], list[Row]]:
+    mesh = model_of(probe, facets)
+    sigmas = np.maximum(sigmas_of(noise), _QUIETEST)
+    told = WrenchNoise(sigmas[:3], sigmas[3:])
+    solver = ContactSolver(mesh, told)
+    made = [
+        _Built(Contender(OURS), solver.locate, solver.locate_batch, solver),
+        *(
+            _Built(Contender(name), method.locate, method.locate_batch, method.engine)
+            for name, method in (
+                (_SLOW[2], methods.scan(mesh, told)),
+                (_SLOW[0], methods.algorithm1(mesh, told)),
+                ("Levenberg-Marquardt, C++", methods.iterative(mesh, told)),
+                (_SLOW[1], methods.iterative(mesh, told, library="scipy")),
+            )
+        ),
+    ]
+    absent = []
+    for contender, make in TRACERS.items():
+        try:
+            axis = make(solver)
+        except (ImportError, InputError) as error:
+            absent.append(missing(FAMILY, contender, error))
+            continue
+        made.append(_Built(contender, axis.locate, axis.locate_batch, axis))
+    return made, absent
+
+
+def _errors(
+    built: list[_Built],
+    probe: str,
+    facets: int,
+    noise: str,
+    truth: Touches,
+    wrenches: NDArray[np.float64],
+) -> Iterator[Row]:
+    first = built[0].batch(wrenches)
+    ours = np.linalg.norm(first.points - truth.points, axis=1)
+    sure = np.where(np.asarray(first.reasons) <= _ACCEPTED, ours, np.nan)
+    yield erred(FAMILY, SURE, probe, noise, sure, ours, facets=facets)
+    for each in built:
+        some = _FEW if each.contender.name == _SLOW[1] else len(wrenches)
+        points = each.batch(wrenches[:some]).points
+        error = np.linalg.norm(points - truth.points[:some], axis=1)
+        yield erred(FAMILY, each.contender.name, probe, noise, error, ours[:some], facets=facets)
+
+
+def _times(
+    built: list[_Built], probe: str, facets: int, wrenches: NDArray[np.float64], rounds: int
+) -> Iterator[Row]:
+    calls: dict[tuple[str, str], tuple[Callable[[Any], object], Any]] = {}
+    compiled = {}
+    for each in built:
+        name = each.contender.name
+        rows = list(wrenches[: _FEW if name in _SLOW else _TOGETHER])
+        calls[name, WRENCH] = (each.locate, rows)
+        if name not in _SLOW:
+            calls[name, BATCH] = (each.batch, [wrenches[:_TOGETHER]])
+        if hasattr(each.engine, "time_each"):
+            compiled[name] = partial(each.engine.time_each, wrenches[: _FEW if name in _SLOW else _TOGETHER])
+        if each.contender in TRACERS:
+            call, prepare = bare_ray(each.engine)
+            origins, directions = each.engine.rays(wrenches[:_TOGETHER])
+            rays = [prepare(origins[i : i + 1], directions[i : i + 1]) for i in range(len(origins))]
+            calls[name, RAY] = (call, rays)
+    for (name, mode), us in medians(calls, rounds).items():
+        shared = min(_TOGETHER, len(wrenches)) if mode == BATCH else 1
+        yield timed(FAMILY, name, probe, mode, [value / shared for value in us], facets=facets)
+    own: dict[str, list[float]] = {name: [] for name in compiled}
+    for _ in range(rounds):
+        for name, time_each in compiled.items():
+            own[name].append(float(np.median(time_each())) / 1e3)
+    for name, us in own.items():
+        yield timed(FAMILY, name, probe, COMPILED, us, facets=facets)

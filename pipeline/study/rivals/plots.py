@@ -1,0 +1,100 @@
+"""Rivals as pictures, by Matplotlib; importing this module imports it, which takes a while."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from pipeline.study.rivals import engines, place
+from pipeline.study.rivals.rows import OURS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Row = dict[str, Any]
+# Okabe and Ito: everybody can tell them apart.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b6b6b", "#000000")
+_MARKS = "osv^D<>P"
+_STYLE: dict[Any, Any] = {
+    "font.size": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e3e5e7",
+    "grid.linewidth": 0.6,
+    "legend.frameon": False,
+}
+_PANEL, _HEIGHT, _DPI = 3.3, 3.0, 80
+_NOISE = "filtered"
+
+
+def plots(rows: Sequence[Row]) -> dict[str, bytes]:
+    """Return PNG images by file name: those that the rows have something for."""
+    made = {"rivals-location.png": _location(rows), "rivals-simplification.png": _simplification(rows)}
+    return {name: data for name, data in made.items() if data}
+
+
+Points = dict[str, list[tuple[float, float]]]
+
+
+def _location(rows: Sequence[Row]) -> bytes:
+    errors = {
+        (r["subject"], r["facets"], r["contender"]): r["mean_mm"]
+        for r in rows
+        if r["kind"] == "error" and r["family"] == place.FAMILY and r["condition"] == _NOISE
+    }
+    panels: dict[str, Points] = {}
+    for row in rows:
+        if row["kind"] != "time" or row["family"] != place.FAMILY:
+            continue
+        alone = any(
+            other["kind"] == "time" and other["mode"] == place.RAY and other["contender"] == row["contender"]
+            for other in rows
+        )
+        if row["mode"] != (place.RAY if alone else place.WRENCH):
+            continue
+        error = errors.get((row["subject"], row["facets"], row["contender"]))
+        if error is not None:
+            points = panels.setdefault(row["subject"], {}).setdefault(row["contender"], [])
+            points.append((row["median_us"], error))
+    return _draw(panels, "µs", "mean error, mm, noise filtered")
+
+
+def _simplification(rows: Sequence[Row]) -> bytes:
+    mine = [r for r in rows if r.get("family") == engines.FAMILY]
+    panels: dict[str, Points] = {}
+    for row in (r for r in mine if r["kind"] == "error" and r["mean_mm"] is not None):
+        for time in (r for r in mine if r["kind"] == "time"):
+            if (time["subject"], time["contender"]) == (row["subject"], row["contender"]):
+                points = panels.setdefault(row["subject"].split(",")[0], {}).setdefault(row["contender"], [])
+                points.append((time["median_us"] / 1e3, row["max_mm"]))
+    return _draw(panels, "ms", "Hausdorff distance, mm")
+
+
+def _draw(panels: dict[str, Points], x_name: str, y_name: str) -> bytes:
+    if not panels:
+        return b""
+    names = list(dict.fromkeys(name for points in panels.values() for name in points))
+    with rc_context(_STYLE):
+        figure = Figure(figsize=(_PANEL * max(len(panels), 2), _HEIGHT + 0.6), dpi=_DPI, layout="constrained")
+        drawn = figure.subplots(1, len(panels), squeeze=False)[0]
+        for axes, (title, points) in zip(drawn, panels.items(), strict=True):
+            for name, some in points.items():
+                k = names.index(name)
+                colour = _COLOURS[k % len(_COLOURS)]
+                axes.plot(
+                    *zip(*some, strict=True),
+                    _MARKS[k % len(_MARKS)],
+                    color=colour,
+                    markerfacecolor=colour if name == OURS else "none",
+                    label=name,
+                )
+            axes.set(title=title, xlabel=x_name, ylabel=y_name, xscale="log", yscale="log")
+        handles, labels = drawn[0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=7)
+        data = BytesIO()
+        figure.savefig(data, format="png", metadata={"Software": None})
+    return data.getvalue()

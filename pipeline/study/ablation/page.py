@@ -35,7 +35,8 @@ _ALL = (ANYWHERE, *SCENES)
 _SAID = {
     "smooth.png": "Share of the mean error that interpolated normals take away, alone and with facets that bulge as the"
     f" normals say. Dotted: {MATTERS:.0%}, where it begins to matter.",
-    "torque.png": "Share of the mean error that local torque, vertices and the friction gate take away.",
+    "torque.png": "Share of the mean error that local torque takes away, and of touches that vertices and the friction gate"
+    " locate more.",
     "reading.png": "Mean error with what the sensor does wrong, left out (dashed) and modelled, after the"
     " Kalman filter.",
 }
@@ -88,6 +89,7 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
         ("Model this, leave this out", _verdicts(found)),
         ("What each choice costs", _costs(found)),
         ("Where each choice begins to matter", _crossings(rows)),
+        ("Smooth normals", _smooth(rows)),
         ("The same at other noise", _noises(rows)),
         ("What leaving out tissue or arm changes", _scenery(rows)),
         ("On each probe", _probes(rows)),
@@ -140,9 +142,35 @@ def _crossings(rows: Sequence[Row]) -> str:
         lines.append([choice, shown, at, *(by_probe.get(probe, "–") for probe in probes)])
     return (
         f"Where the choice takes away {MATTERS:.0%} of the mean error of touches anywhere, with 0.3 mm of torsion where"
-        " nothing else is said; vertices and the gate: where they locate one touch in a thousand more.\n\n"
+        " nothing else is said; vertices: where they locate one touch in a thousand more, the gate: where it loses one."
+        " Smooth normals are on the mesh that is named.\n\n"
         + table(["choice", "varied", "at", *probes], lines)
     )
+
+
+def _smooth(rows: Sequence[Row]) -> str:
+    """Return the errors of flat facets, interpolated normals and bulged facets, by mesh and noise."""
+    curve = [r for r in rows if r["kind"] == "curve" and r["x_name"] == "noise"]
+    lines = []
+    for probe, facets in sorted(
+        {(r["probe"], r["facets"]) for r in curve if r["choice"] in locating.SMOOTHED}
+    ):
+        cells = [probe, f"{facets:,}"]
+        for noise in NOISES.values():
+            for choice, which in (
+                (locating.SMOOTH, "without"),
+                (locating.SMOOTH, "made"),
+                (locating.BULGE, "made"),
+            ):
+                mine = [
+                    r[f"{which}_mean_mm"]
+                    for r in curve
+                    if (r["probe"], r["facets"], r["x"], r["choice"]) == (probe, facets, noise, choice)
+                ]
+                cells.append(f"{np.mean(mine):.3f}" if mine else "–")
+        lines.append(cells)
+    columns = [f"{way}, {noise}" for noise in NOISES for way in ("flat", "normals", "bulged")]
+    return table(["probe", "facets", *columns], lines) if lines else ""
 
 
 def _facets(at: str) -> int:

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pipeline.study.ablation import locating, reading
 from pipeline.study.ablation.effects import FILTERED
-from pipeline.study.ablation.verdicts import MATTERS, noise_name, share_of
+from pipeline.study.ablation.verdicts import ANSWERS, MATTERS, located_more, noise_name, share_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -71,11 +71,12 @@ def _torque(curves: Sequence[Row]) -> list[Panel]:
     ):
         mine = [r for r in curves if r["choice"] == choice and r["x_name"] == name]
         split = "probe" if name == "noise" else "noise_times"
-        lines = _lines(
-            mine, split, lambda v: v if isinstance(v, str) else f"noise: {noise_name(v)}", share_of
-        )
+        rare = choice in (locating.VERTICES, locating.GATE)
+        figure = located_more if rare else share_of
+        lines = _lines(mine, split, lambda v: v if isinstance(v, str) else f"noise: {noise_name(v)}", figure)
         shown = "noise, times that of a reading" if name == "noise" else name
-        panels.append((choice, shown, "share of the error bought", lines, MATTERS))
+        what = "share of touches located more" if rare else "share of the error bought"
+        panels.append((choice, shown, what, lines, ANSWERS if rare else MATTERS))
     return panels
 
 
@@ -122,8 +123,9 @@ def _panels(panels: Sequence[Panel]) -> bytes:
                 colour = colours.setdefault(name.split(", ")[0], _COLOURS[len(colours) % len(_COLOURS)])
                 axes.plot(xs, ys, style, marker="o", color=colour, label=name)
             least = min((x for xs, _, _ in lines.values() for x in xs if x > 0), default=1.0)
-            axes.set_xscale("symlog", linthresh=least)
-            axes.set_xlim(left=0)
+            if "angle" not in x_name:
+                axes.set_xscale("symlog", linthresh=least)
+                axes.set_xlim(left=0)
             if mark is not None:
                 axes.axhline(mark, color="#6b6b6b", linewidth=0.8, linestyle=":")
             axes.set(title=title, xlabel=x_name, ylabel=y_name)

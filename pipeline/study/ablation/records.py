@@ -126,7 +126,7 @@ def drawn(
     )
     upright = np.broadcast_to(np.diag([1.0, -1.0, -1.0]), (count, 3, 3))
     spent = time.perf_counter() - began
-    return Record("drawn", probe, touches.wrenches, touches.wrenches, touches.points, upright, spent / count)
+    return Record(ANYWHERE, probe, touches.wrenches, touches.wrenches, touches.points, upright, spent / count)
 
 
 def ridden(

@@ -43,6 +43,8 @@ class Sizes:
         Of the mesh in the scenes.
     coarse : tuple of int
         Of the meshes on which smooth normals are tried.
+    twisted : tuple of int
+        Of those, the ones on which the local torque is varied.
     size : int
         Markers, and fifths of a second, of a scene.
     touches : int
@@ -58,6 +60,7 @@ class Sizes:
     scenes: tuple[str, ...] = SCENES
     facets: int = 2_000
     coarse: tuple[int, ...] = (300, 500, 1_000, 2_000)
+    twisted: tuple[int, ...] = (500, 2_000)
     size: int = 15
     touches: int = 4_000
     seeds: int = 5
@@ -79,6 +82,7 @@ QUICK = Sizes(
     probes=("linear",),
     scenes=("touch", "platform"),
     coarse=(500,),
+    twisted=(500,),
     size=3,
     touches=400,
     seeds=2,
@@ -196,7 +200,7 @@ def _twisted(probe: str, sizes: Sizes, seed: int) -> Iterator[Row]:
             for choice, facets in (
                 (locating.LOCAL_TORQUE, sizes.facets),
                 (locating.VERTICES, sizes.facets),
-                *product(locating.SMOOTHED, sizes.coarse),
+                *product(locating.SMOOTHED, sizes.twisted),
             ):
                 yield _point(choice, made, facets, noise, seed, "torsion, mm", torsion)
     for angle in _ANGLES_DEG:

@@ -16,8 +16,9 @@ if TYPE_CHECKING:
 Row = dict[str, Any]
 CHOICES = (*effects.CHOICES, *scenery.CHOICES)
 MATTERS = 0.05  # of the error without it
-_SIGMAS, _ANSWERS = 2.0, 1e-3
+_SIGMAS, ANSWERS = 2.0, 1e-3
 _LEAST_MM = 0.05  # that a scene must move a contact by
+LOSES = f"{locating.GATE}: touches lost"
 _RARE = (locating.VERTICES, locating.GATE)  # matter to few touches, and much
 _FREE = 0.02  # of what is without it, at most
 NOISE = "filtered"
@@ -167,7 +168,7 @@ def bought(choice: str, scene: str, rows: Iterable[Row], noise: str = NOISE) -> 
     sigma = float(np.sqrt(np.nansum([r["bought_se_mm"] ** 2 for r in mine])) / len(mine))
     answers = located_more(mine)
     matters = gain > MATTERS * without and gain > _SIGMAS * sigma
-    return Bought(choice, scene, without, made, gain, sigma, answers, bool(matters or answers >= _ANSWERS))
+    return Bought(choice, scene, without, made, gain, sigma, answers, bool(matters or answers >= ANSWERS))
 
 
 def cost_of(choice: str, rows: Iterable[Row]) -> Cost | None:
@@ -196,10 +197,10 @@ def crossings(rows: Sequence[Row]) -> list[Crossing]:
         xs = sorted(by_x)
         rare = choice in _RARE
         values = [located_more(by_x[x]) if rare else share_of(by_x[x]) for x in xs]
+        if choice == locating.GATE:  # what it can do to a touch is to lose it
+            choice, values = LOSES, [-value for value in values]
         at = f"{facets:,} facets" + ("" if noise is None else f", noise {noise_name(noise)}")
-        found.append(
-            Crossing(choice, varied, at, probe, *crossing(xs, values, _ANSWERS if rare else MATTERS))
-        )
+        found.append(Crossing(choice, varied, at, probe, *crossing(xs, values, ANSWERS if rare else MATTERS)))
     return found
 
 

@@ -94,7 +94,7 @@ def _draw(panels: dict[str, Points], x_name: str, y_name: str) -> bytes:
                 )
             axes.set(title=title, xlabel=x_name, ylabel=y_name, xscale="log", yscale="log")
         handles, labels = drawn[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=4, fontsize=7)
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(len(panels) + 1, 4), fontsize=7)
         data = BytesIO()
         figure.savefig(data, format="png", metadata={"Software": None})
     return data.getvalue()

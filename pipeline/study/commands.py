@@ -14,6 +14,7 @@ from pipeline.study.device_commands import add_device_commands
 from pipeline.study.finishing import NOT_GOOD_ENOUGH, MarkdownOption, SeedOption, finish, show, write
 from pipeline.study.interactive_commands import add_commands
 from pipeline.study.preparation_commands import add_preparation_commands
+from pipeline.study.rivals.commands import add_rivals_command
 from pipeline.study.stability_commands import add_stability_commands
 from pipeline.study.sweep_commands import add_sweep_commands
 
@@ -163,4 +164,5 @@ add_control_commands(study_app)
 add_commands(study_app)
 add_sweep_commands(study_app)
 add_ablation_command(study_app)
+add_rivals_command(study_app)
 add_stability_commands(study_app)

@@ -35,8 +35,8 @@ _ALL = (ANYWHERE, *SCENES)
 _SAID = {
     "smooth.png": "Share of the mean error that interpolated normals take away, alone and with facets that bulge as the"
     f" normals say. Dotted: {MATTERS:.0%}, where it begins to matter.",
-    "torque.png": "Share of the mean error that local torque takes away, and of touches that vertices and the friction gate"
-    " locate more.",
+    "torque.png": "Share of the mean error that local torque takes away; share of touches that vertices and the"
+    " friction gate locate more.",
     "reading.png": "Mean error with what the sensor does wrong, left out (dashed) and modelled, after the"
     " Kalman filter.",
 }

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates
+from pipeline.contact import Gates
 from pipeline.contact.methods import make
 from pipeline.contact.wrench_axis import EmbreeAxis
 from pipeline.errors import InputError
@@ -141,13 +141,3 @@ def _calls(method: Method, wrenches: NDArray[np.float64]) -> tuple[Callable[[Any
 
 def _both(timing: Timing) -> tuple[float, float]:
     return timing.median, timing.p99
-
-
-def bound_by_solver(cell: Cell) -> float:
-    """Return the noise bound, rms in mm, as the solver states it on a fine mesh: for comparison."""
-    touches, _ = touches_of(cell)
-    solver = ContactSolver(
-        mesh_of(cell.probe, 50_000), believed(cell.noise, cell.filter), gates_for(cell.angle)
-    )
-    covariances = solver.locate_batch(touches.wrenches).covariances
-    return float(1e3 * np.sqrt(np.nanmean(np.trace(covariances, axis1=1, axis2=2))))

@@ -218,7 +218,9 @@ class Plan(BaseModel):
         except ValidationError as error:
             first = error.errors(include_url=False, include_input=False)[0]
             field = ".".join(map(str, first["loc"]))
-            raise InputError(f"{where}: {field}: {first['msg']}: correct it.") from error
+            raise InputError(
+                f"{where}: {field}: {first['msg'].removeprefix('Value error, ')}: correct it."
+            ) from error
 
 
 _VARIED = ("probes", "facets", "forces", "angles", "torsions", "noises", "filters", "methods")

@@ -12,7 +12,7 @@ from pipeline.errors import InputError
 from pipeline.study.results import environment, write_results
 from pipeline.study.sweep.bodies import file_facets, packed_mesh
 from pipeline.study.sweep.cell import gates_for, run_cell
-from pipeline.study.sweep.plan import label
+from pipeline.study.sweep.plan import identity, label
 from pipeline.study.sweep.store import Store
 
 if TYPE_CHECKING:
@@ -108,6 +108,7 @@ def _distinct(plan: Plan) -> list[Cell]:
     """Return the cells of a plan; of meshes finer than a file's own only the coarsest, because all are the file's."""
     finest = {}
     for probe in plan.probes:
+        identity(probe)  # says what is wrong with a name that is no probe
         own = file_facets(probe)
         enough = [facets for facets in plan.facets if own is not None and facets >= own]
         finest[probe] = min(enough, default=max(plan.facets))

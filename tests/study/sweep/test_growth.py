@@ -1,0 +1,113 @@
+"""Powers, fronts, knees and needed facets, on figures that are known."""
+
+import numpy as np
+import pytest
+
+from pipeline.study.sweep.compare import compare
+from pipeline.study.sweep.growth import beaten, enough_facets, front, knee, merged, power
+from pipeline.study.sweep.targets import needed_facets, on_front, over_bound
+
+_FACETS = (100, 300, 1_000, 3_000, 20_000)
+
+
+def _row(method="contactbench", facets=20_000, error=0.5, time=1_000.0, **more):
+    return {
+        "probe": "linear",
+        "method": method,
+        "facets": facets,
+        "facets_found": facets,
+        "force": 9.0,
+        "angle": 0.0,
+        "torsion": 0.0003,
+        "noise": "paper",
+        "filter": "none",
+        "touches": 1_000,
+        "failed": "",
+        "mean_mm": error,
+        "rms_sure_mm": error,
+        "rms_near_mm": error,
+        "bound_mm": 0.5,
+        "sure": 1.0,
+        "python_median_ns": time,
+    } | more
+
+
+def test_a_power_is_found_with_its_uncertainty():
+    facets = np.array([100, 1_000, 10_000, 100_000])
+    exact = power(facets, 3 * facets**-0.9)
+    assert (exact.exponent, exact.scale) == (pytest.approx(-0.9), pytest.approx(3))
+    assert exact.sigma < 1e-9
+    bent = power(facets, [3.0, 2.0, 1.9, 1.85])
+    assert bent.sigma > 0.02
+    assert power([100, 200], [1, 2]) is None
+    assert power([100, 100, 100], [1, 2, 3]) is None
+    assert power([1, 2, 3], [0, np.nan, 1]) is None
+
+
+def test_the_front_and_its_knee():
+    rows = [_row(time=t, error=e) for t, e in ((1, 9), (2, 1), (3, 5), (40, 0.9), (50, 0.9))]
+    assert [(r["python_median_ns"], r["mean_mm"]) for r in front(rows)] == [(1, 9), (2, 1), (40, 0.9)]
+    assert knee(rows)["python_median_ns"] == 2
+    assert knee([]) is None
+    assert beaten(rows[2], rows) == [rows[1]]
+    assert beaten(rows[1], [_row(time=1.99, error=0.99)]) == []  # within chance
+
+
+def test_figures_are_merged_over_what_is_not_asked_for():
+    rows = [_row(error=1.0), _row(error=7.0, force=2.0), _row(error=9.0, failed="no")]
+    [both] = merged(rows, ("method",))
+    assert both["cells"] == 2
+    assert both["mean_mm"] == 4
+    assert both["rms_sure_mm"] == pytest.approx(5)
+    assert np.isnan(both["compiled_median_ns"])
+
+
+def test_enough_facets_lie_where_the_power_says():
+    facets = np.array(_FACETS, dtype=float)
+    mesh = 200.0 / facets  # mm
+    # Squares add: 1.01 times 1 mm of noise leaves 0.1418 mm to the mesh.
+    assert enough_facets(facets, mesh, 1.0) == pytest.approx(200 / np.sqrt(1.01**2 - 1), rel=1e-6)
+    assert enough_facets(facets, mesh, 1e-3) is None
+    assert enough_facets(facets, mesh, 1e4) == 100
+    rows = [_row(facets=f, error=200.0 / f, noise="none", bound_mm=0.0) for f in _FACETS]
+    rows += [_row(bound_mm=1.0, force=force) for force in (2.0, 9.0)]
+    assert needed_facets(rows) == [
+        ("linear", force, pytest.approx(1_410.7, abs=1), 100) for force in (2.0, 9.0)
+    ]
+
+
+def test_targets_are_judged_both_ways():
+    [good] = over_bound([_row(error=0.51), _row(error=0.52, angle=60.0)])
+    [bad] = over_bound([_row(error=0.51), _row(error=0.60, angle=60.0)])
+    assert good.met
+    assert not bad.met
+    assert "worst 1.200" in bad.measured
+    assert "60°" in bad.measured
+    # Too steep, too light, too coarse: not what the target is about.
+    assert over_bound([_row(error=9, angle=70.0), _row(error=9, force=1.0), _row(error=9, facets=500)]) == []
+    [front_of] = on_front([_row(), _row("wrench_axis", error=0.4)])
+    assert front_of.met
+    [beaten_at] = on_front([_row(), _row("wrench_axis", error=0.4, time=900.0)])
+    assert not beaten_at.met
+    assert "20,000: wrench_axis" in beaten_at.measured
+
+
+def _sweep(exponent=-0.9, swap=1.0):
+    rows = []
+    for facets in (200, 1_000, 5_000):
+        rows += [_row(facets=facets, time=1_000, error=0.5), _row("scan", facets, 0.5 * 3 * swap, 9_000)]
+        rows.append(_row(facets=facets, noise="none", error=facets**exponent, bound_mm=0.0))
+    return rows
+
+
+def test_two_sweeps_are_compared_by_order_and_exponent():
+    assert all(each.same for each in compare(_sweep(), _sweep(-0.85)))
+    steeper = [each for each in compare(_sweep(), _sweep(-0.7)) if not each.same]
+    assert [each.what for each in steeper] == ["exponent of error of the mesh: linear, contactbench"]
+    swapped = [each.what for each in compare(_sweep(), _sweep(swap=0.1)) if not each.same]
+    assert [what for what in swapped if what.startswith("error")] == [
+        f"error: linear, {facets} facets" for facets in ("200", "1,000", "5,000")
+    ]
+    # Nearly equal is no order.
+    near = [each for each in compare(_sweep(swap=0.32), _sweep(swap=0.345)) if not each.same]
+    assert near == []

@@ -1,0 +1,206 @@
+"""Sweeps that are computed: the same whoever does it, kept, stopped and gone on with."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import assets
+from pipeline.errors import InputError
+from pipeline.mesh import Probe
+from pipeline.mesh.save import save_probe
+from pipeline.study.results import RESULTS, read_results
+from pipeline.study.sweep.cell import TIMES
+from pipeline.study.sweep.plan import Plan
+from pipeline.study.sweep.run import run
+from pipeline.study.sweep.store import DONE, Store
+
+_TINY = Plan(
+    name="tiny",
+    probes=("linear", "convex"),
+    facets=(300, 500),
+    forces=(9.0,),
+    angles=(0.0, 40.0),
+    methods=("contactbench", "algorithm1"),
+    touches=40,
+)
+
+
+def _table(folder):
+    """Everything but the times and the moment, as text: equal text is equal to the bit."""
+    results = read_results(folder)
+    return json.dumps([{k: v for k, v in row.items() if k not in TIMES} for row in results.rows])
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("alone")
+    run(_TINY, folder, workers=1, timed=False)
+    return _table(folder)
+
+
+@pytest.fixture(scope="module")
+def scheduler():
+    """Address of a cluster of two that somebody else runs."""
+    from distributed import LocalCluster
+
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        yield cluster.scheduler_address
+
+
+def test_three_workers_give_the_same_to_the_bit(tmp_path, alone):
+    done = run(_TINY, tmp_path, workers=3, timed=False)
+    assert done.computed == done.cells == len(_TINY)
+    assert _table(tmp_path) == alone
+    assert read_results(tmp_path).environment["workers"] == 3
+
+
+def test_a_cluster_gives_the_same_to_the_bit(tmp_path, alone, scheduler):
+    assert scheduler.startswith("tcp://")
+    shown = []
+    run(_TINY, tmp_path, scheduler=scheduler, timed=False, progress=lambda *of: shown.append(of))
+    assert _table(tmp_path) == alone
+    assert shown[-1] == (len(_TINY), len(_TINY))
+    assert read_results(tmp_path).environment["scheduler"] == "a cluster"
+
+
+def test_times_are_beside_the_errors_and_do_not_change_them(tmp_path, alone):
+    run(_TINY, tmp_path, workers=1)
+    rows = read_results(tmp_path).rows
+    assert all(0 < row["compiled_median_ns"] <= row["compiled_p99_ns"] for row in rows)
+    assert all(0 < row["python_median_ns"] <= row["python_p99_ns"] for row in rows)
+    assert _table(tmp_path) == alone
+
+
+def test_another_seed_gives_other_errors_and_other_noise_the_same_touches(rows):
+    def errors(seed):
+        return [_cell_error(cell) for cell in _TINY.model_copy(update={"seed": seed}).cells()]
+
+    assert errors(0) == errors(0) != errors(1)
+    pairs = {(r["method"], r["facets"], r["force"], r["angle"], r["noise"]): r["mean_mm"] for r in rows}
+    assert pairs["contactbench", 1200, 9.0, 0.0, "none"] < pairs["contactbench", 1200, 9.0, 0.0, "paper"]
+
+
+def _cell_error(cell):
+    from pipeline.study.sweep.cell import run_cell
+
+    return run_cell(cell, timed=False)["mean_mm"]
+
+
+def test_what_is_done_is_not_done_again(tmp_path, alone):
+    asked = iter([False] * 3 + [True] * 99)
+    first = run(_TINY, tmp_path, workers=1, timed=False, cancelled=lambda: next(asked))
+    assert (first.results, first.computed) == (None, 3)
+    assert not (tmp_path / RESULTS).exists()
+    shown = []
+    second = run(_TINY, tmp_path, workers=1, timed=False, progress=lambda *of: shown.append(of))
+    assert second.computed == len(_TINY) - 3
+    assert shown[0] == (4, len(_TINY))
+    assert shown[-1] == (len(_TINY), len(_TINY))
+    assert _table(tmp_path) == alone
+    assert run(_TINY, tmp_path, workers=1, timed=False).computed == 0
+
+
+def test_a_cluster_is_cancelled_too(tmp_path, scheduler):
+    done = run(_TINY, tmp_path, scheduler=scheduler, timed=False, cancelled=lambda: True)
+    assert (done.results, done.computed) == (None, 0)
+
+
+def test_a_plan_that_grows_computes_only_what_is_new(tmp_path):
+    run(_TINY, tmp_path, workers=1, timed=False)
+    more = _TINY.model_copy(update={"forces": (9.0, 5.0)})
+    assert run(more, tmp_path, workers=1, timed=False).computed == len(_TINY)
+    assert len(read_results(tmp_path).rows) == 2 * len(_TINY)
+
+
+def test_killed_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_path, alone):
+    plan = tmp_path / "tiny.toml"
+    plan.write_text(
+        'name = "tiny"\nprobes = ["linear", "convex"]\nfacets = [300, 500]\nforces = [9]\nangles = [0, 40]\n'
+        'methods = ["contactbench", "algorithm1"]\ntouches = 40\n',
+        encoding="utf-8",
+    )
+    out = tmp_path / "out"
+    command = [sys.executable, "-c", "from pipeline.cli import main; main()", "study", "run", str(plan)]
+    with subprocess.Popen(
+        [*command, "--workers", "1", "--out", str(out)], stderr=subprocess.DEVNULL
+    ) as process:
+        deadline = time.monotonic() + 120
+        while _lines(out) < 3 and time.monotonic() < deadline:
+            time.sleep(0.005)
+        process.send_signal(signal.SIGKILL if os.name == "posix" else signal.SIGTERM)
+    kept = _lines(out)
+    assert kept >= 3
+    with (out / DONE).open("ab") as stream:
+        stream.write(b'{"key": "torn')
+    (out / RESULTS).unlink(missing_ok=True)  # a fast machine may have finished
+    assert run(_TINY, out, workers=1, timed=False).computed == len(_TINY) - kept
+    assert _table(out) == alone
+
+
+def _lines(out):
+    return (out / DONE).read_bytes().count(b"\n") if (out / DONE).exists() else 0
+
+
+def test_a_method_that_cannot_do_it_says_so_and_is_tried_again(tmp_path, monkeypatch):
+    plan = _TINY.model_copy(update={"methods": ("contactbench", "wrench_axis"), "probes": ("linear",)})
+    monkeypatch.setitem(sys.modules, "embreex.rtcore_scene", None)
+    first = run(plan, tmp_path, workers=1, timed=False)
+    assert first.failed == len(plan) / 2
+    rows = read_results(tmp_path).rows
+    assert {row["method"] for row in rows if row["failed"]} == {"wrench_axis"}
+    assert "needs Embree" in next(row["failed"] for row in rows if row["failed"])
+    monkeypatch.undo()
+    pytest.importorskip("embreex")
+    second = run(plan, tmp_path, workers=1, timed=False)
+    assert (second.computed, second.failed) == (first.failed, 0)
+
+
+def test_a_file_is_swept_up_to_its_own_mesh(tmp_path):
+    file = tmp_path / "mine.ply"
+    save_probe(Probe.from_arrays(*assets.make("convex", 800)), file)
+    plan = Plan(probes=(str(file),), facets=(300, 1_000, 2_000), methods=("contactbench",), touches=40)
+    run(plan, tmp_path / "out", workers=1, timed=False)
+    results = read_results(tmp_path / "out")
+    found = {row["facets"]: row["facets_found"] for row in results.rows}
+    assert sorted(found) == [300, 1_000]
+    assert abs(found[300] - 300) < 10
+    assert 780 <= found[1_000] <= 820
+    assert {row["probe"] for row in results.rows} == {"mine.ply"}
+    assert str(tmp_path) not in json.dumps([results.about, results.command, dict(results.environment)])
+
+
+def test_the_environment_is_kept(small):
+    results = read_results(small)
+    assert {"contactbench", "python", "processor", "cores", "kernel", "numpy", "workers"} <= set(
+        results.environment
+    )
+    assert results.command == "contactbench study run small.toml"
+    assert results.about["plan"]["touches"] == 60
+
+
+def test_wrong_folders_and_schedulers_are_named(tmp_path):
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(InputError, match="is a file"):
+        run(_TINY, tmp_path / "file", workers=1)
+    with pytest.raises(InputError, match=r"no connection .* check the address"):
+        run(_TINY, tmp_path / "a", scheduler="nonsense://x")
+    (tmp_path / DONE).write_text("no result\n")
+    with pytest.raises(InputError, match="line 1: no result of a study"):
+        Store(tmp_path)
+    with pytest.raises(InputError, match="no results of a study"):
+        read_results(tmp_path)
+
+
+def test_errors_are_those_of_the_answers(rows):
+    """The bound of a cell is what the solver states on a fine mesh, and sure answers keep to it."""
+    fine = [
+        r for r in rows if r["facets"] == 1200 and r["method"] == "contactbench" and r["noise"] == "paper"
+    ]
+    assert all(0.8 < row["over_bound"] < 1.6 for row in fine if row["force"] < 20)
+    assert all(np.isclose(row["answered"], 1.0, atol=0.05) for row in fine)

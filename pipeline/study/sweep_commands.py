@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from pipeline.console import Bar, JsonOption, print_json, say, show_tables
 from pipeline.errors import InputError
 from pipeline.study.finishing import NOT_GOOD_ENOUGH
+
+_OTHERS = ("hard", "ablation", "rivals")
 
 if TYPE_CHECKING:
     from pipeline.study.results import Results
@@ -26,7 +28,12 @@ def add_sweep_commands(app: typer.Typer) -> None:
 
 def run(
     study: Annotated[Path | None, typer.Argument(metavar="[STUDY.toml]", help="What to vary.")] = None,
-    preset: Annotated[str | None, typer.Option(help="Or one of paper, resolution, quick, steep.")] = None,
+    preset: Annotated[
+        str | None,
+        typer.Option(
+            help="Or one of paper, resolution, quick, steep; hard, ablation and rivals are the studies of that kind."
+        ),
+    ] = None,
     probe: Annotated[
         list[str] | None,
         typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the plan's]."),
@@ -49,7 +56,8 @@ def run(
     """Sweep methods, meshes, probes, forces, angles, torsions, noises and filters.
 
     Errors are the same whatever the number of workers. Stopped with Ctrl-C or killed, it goes on from where it was.
-    Exit code 1: a cell could not be computed.
+    Exit code 1: a cell could not be computed. The presets hard, ablation and rivals are no sweeps: they run
+    `study stability`, `study ablation` and `study rivals`, where more can be chosen.
     """
     from pipeline.study.sweep.plan import Plan, label
     from pipeline.study.sweep.presets import changed
@@ -58,6 +66,12 @@ def run(
 
     if (study is None) == (preset is None):
         raise InputError("study run: give either a STUDY.toml or a --preset.")
+    if preset in _OTHERS:
+        given = {"--workers": workers, "--scheduler": scheduler, "--no-times": not times or None}
+        _run_other(
+            preset, out, probe or [], touches, seed, [n for n, v in given.items() if v], as_json=as_json
+        )
+        return
     plan = named(str(preset)) if study is None else Plan.read(study)
     plan = changed(plan, probe or (), touches, seed)
     # Without the folders of files: they mean nothing elsewhere.
@@ -92,6 +106,35 @@ def run(
         )
     if done.failed:
         raise typer.Exit(NOT_GOOD_ENOUGH)
+
+
+def _run_other(
+    preset: str,
+    out: Path,
+    probes: list[str],
+    touches: int | None,
+    seed: int | None,
+    meaningless: list[str],
+    *,
+    as_json: bool,
+) -> None:
+    """Run a study that is no sweep; InputError for options that mean nothing to it."""
+    from pipeline.study.ablation.commands import ablation
+    from pipeline.study.rivals.commands import rivals
+    from pipeline.study.stability_commands import stability
+
+    sizes: dict[str, Any] = {} if touches is None else {"samples": touches}
+    if preset != "hard":
+        meaningless += ["--touches"] if sizes else []
+    elif probes:
+        meaningless += ["--probe"]
+    if meaningless:
+        raise InputError(f"--preset {preset}: {', '.join(meaningless)}: it has no such option: leave it out.")
+    if preset == "hard":
+        stability(seed=seed or 0, out=out, as_json=as_json, **sizes)
+    else:
+        command = ablation if preset == "ablation" else rivals
+        command(out=out, probe=probes or None, seed=seed or 0, as_json=as_json)
 
 
 def compare(

@@ -122,6 +122,22 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
 
 
 @pytest.mark.parametrize(
+    ("preset", "place", "name"),
+    [
+        ("hard", "pipeline.study.stability_commands", "stability"),
+        ("ablation", "pipeline.study.ablation.commands", "ablation"),
+        ("rivals", "pipeline.study.rivals.commands", "rivals"),
+    ],
+)
+def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, preset, place, name):
+    asked = {}
+    monkeypatch.setattr(f"{place}.{name}", lambda **values: asked.update(values))
+    done = _invoke("run", "--preset", preset, "--seed", "4", "--out", tmp_path / "it")
+    assert done.exit_code == 0, done.stderr
+    assert (asked["seed"], asked["out"]) == (4, tmp_path / "it")
+
+
+@pytest.mark.parametrize(
     ("words", "said"),
     [
         (("run",), "give either a STUDY.toml or a --preset"),
@@ -130,6 +146,11 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
         (("run", "--preset", "slow"), "choose one of paper"),
         (("run", "--preset", "quick", "--probe", "banana"), "banana: the probe cannot be read"),
         (("run", "--preset", "quick", "--touches", "1"), "touches: Input should be greater"),
+        (("run", "--preset", "hard", "--probe", "linear"), "--preset hard: --probe: it has no such option"),
+        (
+            ("run", "--preset", "ablation", "--touches", "9", "--workers", "2"),
+            "--workers, --touches: it has no",
+        ),
         (("page", "nowhere"), "no results of a study"),
         (("compare", "nowhere", "nowhere"), "no results of a study"),
     ],

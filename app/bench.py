@@ -126,6 +126,11 @@ class Bench(QObject):
         if self.failed != before:
             self.changed.emit()
 
+    @property
+    def ending(self) -> bool:
+        """Whether it is being closed: nothing may be begun any more."""
+        return self._let_go
+
     def let_go(self) -> None:
         """Begin to end it all: nothing is told any more, and what can be stopped is asked to."""
         if not self._let_go:

@@ -39,6 +39,10 @@ class Garbage(QObject):
             gc.collect()  # here, and not in the next thread that allocates
             gc.enable()
 
+    def stop(self) -> None:
+        """Collect nothing more: the window is closed, and might itself be what is collected, by its own timer."""
+        self._timer.stop()
+
     def settle(self) -> None:
         """Take what there is now for what stays: later collections need not look at it again."""
         self._looks = 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -10,14 +9,15 @@ from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QUndoGroup
 from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
-from app.bench import Bench, Message, Weight
-from app.errors import LOG, in_words
+from app.bench import Bench, Weight
+from app.errors import in_words
 from app.garbage import Garbage
 from app.heartbeat import Heartbeat
 from app.jobs import Jobs
-from app.opening import damage
 from app.settings import Settings
 from app.start import StartPage, dropped_folder
+from app.turns import Turns
+from app.window_damage import DamageCheck
 from app.window_disk import DiskWatch
 from app.window_docks import Docks, geometry_text, restore_geometry
 from app.window_header import Header
@@ -26,6 +26,7 @@ from app.window_menus import Menus
 from app.window_pages import Pages
 from app.window_probe import SessionProbe
 from app.window_sessions import Sessions
+from app.window_told import Told
 from pipeline.workbench.steps import Step, StepState
 from widgets.progress_strip import ProgressStrip
 from widgets.theme import is_dark, use_theme
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
     from widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
-_CHECK_MS, _MOST_DAMAGE = 2000, 5  # the window is drawn first
 _STATUS_PX = 40
 _SMALLEST = (1024, 700)
 
@@ -73,7 +73,8 @@ class MainWindow(QMainWindow):
         self.settings, self.log = settings or Settings(), log
         self.bench: Bench | None = None
         self.scene: Scene | None = None
-        self.jobs, self.undo = Jobs(self), QUndoGroup(self)
+        self._ending = self._ended = self._connected = self._waits = False
+        self.jobs, self.undo, self._turns = Jobs(self), QUndoGroup(self), Turns(self)
         self.heartbeat, self.garbage = Heartbeat(self), Garbage(self)
         self.setWindowTitle("contactbench")
         self.setMinimumSize(*_SMALLEST)
@@ -85,6 +86,7 @@ class MainWindow(QMainWindow):
         self.docks, self.header = Docks(self), Header()
         self.addToolBar(self.header)
         self.steps, self.messages = self.docks.steps, self.docks.messages
+        self._told = Told(self.docks, lambda: None if self._ending else self.bench, self)
         self.pages, self.live = Pages(self.docks.pages, self), LiveView(self)
         self._probe = SessionProbe(self)
         self.pages.judged.connect(self.steps.show_statuses)
@@ -97,9 +99,9 @@ class MainWindow(QMainWindow):
         self.menus = Menus(self)
         self.header.add(self.menus.undo, self.menus.redo, self.menus.help_here)
         self._connect(faults)
-        self._ending = self._ended = self._connected = False
-        self._noted: set[str] = set()
+        self._turns.failed.connect(self._not_shown)
         self._disk: DiskWatch | None = None
+        self._arriving: Opened | None = None
         self._tick = QTimer(self, interval=_TICK_MS)
         self._tick.timeout.connect(self._show_live)
         self._slow = QTimer(self, interval=_SLOW_MS)
@@ -107,6 +109,7 @@ class MainWindow(QMainWindow):
         if not restore_geometry(self, self.settings.now.geometry):
             self.resize(1280, 800)
         self._show_start()
+        self.garbage.settle()
         self.heartbeat.start()
 
     def _make_status_bar(self) -> None:
@@ -125,47 +128,15 @@ class MainWindow(QMainWindow):
         self.sessions.wanted.connect(self._make_room)
         self.sessions.told.connect(self.tell)
         self._watch(self.jobs)
-        self.heartbeat.stalled.connect(self._stalled)
+        self.heartbeat.stalled.connect(self._told.stalled)
         if faults is not None:
-            faults.happened.connect(self._fault)
+            faults.happened.connect(self._told.fault)
 
     # ---- messages ----------------------------------------------------------------------------------
 
     def tell(self, weight: str, text: str, details: str = "") -> None:
         """Put a message into the list; one that matters makes the list be seen."""
-        LOG.info("%s: %s", weight, text)
-        self.messages.add(str(weight), text, details)
-        if weight in (Weight.WARNING, Weight.ERROR) and self.docks.message_dock.isHidden():
-            self.docks.message_dock.show()
-
-    def _told(self, message: Message) -> None:
-        self.tell(message.weight, message.text, message.details)
-
-    def _fault(self, sentence: str, details: str, expected: bool) -> None:
-        if not expected:
-            sentence = self.tr(
-                "Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes"
-                " again, save diagnostics (menu File) and send them to whoever looks after this program."
-            ).format(sentence)
-        self.tell(Weight.WARNING if expected else Weight.ERROR, sentence, details)
-        if self.bench is not None and not self._ending and sentence not in self._noted:
-            self._noted.add(sentence)  # once is enough for the journal
-            with suppress(RuntimeError):  # the desk was closed meanwhile
-                future = self.bench.desk.do(lambda session: session.note(sentence))
-                future.add_done_callback(
-                    lambda ended: ended.exception()
-                )  # a full disk was told by what met it
-
-    def _job_failed(self, job: Job, error: BaseException) -> None:
-        sentence, details, expected = in_words(error)
-        if expected or isinstance(error, OSError):
-            self.tell(Weight.ERROR, self.tr("{}: {}").format(job.title, sentence), details)
-        else:
-            LOG.error("%s", details)
-            self._fault(sentence, details, False)
-
-    def _stalled(self, seconds: float) -> None:
-        LOG.warning("the window stood still for %.0f ms", 1000 * seconds)
+        self._told.tell(weight, text, details)
 
     # ---- work --------------------------------------------------------------------------------------
 
@@ -174,66 +145,84 @@ class MainWindow(QMainWindow):
 
     def _watch(self, jobs: Jobs) -> None:
         jobs.started.connect(self.strip.watch)
-        jobs.failed.connect(self._job_failed)
+        jobs.failed.connect(self._told.job_failed)
 
     # ---- a session ---------------------------------------------------------------------------------
 
     def _show_session(self, opened: Opened, step: Step | None) -> None:
+        """Make room for a session, and show it: in turns, for all of it at once is a window that hangs."""
+        self._arriving = opened
+        self.start.set_busy(True)
+        self.garbage.settle()  # the modules that a worker has just imported
+        self._turns.run(
+            self._make_scene,
+            self._show_scene,
+            lambda: self.docks.set_charts(self.live.make_charts()),
+            lambda: self.docks.restore(self.settings.now.docks),
+            partial(self._begin, opened),
+            partial(self._show_first, step, opened.desk.notes),
+        )
+
+    def _make_scene(self) -> None:
         if self.scene is None:
             from widgets.scene import Scene  # brings VTK: only once it is needed
 
             self.scene = Scene()
             self.scene.set_dark(is_dark())
             self._middle.addWidget(self.scene)
+
+    def _show_scene(self) -> None:
+        assert self.scene is not None  # noqa: S101 - just made
         self._middle.setCurrentWidget(self.scene)
+
+    def _begin(self, opened: Opened) -> None:
+        assert self.scene is not None  # noqa: S101 - just made
+        self._arriving = None
         bench = self.bench = Bench(opened.desk, self.scene, self)
         self._watch(bench.jobs)
-        bench.told.connect(self._told)
+        bench.told.connect(self._told.message)
         self._disk = DiskWatch(bench)
         bench.go_to.connect(self.show_step)
         self.undo.addStack(bench.undo)
         self.undo.setActiveStack(bench.undo)
-        self.docks.restore(self.settings.now.docks)
-        self.docks.set_charts(self.live.open(bench))
+        self.live.open(bench)
         self._connected = False
         self._probe.open(bench)
         self.pages.open(bench)
         bench.changed.connect(self.pages.read_statuses)
         self.menus.set_open(True)
+
+    def _show_first(self, step: Step | None, notes: tuple[str, ...]) -> None:
+        bench = self.bench
+        if bench is None:
+            return
+        self.start.set_busy(False)
         self.show_step(step or self.pages.first())
         self.live.reopen()
-        for note in opened.desk.notes:
+        for note in notes:
             self.tell(Weight.INFO, note)
         self._tick.start()
         self._slow.start()
         self._show_rates()
-        QTimer.singleShot(_CHECK_MS, bench, lambda: self._check_files(bench))
+        DamageCheck(bench)
         self.shown.emit(bench)
+        if self._ended:
+            QTimer.singleShot(0, self, self.close)
+        elif self._waits:
+            self._waits = False
+            QTimer.singleShot(0, self, self.close_session)
 
-    def _check_files(self, bench: Bench) -> None:
-        if bench is self.bench and not self._ending:
-            folder = bench.desk.folder
-            bench.jobs.start(
-                self.tr("Checking the session's files"),
-                lambda _progress, cancelled: damage(folder, cancelled),
-                self._tell_damage,
-            )
-
-    def _tell_damage(self, problems: tuple[str, ...]) -> None:
-        for problem in reversed(problems[:_MOST_DAMAGE]):
-            self.tell(Weight.ERROR, problem)
-        if problems:
-            words = (
-                self.tr(
-                    "A file of this session is not as it was written, so nothing that rests on it counts."
-                )
-                if len(problems) == 1
-                else self.tr(
-                    "{} files of this session are not as they were written, so nothing that rests on them counts."
-                    " `contactbench session verify` lists them all."
-                )
-            )
-            self.tell(Weight.ERROR, words.format(len(problems)))
+    def _not_shown(self) -> None:
+        """Give a session back that could not be shown: its desk must not keep the lock."""
+        opened, self._arriving = self._arriving, None
+        self.start.set_busy(False)
+        if opened is not None:
+            self.jobs.start(self.tr("Closing the session"), lambda _progress, _cancelled: opened.desk.close())
+            self._show_start()
+        else:
+            self.close_session()
+        if self._ended:
+            self.close()
 
     def _show_start(self) -> None:
         self._middle.setCurrentWidget(self.start)
@@ -245,14 +234,16 @@ class MainWindow(QMainWindow):
         self.sessions.list_recent()
 
     def _make_room(self) -> None:
-        if self.bench is None:
+        if self._turns.going_on:
+            self._waits = True  # as soon as this one is there
+        elif self.bench is None:
             self.sessions.proceed()
         else:
             self.close_session()
 
     def close_session(self) -> None:
         """Close what is open, and show the first page; a recording that runs is kept."""
-        if self.bench is None or self._ending:
+        if self.bench is None or self._ending or self._turns.going_on:
             return
         bench, self._ending = self.bench, True
         self._remember(bench)
@@ -370,6 +361,9 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Close the session first, in a worker; then the window. Nothing is asked: nothing can be lost."""
         self._ended = True
+        if self._turns.going_on:  # closed as soon as the session is there
+            event.ignore()
+            return
         if self.bench is not None:
             event.ignore()
             self.close_session()
@@ -378,6 +372,7 @@ class MainWindow(QMainWindow):
         self.menus.close_windows()
         self.settings.change(geometry=geometry_text(self))
         self.heartbeat.stop()
+        self.garbage.stop()
         for timer in (self._tick, self._slow):
             timer.stop()
         if self.scene is not None:

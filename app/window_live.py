@@ -41,14 +41,19 @@ class LiveView(QObject):
         self._well = True
         self.charts: StripChart | None = None
 
-    def open(self, bench: Bench) -> StripChart:
-        """Begin with a session; return its charts."""
+    def make_charts(self) -> StripChart:
+        """Make charts for the next session; return them."""
         from widgets.strip_chart import StripChart  # brings pyqtgraph: only once it is needed
 
+        self.charts = StripChart()
+        return self.charts
+
+    def open(self, bench: Bench) -> None:
+        """Begin with a session."""
         self._bench, self._well = bench, True
         bench.live.on_error.append(_Once())
-        self.charts = StripChart(bench.live)
-        return self.charts
+        if self.charts is not None:
+            self.charts.follow(bench.live)
 
     def forget(self) -> None:
         """Let go of it."""

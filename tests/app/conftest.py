@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
@@ -66,6 +67,14 @@ def make_window(qtbot):
             if window.isVisible():
                 close(qtbot, window)
             window.deleteLater()
+        del window
+    made.clear()
+    delete_now()
+
+
+def delete_now():
+    """Delete what was said to be deleted later: outside of an event loop nothing else does, until the next test's."""
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     QApplication.processEvents()
 
 

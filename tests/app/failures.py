@@ -5,7 +5,6 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from PySide6.QtWidgets import QApplication
 from workbench.touch_session import make_session
 
 from app.errors import Faults, LogFile
@@ -13,7 +12,7 @@ from app.settings import Settings
 from app.window import MainWindow
 from pipeline.workbench.steps import Step
 
-from .conftest import close, shown
+from .conftest import close, delete_now, shown
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -80,7 +79,8 @@ class Whole:
             self.faults.uninstall()
             self.log.close()
             self.window.deleteLater()
-            QApplication.processEvents()
+            self.window = None
+            delete_now()
 
 
 @contextmanager

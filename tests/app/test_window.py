@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import gc
 import os
 import threading
@@ -18,6 +19,8 @@ from pipeline.session import Session
 from pipeline.workbench.steps import Step
 
 from .conftest import PlainPage, close, shown
+
+LONG = 30_000
 
 
 @pytest.fixture
@@ -295,3 +298,63 @@ def test_opened_and_closed_many_times_nothing_is_left(qtbot, make_window, tmp_pa
     gc.collect()
     qtbot.waitUntil(lambda: threading.active_count() <= threads, timeout=10_000)
     assert len(QApplication.topLevelWidgets()) <= windows
+
+
+def test_a_session_comes_in_turns_and_what_is_asked_meanwhile_follows(qtbot, window, tmp_path):
+    for name in ("a", "b"):
+        Session.create(tmp_path / name).close()
+    window.sessions.open(tmp_path / "a")
+    qtbot.waitUntil(lambda: window._turns.going_on, timeout=LONG)
+    assert window.bench is None
+    window.sessions.open(tmp_path / "b")
+    qtbot.waitUntil(lambda: window.bench is not None and window.bench.desk.folder.name == "b", timeout=LONG)
+    with Session.open(tmp_path / "a"):
+        pass  # it was closed, and its lock given back
+
+
+def test_a_window_that_is_closed_while_a_session_comes_closes_both(qtbot, window, tmp_path):
+    Session.create(tmp_path / "a").close()
+    window.sessions.open(tmp_path / "a")
+    qtbot.waitUntil(lambda: window._turns.going_on, timeout=LONG)
+    window.close()
+    assert window.isVisible()
+    qtbot.waitUntil(lambda: not window.isVisible(), timeout=LONG)
+    Session.open(tmp_path / "a").close()
+
+
+def test_a_scene_that_cannot_be_made_gives_the_session_back(qtbot, make_window, monkeypatch, tmp_path):
+    def broken(_self, _parent=None):
+        raise RuntimeError("no OpenGL here")
+
+    Session.create(tmp_path / "a").close()
+    told = []
+    monkeypatch.setattr("sys.excepthook", lambda _kind, error, _trace: told.append(str(error)))
+    monkeypatch.setattr("widgets.scene.Scene.__init__", broken)
+    window = make_window()
+    window.sessions.open(tmp_path / "a")
+    qtbot.waitUntil(lambda: bool(told), timeout=LONG)
+    assert told == ["no OpenGL here"]
+    qtbot.waitUntil(lambda: not window._running(), timeout=LONG)
+    assert window.bench is None
+    assert window.start.virtual_button.isEnabled()
+    Session.open(tmp_path / "a").close()
+
+
+def test_a_full_disk_is_watched_and_the_session_goes_on_by_itself(qtbot, opened, monkeypatch):
+    window = opened
+
+    def refuses(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    texts = window.messages.texts
+    with monkeypatch.context() as full:
+        for name in ("write", "fsync"):
+            full.setattr(os, name, refuses)
+        window.bench.do("Noting", lambda session: session.note("lost"))
+        qtbot.waitUntil(lambda: any("goes on by itself" in text for text in texts()), timeout=LONG)
+        qtbot.wait(2500)
+        assert window.bench.desk.refuses
+    qtbot.waitUntil(lambda: any("can be written again" in text for text in texts()), timeout=LONG)
+    assert not window.bench.desk.refuses
+    assert sum("goes on by itself" in text for text in texts()) == 1
+    window.bench.desk.do(lambda session: session.note("again")).result(10)

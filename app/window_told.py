@@ -1,0 +1,76 @@
+"""What the window tells: into the message list, the log and, for faults, the session's journal."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+
+from app.bench import Weight
+from app.errors import LOG, in_words
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from app.bench import Bench, Message
+    from app.jobs import Job
+    from app.window_docks import Docks
+
+
+class Told(QObject):
+    """
+    Tells things.
+
+    Parameters
+    ----------
+    docks : Docks
+        With the message list.
+    bench : callable
+        Returns what is open and not being closed, or None.
+    """
+
+    def __init__(self, docks: Docks, bench: Callable[[], Bench | None], parent: QObject) -> None:
+        super().__init__(parent)
+        self._docks, self._bench = docks, bench
+        self._noted: set[str] = set()
+
+    def tell(self, weight: str, text: str, details: str = "") -> None:
+        """Put a message into the list; one that matters makes the list be seen."""
+        LOG.info("%s: %s", weight, text)
+        self._docks.messages.add(str(weight), text, details)
+        if weight in (Weight.WARNING, Weight.ERROR) and self._docks.message_dock.isHidden():
+            self._docks.message_dock.show()
+
+    def message(self, message: Message) -> None:
+        """Put a page's message into the list."""
+        self.tell(message.weight, message.text, message.details)
+
+    def fault(self, sentence: str, details: str, expected: bool) -> None:
+        """Tell of what nobody caught; once in the journal, too."""
+        if not expected:
+            sentence = self.tr(
+                "Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes"
+                " again, save diagnostics (menu File) and send them to whoever looks after this program."
+            ).format(sentence)
+        self.tell(Weight.WARNING if expected else Weight.ERROR, sentence, details)
+        bench = self._bench()
+        if bench is not None and sentence not in self._noted:
+            self._noted.add(sentence)
+            with suppress(RuntimeError):  # the desk was closed meanwhile
+                future = bench.desk.do(lambda session: session.note(sentence))
+                # a full disk was told by what met it
+                future.add_done_callback(lambda ended: ended.exception())
+
+    def job_failed(self, job: Job, error: BaseException) -> None:
+        """Tell why long work came to no end."""
+        sentence, details, expected = in_words(error)
+        if expected or isinstance(error, OSError):
+            self.tell(Weight.ERROR, self.tr("{}: {}").format(job.title, sentence), details)
+        else:
+            LOG.error("%s", details)
+            self.fault(sentence, details, False)
+
+    def stalled(self, seconds: float) -> None:
+        """Write into the log that the window stood still."""
+        LOG.warning("the window stood still for %.0f ms", 1000 * seconds)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
@@ -16,6 +15,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from app.bench import Bench
+    from pipeline.simulation.virtual.bench import VirtualBench
+    from pipeline.simulation.virtual.given import Done
     from pipeline.workbench.verify_touches import LiveTouches, TouchView
 
 _HELD_S, _PAUSE_S, _MOST_TRIES = 1.2, 0.4, 3
@@ -36,8 +37,9 @@ class Toucher(QObject):
     def __init__(self, bench: Bench, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._bench, self.all = bench, False
-        self._free_at, self._tried, self._tries = 0.0, -1, 0
-        self._asked: Future[object] | None = None
+        self._tried, self._tries = -1, 0
+        self._asked: Future[Done] | None = None
+        self._over: tuple[VirtualBench, float] | None = None  # when the press is, on the bench's clock
 
     @property
     def there(self) -> bool:
@@ -50,8 +52,7 @@ class Toucher(QObject):
         pair = self._bench.live.pair
         if pair is None or pair.bench is None:
             return
-        self._asked = pair.bench.touch(point_S=point, force=force, seconds=_HELD_S)  # type: ignore[assignment]
-        self._free_at = time.monotonic() + _HELD_S + _PAUSE_S
+        self._asked, self._over = pair.bench.touch(point_S=point, force=force, seconds=_HELD_S), None
 
     def press_next(self, touches: LiveTouches, view: TouchView) -> None:
         """Press the next marker, in the middle of its force window."""
@@ -68,12 +69,7 @@ class Toucher(QObject):
 
     def tick(self, touches: LiveTouches | None, view: TouchView | None) -> None:
         """Press the next marker, if the one before is over."""
-        if self._asked is not None and self._asked.done():
-            error, self._asked = self._asked.exception(), None
-            if error is not None:
-                self._stop(str(error))
-                return
-        if not self.all or time.monotonic() < self._free_at:
+        if self._presses() or not self.all:
             return
         if touches is None or view is None or view.next_one is None:
             self._stop("")
@@ -93,6 +89,29 @@ class Toucher(QObject):
             )
             return
         self.press_next(touches, view)
+
+    def _presses(self) -> bool:
+        """
+        Whether the press before is not over; a press that failed ends it all.
+
+        On the bench's clock: on a computer that is too slow for it a press takes longer than it would, and another
+        one before its end would be counted as one that failed.
+        """
+        pair = self._bench.live.pair
+        bench = None if pair is None else pair.bench
+        if self._asked is not None:
+            if not self._asked.done():
+                return True
+            asked, self._asked = self._asked, None
+            error = asked.exception()
+            if error is not None:
+                self._stop(str(error))
+                return True
+            self._over = None if bench is None else (bench, asked.result().until + _PAUSE_S)
+        if self._over is not None and self._over[0] is bench and bench.time < self._over[1]:
+            return True
+        self._over = None
+        return False
 
     def _stop(self, why: str) -> None:
         self.all = False

@@ -184,7 +184,7 @@ def _noises(rows: Sequence[Row]) -> str:
             cells = []
             for scene in _ALL:
                 there = any(
-                    (r["kind"], r["choice"], r["scene"], r.get("noise")) == ("effect", choice, scene, noise)
+                    (r["kind"], r["choice"], r.get("scene"), r.get("noise")) == ("effect", choice, scene, noise)
                     for r in rows
                 )
                 cells.append(_cell(bought(choice, scene, rows, noise)) if there else "–")

@@ -155,14 +155,14 @@ def about_choices(rows: Sequence[Row]) -> list[Verdict]:
 def bought(choice: str, scene: str, rows: Iterable[Row], noise: str = NOISE) -> Bought:
     """Sum up the rows of a choice in a scene."""
     if choice in scenery.CHOICES:
-        mine = [r for r in rows if (r["kind"], r["choice"], r["scene"]) == ("scenery", choice, scene)]
+        mine = [r for r in rows if (r["kind"], r["choice"], r.get("scene")) == ("scenery", choice, scene)]
         moved, floor = _mean(mine, "mean_mm"), _mean(mine, "floor_mm")
         spread = float(np.std([r["mean_mm"] for r in mine]) / np.sqrt(len(mine)))
         return Bought(choice, scene, moved, floor, moved - floor, spread, 0.0, moved - floor > _LEAST_MM)
     mine = [
         r
         for r in rows
-        if (r["kind"], r["choice"], r["scene"], r["noise"]) == ("effect", choice, scene, noise)
+        if (r["kind"], r["choice"], r.get("scene"), r.get("noise")) == ("effect", choice, scene, noise)
     ]
     without, made, gain = (_mean(mine, name) for name in ("without_mean_mm", "made_mean_mm", "bought_mm"))
     sigma = float(np.sqrt(np.nansum([r["bought_se_mm"] ** 2 for r in mine])) / len(mine))
@@ -274,5 +274,5 @@ def _mean(rows: Sequence[Row], name: str) -> float:
 
 def _there(choice: str, scene: str, rows: Iterable[Row]) -> bool:
     return any(
-        r["kind"] in ("effect", "scenery") and r["choice"] == choice and r["scene"] == scene for r in rows
+        r["kind"] in ("effect", "scenery") and (r["choice"], r["scene"]) == (choice, scene) for r in rows
     )

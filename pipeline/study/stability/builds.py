@@ -70,7 +70,7 @@ class Build:
 SINGLE = Build(
     "single",
     "g++",
-    ("-O2", "-DCONTACTBENCH_SINGLE", "-fsingle-precision-constant", "-Wno-narrowing"),
+    ("-O1", "-DCONTACTBENCH_SINGLE", "-fsingle-precision-constant", "-Wno-narrowing"),
     same_bits=False,
 )
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver
+from pipeline.contact import ContactSolver, Gates
 from pipeline.study import hard_meshes as hm
 from pipeline.study.stability import theory
 from pipeline.study.stability.amplification import OPEN, QUIET
@@ -16,12 +16,14 @@ from pipeline.study.stability.rows import Row, Where
 if TYPE_CHECKING:
     from pipeline.study.hard_meshes import Body, Ints, Long
     from pipeline.study.stability.builds import Workshop
+    from pipeline.study.stability.theory import Touches
 
 PART = "edges"
 NEAR = "distance from the edge or vertex, of the edge's length"
 PITCH = "local torque over force, mm"
 OTHER = "answered by another facet or vertex"
 UNANSWERED = "not answered"
+REFUSED = "refused by the friction cone, though no steeper than 45 degrees on the facet that is pressed"
 JUMP = "jump of the point across an edge"
 JUMP_OFF = "jump, off its prediction by"
 MEASURED, PREDICTED = "measured", "|h| |n1 x n2| / (|n1.f| |n2.f|)"
@@ -47,21 +49,19 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
         for i, place in enumerate(("edge", "vertex")):
             rng = np.random.default_rng((seed, power, i))
             rows += _near(body, place, 10.0**-power, samples, rng, workshop)
+    for power in range(3, 16, 3):
+        for i, place in enumerate(("edge", "vertex")):
+            rng = np.random.default_rng((seed, 100 + power, i))
+            rows += _refused(hm.bundled("t-shape", 1000), place, 10.0**-power, samples, rng, workshop)
     for i, pitch in enumerate((0.03, 0.1, 0.3, 1.0)):
-        rows += _jumps(body, 1e-3 * pitch, samples, np.random.default_rng((seed, 50 + i)))
+        rows += _jumps(body, pitch, samples, np.random.default_rng((seed, 50 + i)))
     return rows
 
 
 def _near(
     body: Body, place: str, near: float, samples: int, rng: np.random.Generator, workshop: Workshop | None
 ) -> list[Row]:
-    along = rng.uniform(0.2, 0.8, samples)
-    if place == "edge":
-        shares = np.stack([(1 - near) * along, (1 - near) * (1 - along), np.full(samples, near)], axis=1)
-    else:
-        shares = np.stack([np.full(samples, 1 - near), near * along, near * (1 - along)], axis=1)
-    shares = np.take_along_axis(shares, (rng.integers(3, size=samples)[:, None] + np.arange(3)) % 3, axis=1)
-    touches = theory.touch(body, samples, rng, shares=shares, angle=(0.0, 45.0))
+    touches = _next_to(body, place, near, samples, rng)
     case = f"ellipsoid, next to {place} points"
     more: Where = {"x": near, "axis": NEAR}
     answers = both_precisions(body, touches, workshop)
@@ -75,13 +75,42 @@ def _near(
     return rows
 
 
-def _jumps(body: Body, pitch: float, samples: int, rng: np.random.Generator) -> list[Row]:
-    """Let the axis of a wrench of this pitch, m, cross the middle of edges: the answer steps along the edge."""
+def _next_to(body: Body, place: str, near: float, samples: int, rng: np.random.Generator) -> Touches:
+    """Press at this share of the edge's length from an edge or a vertex, up to 45 degrees from the normal."""
+    along = rng.uniform(0.2, 0.8, samples)
+    if place == "edge":
+        shares = np.stack([(1 - near) * along, (1 - near) * (1 - along), np.full(samples, near)], axis=1)
+    else:
+        shares = np.stack([np.full(samples, 1 - near), near * along, near * (1 - along)], axis=1)
+    turned = (rng.integers(3, size=samples)[:, None] + np.arange(3)) % 3
+    shares = np.take_along_axis(shares, turned, axis=1)
+    return theory.touch(body, samples, rng, shares=shares, angle=(0.0, 45.0))
+
+
+def _refused(
+    body: Body, place: str, near: float, samples: int, rng: np.random.Generator, workshop: Workshop | None
+) -> list[Row]:
+    """Count what is refused at a sharp rim because rounding names the facet on its other side."""
+    touches = _next_to(body, place, near, samples, rng)
+    rows = []
+    for by, found in both_precisions(body, touches, workshop, Gates()).items():
+        refused = 100.0 * float((~np.isfinite(found["point"][:, 0])).mean())
+        most = 0.0 if by == DOUBLE and near >= _SURE_SHARE else None
+        more: Where = {"x": near, "axis": NEAR, "most": most}
+        rows.append(
+            Row(PART, f"T-shape, next to {place} points", by, REFUSED, "%", samples, refused, refused, **more)
+        )
+    return rows
+
+
+def _jumps(body: Body, pitch_mm: float, samples: int, rng: np.random.Generator) -> list[Row]:
+    """Let the axis of a wrench of this pitch cross the middle of edges: the answer steps along the edge."""
     (first, second), (a, b) = _edges(body, samples, rng)
     n1, n2 = body.normals[first], body.normals[second]
     f = hm.press(0.5 * (a + b), n1, rng, angle=(0.0, 45.0)).wrenches[:, :3].astype(np.longdouble)
     middle = np.cross(0.5 * (a + b), f)
     # On the first facet's side of the edge it answers at the middle; k n . F = pitch |F|^2.
+    pitch = 1e-3 * pitch_mm
     k = pitch * _dot(f, f) / _dot(n1, f)
     side = 1e-9 * np.cross(np.cross(n1, b - a), f)
     solver = ContactSolver(body.probe(), QUIET, OPEN)
@@ -93,10 +122,10 @@ def _jumps(body: Body, pitch: float, samples: int, rng: np.random.Generator) -> 
     alone = (one.faces == first) & (other.faces == second) & (one.vertices < 0) & (other.vertices < 0)
     slant = np.abs(_dot(n1, f) * _dot(n2, f)) / _dot(f, f)
     n = np.cross(n1, n2)
-    predicted = (1e3 * pitch * np.sqrt(_dot(n, n)) / slant).astype(np.float64)[alone]
+    predicted = (pitch_mm * np.sqrt(_dot(n, n)) / slant).astype(np.float64)[alone]
     measured = 1e3 * np.linalg.norm(other.points - one.points, axis=1)[alone]
     case = "ellipsoid, middle of its edges"
-    more: Where = {"x": 1e3 * pitch, "axis": PITCH}
+    more: Where = {"x": pitch_mm, "axis": PITCH}
     off = 100.0 * np.abs(measured - predicted) / predicted
     return [
         Row.of(PART, case, MEASURED, JUMP, "mm", measured, **more),

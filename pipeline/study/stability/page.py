@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from pipeline.study.markdown import number, table
+from pipeline.study.stability.amplification import PROBES
 from pipeline.study.stability.rows import PARTS, Row, of_part
 from pipeline.study.stability.verdicts import verdicts
 
@@ -63,18 +64,24 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
 def _groups(rows: Sequence[Row]) -> list[list[Row]]:
     found: dict[tuple[object, ...], list[Row]] = {}
     for row in rows:
-        found.setdefault((row.case, row.figure, row.by, row.axis, row.most), []).append(row)
+        found.setdefault((_every_probe(row), row.figure, row.by, row.axis, row.most), []).append(row)
     return list(found.values())
+
+
+def _every_probe(row: Row) -> str:
+    """Return a row's case without the name of a probe: what was tried on all of them is one line."""
+    probe, _, rest = row.case.partition(", ")
+    return f"all probes, {rest}" if probe in PROBES and rest else row.case
 
 
 def _line(group: list[Row]) -> list[str]:
     known = [row for row in group if row.worst == row.worst] or group
     worst = max(known, key=lambda row: row.worst)
     places = [row.x for row in group if row.x is not None]
-    over = "" if not places else f"{worst.axis}: {number(places[0])} to {number(places[-1])}"
+    over = "" if not places else f"{worst.axis}: {number(min(places))} to {number(max(places))}"
     unit = f" {worst.unit}" if worst.unit else ""
     bound = "" if worst.most is None else f"{number(worst.most)}{unit}"
     kept = "" if worst.most is None else "kept" if all(row.met for row in group) else "**broken**"
     place = "" if worst.x is None else number(worst.x)
-    cells = (worst.case, worst.figure, worst.by, over, f"{sum(row.tries for row in group):,}")
+    cells = (_every_probe(worst), worst.figure, worst.by, over, f"{sum(row.tries for row in group):,}")
     return [c.replace("|", "\\|") for c in (*cells, f"{number(worst.worst)}{unit}", place, bound, kept)]

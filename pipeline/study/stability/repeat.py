@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pipeline.study.stability.builds import Rows, Workshop
 
 PART = "repeatability"
-DIFFER, APART = "answers that differ in any bit", "points, apart"
+DIFFER, APART, REASON = "answers that differ in any bit", "points, apart", "answers with another reason"
 THREADS, WORKERS = (2, 4, 8), (1, 2, 3)
 LOCATED, TRACKED = "each on its own", "tracked as one stream"
 _SECONDS = 600
@@ -139,6 +139,8 @@ def _build_rows(build: builds.Build, base: Rows, found: Rows, case: str) -> list
     if not build.same_bits:
         off = 1e3 * np.linalg.norm(found["point"] - base["point"], axis=1)
         rows.append(Row.of(PART, case, build.name, APART, "mm", off))
+        reasons = int((found["reason"] != base["reason"]).sum())
+        rows.append(Row.count(PART, case, build.name, REASON, reasons, len(base)))
     return rows
 
 

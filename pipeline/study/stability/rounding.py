@@ -13,6 +13,7 @@ from pipeline.study.stability.amplification import COSINE, OPEN, QUIET
 from pipeline.study.stability.rows import Row
 
 if TYPE_CHECKING:
+    from pipeline.contact import Gates
     from pipeline.study.hard_meshes import Body, Float
     from pipeline.study.stability.builds import Rows, Workshop
     from pipeline.study.stability.theory import Touches
@@ -63,9 +64,11 @@ def _rows(case: str, body: Body, touches: Touches, workshop: Workshop | None, **
     return measure(PART, case, body, touches, both_precisions(body, touches, workshop), **more)
 
 
-def both_precisions(body: Body, touches: Touches, workshop: Workshop | None) -> dict[str, Rows]:
-    """Return the answers without gates or noise, as :data:`builds.ROW`: of the kernel, and in single precision."""
-    solver = ContactSolver(body.probe(), QUIET, OPEN)
+def both_precisions(
+    body: Body, touches: Touches, workshop: Workshop | None, gates: Gates = OPEN
+) -> dict[str, Rows]:
+    """Return the answers where no noise is expected, as :data:`builds.ROW`: of the kernel, and in single precision."""
+    solver = ContactSolver(body.probe(), QUIET, gates)
     answers = {DOUBLE: builds.kernel_rows(solver.locate_batch(touches.wrenches))}
     if workshop is not None:
         answers[SINGLE] = workshop.solve(builds.SINGLE, solver, touches.wrenches)[0]

@@ -115,12 +115,18 @@ def _edges(rows: Sequence[Row]) -> str:
         right = [r.x or 0.0 for r in rows if r.figure == edges.OTHER and r.by == by and r.worst == 0]
         sure.append(f"{number(min(right, default=_NONE))} of the edge's length in {by} precision")
     unanswered = sum(r.worst for r in rows if r.figure == edges.UNANSWERED)
+    on_edges, on_vertices = (
+        _said(rows, figure=edges.REFUSED, by=ro.DOUBLE, case=f"T-shape, next to {place} points")
+        for place in ("edge", "vertex")
+    )
     jump = {r.x: r.median for r in rows if r.figure == edges.JUMP and r.by == edges.MEASURED}
     return (
         f"Next to edges and vertices {unanswered:.0f} touches go unanswered. The facet that was pressed answers down"
-        f" to {' and '.join(sure)} from them. Across an edge the answer steps along it by |h| |n1 x n2| / (|n1.f|"
-        f" |n2.f|), to {_said(rows, figure=edges.JUMP_OFF)} %: {number(jump.get(0.3, _NONE))} mm (median) for a local"
-        " torque of 0.3 mm times the force on 1,280 facets."
+        f" to {' and '.join(sure)} from them. Nearer, rounding decides, and on the T-shape's sharp rims it names the"
+        f" wall behind, too steep to answer: {on_edges} % on edges and {on_vertices} % on vertices are refused."
+        " Across an edge the answer steps along it by |h| |n1 x n2| / (|n1.f| |n2.f|), to"
+        f" {_said(rows, figure=edges.JUMP_OFF)} %: {number(jump.get(0.3, _NONE))} mm (median) for a local torque of"
+        " 0.3 mm times the force on 1,280 facets."
     )
 
 
@@ -213,8 +219,8 @@ def _repeat(rows: Sequence[Row]) -> str:
         apart = [r.median for r in rows if r.figure == repeat.APART]
         words += (
             f" With fused multiply-adds ({most.by}), which the kernel's build forbids, {most.worst:,.0f} differ, by"
-            f" {number(max(apart))} mm in the median and {_said(rows, figure=repeat.APART)} mm at worst, where the"
-            " choice between ambiguous contacts turns."
+            f" {number(max(apart))} mm in the median, and {_said(rows, figure=repeat.REASON)} get another reason: the"
+            " two facets at an edge no longer agree on its moment, and touches on it can fall between them."
         )
     return words
 

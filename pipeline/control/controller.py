@@ -17,7 +17,7 @@ from pipeline.control.foundation import Foundation
 from pipeline.control.inertia import Inertia
 from pipeline.control.inverse import solve_step
 from pipeline.control.probing import StiffnessProbe
-from pipeline.control.settings import ControlSettings, Variant
+from pipeline.control.settings import ControlSettings, Variant, for_tool
 from pipeline.control.states import Safety, State
 from pipeline.control.surface import Surface
 from pipeline.control.tare import Tare
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 _CAREFUL = 1.2  # the step in which it touched may have begun in the air
+_UNSURE = 0.5  # share of the tool's inertia
 _PRESS_N = 0.8  # about what the small press may add to the force
 _REMEMBERED_S = 2.0  # how long tissue counts as moving after it did
 _UP = np.array([0.0, 0.0, 1.0])
@@ -76,8 +77,10 @@ class Controller:
         mount: Mount,
         q: NDArray[np.float64],
     ) -> None:
+        foundation, tool = Foundation(probe), intake.gravity
+        lever = foundation.height - float(tool.centre_of_mass_S[2])
+        settings = for_tool(settings, float(tool.mass), lever)
         self.settings, self._arm, self._intake, self._mount = settings, arm, intake, mount
-        foundation = Foundation(probe)
         force, torque = settings.calibration_sigma
         error = float(np.hypot(force * foundation.height, torque)) / settings.desired_force
         tilts = Tilt(*settings.lean, error), Tilt(*settings.lean, error)
@@ -95,6 +98,7 @@ class Controller:
         self._q = np.array(q, dtype=np.float64)
         self._sent = self._pose(self._q)  # where that is
         self._first_axis = self._sent[0][:, 2].copy()
+        self._felt = np.zeros(6)  # what speeds up the tool
         self._moves = 0.0  # m/s, of the tissue along the axis, the largest of late
         self._speeds = np.zeros_like(self._q)
         self._last: Step | None = None
@@ -176,7 +180,8 @@ class Controller:
         here, follows = self._arrived(q_measured)
         R_BS, tip = self._pose(here)
         self._inertia.moved(R_BS, tip - R_BS @ self.wanted_S)
-        sensed = self._intake.take(now, samples, R_BS, self._inertia.wrench(R_BS, dt) - self._tare.wrench)
+        self._felt = self._inertia.wrench(R_BS, dt)
+        sensed = self._intake.take(now, samples, R_BS, self._felt - self._tare.wrench)
         force = pressing(sensed.wrench[:3], _UP)
         offset = self._offset(sensed)
         R_then, moved = self._moved(now, sensed, R_BS, tip)
@@ -278,7 +283,9 @@ class Controller:
         F = sensed.wrench[:3]
         # Tissue that is turned about +x pushes towards +y, about +y towards -x.
         leaning = (float(np.arctan2(F[1], -F[2])), float(np.arctan2(-F[0], -F[2])))
-        sigmas = self._intake.sigmas(sensed.count)
+        # What speeds up the tool is known no better than by half; else it would pass for friction, for a second.
+        noise, left = self._intake.sigmas(sensed.count), _UNSURE * np.abs(self._felt)
+        sigmas = math.hypot(noise[0], left[:2].max()), math.hypot(noise[1], left[3:5].max())
         self.surface.update(self._unseen, tip, R_BS, force, known, leaning, sigmas)
         faded = self._moves * math.exp(-self._unseen / _REMEMBERED_S)
         self._moves = max(abs(self.surface.speed_along(R_BS[:, 2], 0.0)), faded)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
@@ -24,6 +24,7 @@ USUAL_GAIN = 6.0  # 1/s, of force and angle: the paper's figures follow from abo
 
 TOOL_KG, TO_TIP_M = 0.45, 0.08  # a usual tool, and how far its centre of mass is from its tip
 LEFT = 0.35  # share of its inertia that compensation leaves, measured in `PlatformScene`
+_HEAVY = 0.045  # kg·m, mass times lever: up to there the usual turns leave twice the gain
 
 
 class Variant(StrEnum):
@@ -136,7 +137,7 @@ class ControlSettings:
     taring: float = 0.5
     gyration: float = 0.035
     following: float = 0.05
-    max_tilt: float = 0.6
+    max_tilt: float = 0.5
     max_torque: float = 6.0
     settling: float = _SETTLING_S
     angle_gains: tuple[float, float] = (6.0, 6.0)
@@ -213,6 +214,35 @@ class ControlSettings:
             angle_damping=(about[0][1], about[1][1]),
             angle_gains=angle_gains,
         )
+
+
+def for_tool(settings: ControlSettings, mass: float, lever: float) -> ControlSettings:
+    """
+    Slow the aware variant's turns down for a heavy tool.
+
+    What compensation leaves of a tool's inertia leans the force against the turn: m l a / f for an acceleration a,
+    and a controller that takes that for a tilt drives itself. How much of it a loop bears goes with the square of its
+    time: gain, lead, smoothing and settling become slower together.
+
+    Parameters
+    ----------
+    settings : ControlSettings
+    mass : float
+        kg.
+    lever : float
+        From its centre of mass to the tip, m.
+    """
+    slower = math.sqrt(mass * abs(lever) / _HEAVY * ControlSettings.desired_force / settings.desired_force)
+    if slower <= 1:
+        return settings
+    place, about_x, about_y = settings.bandwidth
+    return replace(
+        settings,
+        angle_gains=(settings.angle_gains[0] / slower, settings.angle_gains[1] / slower),
+        bandwidth=(place, about_x / slower, about_y / slower),
+        smoothing=settings.smoothing * slower,
+        settling=settings.settling * slower,
+    )
 
 
 def _turning(force: float, gain: float, wanted: float) -> tuple[float, float]:

@@ -280,13 +280,16 @@ def report_of(ends: list[End], settings: dict[str, object]) -> Report:
             ),
             Figure(fault, "had tracked before", 100 * float(np.mean([end.tracked for end in mine])), "%"),
         ]
-    good = [end for end in ends if end.start.fault == _NONE and end.tracked]
-    if good:
-        swung = 100 * float(np.mean([end.swung for end in good]))
-        figures.append(
-            Figure(_NONE, f"turned over {_SWUNG_DEG:g} degrees off while tracking", swung, "%", most=0)
-        )
-    bad = [end for end in ends if not end.safe or end.swung]
+    for variant in Variant:
+        good = [e for e in ends if e.start.fault == _NONE and e.tracked and e.start.variant is variant]
+        if good:
+            name = f"turned over {_SWUNG_DEG:g} degrees off while tracking, {variant}"
+            swung = 100 * float(np.mean([end.swung for end in good]))
+            # The plain one is the paper's: on a narrow face a place says next to nothing of a tilt, and `max_tilt` is
+            # what ends it.
+            most = 0.0 if variant is Variant.AWARE else None
+            figures.append(Figure(_NONE, name, swung, "%", most=most))
+    bad = [end for end in ends if not end.safe or (end.swung and end.start.fault == _NONE)]
     notes = [
         f"Ends: {', '.join(f'{name} {count}' for name, count in Counter(e.ended for e in ends).items())}."
     ]

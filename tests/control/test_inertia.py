@@ -33,8 +33,8 @@ def test_a_tool_that_is_shaken_in_the_air_feels_nothing(gyration):
             raw.append(np.mean(wrenches, axis=0))
             left.append(raw[-1] + inertia.wrench(R, 0.02))
         # About the tip, as a controller does.
-        turn = 0.015 * np.sin(1.1 * k)
-        scene.command(scene.start + [0.14 * turn, 0, 0.001 * np.cos(0.9 * k), 0, turn, 0])
+        turn = 0.05 * np.sin(0.5 * k)
+        scene.command(scene.start + [0.14 * turn, 0, 0.003 * np.cos(0.4 * k), 0, turn, 0])
     sizes, rest = np.std(raw, axis=0), np.std(left, axis=0)
     assert sizes[0] > 0.5, "it is shaken"
     assert rest[0] < 0.5 * sizes[0]

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.settings import ControlSettings
+from pipeline.control.settings import ControlSettings, for_tool
 from pipeline.errors import InputError
 from pipeline.study.reproduce.touching import model_of
 
@@ -43,6 +43,25 @@ def test_the_defaults_of_a_probe_give_the_loops_the_wanted_gains(name):
 def test_what_cannot_be_is_refused(wrong, says):
     with pytest.raises(InputError, match=says):
         ControlSettings(**wrong)
+
+
+def test_a_heavy_tool_is_turned_more_slowly_and_a_light_one_as_usual():
+    usual = ControlSettings()
+    assert for_tool(usual, 0.45, 0.08) == usual
+    slow = for_tool(usual, 0.8, 0.12)
+    share = usual.smoothing / slow.smoothing
+    assert 0.5 < share < 0.8
+    assert slow.angle_gains == pytest.approx((6.0 * share, 6.0 * share))
+    assert slow.bandwidth == pytest.approx((20.0, 13.0 * share, 13.0 * share))
+    assert slow.settling == pytest.approx(usual.settling / share)
+    assert slow.force_gain == usual.force_gain
+    assert for_tool(usual, 0.8, -0.12) == slow, "a centre of mass beyond the tip swings as well"
+
+
+@pytest.mark.parametrize("angle", [1.6, np.inf, 0.0])
+def test_a_tilt_must_end_somewhere(angle):
+    with pytest.raises(InputError, match="max_tilt"):
+        ControlSettings(max_tilt=angle)
 
 
 def test_what_may_be_nothing_may():

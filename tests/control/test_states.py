@@ -135,7 +135,7 @@ def test_turned_too_far_it_goes_back(state):
     drive = Drive(state)
     assert drive(turned=0.99 * SETTINGS.max_tilt, probed=False) is state
     assert drive(turned=1.01 * SETTINGS.max_tilt) is State.RETRACT
-    assert "turned by 35 degrees" in drive.reason
+    assert "turned by 29 degrees" in drive.reason
 
 
 def test_held_while_it_tracked_it_tracks_again():

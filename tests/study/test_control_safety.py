@@ -31,6 +31,15 @@ def test_a_few_are_safe():
     assert all(f.passed for f in report.figures if "largest force" in f.name)
 
 
+@pytest.mark.parametrize("stiffness", [0.29, 1.0])
+def test_a_heavy_tool_on_a_narrow_face_does_not_swing(stiffness):
+    # 0.75 kg, 0.12 m from the tip: what it takes to turn it passed for friction, and the turn drove itself.
+    end = run_start(replace(draw(2), stiffness=stiffness, faults=()))
+    assert end.safe
+    assert end.tracked
+    assert end.tilt < 10
+
+
 def test_what_is_not_safe_is_said():
     end = run_start(draw(6))
     assert end.safe

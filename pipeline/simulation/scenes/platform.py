@@ -2,8 +2,8 @@
 A probe on a position-controlled mount, over a flat soft phantom on a platform that moves with six axes.
 
 Left out: the arm that would carry the mount (its joints, limits and bending), what tissue does sideways and between its
-places. The mount follows its set-points as a stiff machine does, and carries weight and inertia of the tool on its
-sensor; neither it nor the platform stands more than 0.1 mm off under 7 N.
+places. The mount follows its set-points with 60 rad/s, as an arm's servo, and carries weight and inertia of the tool on
+its sensor; neither it nor the platform stands more than 0.1 mm off under 7 N.
 
 On a convex probe at 7 N and a motion as of the paper's quickest, half the time step changes the force by 0.02 N and
 the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
@@ -19,7 +19,7 @@ from scipy.spatial.transform import Rotation
 
 from pipeline.simulation.scenes.physics import OTHER, Moment, Payload, Truth, new_spec
 from pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
-from pipeline.simulation.scenes.setpoints import SetPoints
+from pipeline.simulation.scenes.setpoints import ServoPath
 from pipeline.simulation.scenes.tissue import (
     PLACES,
     Tissue,
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 DOWN = np.diag([1.0, -1.0, -1.0])  # R_BS of a tool that points down, x kept
 _FASTEST = np.repeat([0.25, np.pi / 2], 3)  # m/s and rad/s, of the mount
 _HARDEST = np.repeat([5.0, 30.0], 3)  # m/s² and rad/s²
+_BANDWIDTH = 60.0  # rad/s, as an arm's: what jumps in acceleration shakes the tool as no machine does
 
 
 class MovedScene(TissueScene):
@@ -255,7 +256,7 @@ class PlatformScene(MovedScene):
         fixed = {"T_BP": np.eye(4), "R_ES": np.eye(3), "p_ES_E": np.zeros(3)}
         super().__init__(spec, truth, tissue, where, area, motion=motion, **fixed)
         self.start = np.array([0.0, 0.0, self.top + gap, 0.0, 0.0, 0.0])
-        self._points = SetPoints(self.start, _FASTEST, _HARDEST, period)
+        self._path = ServoPath(self.start, _FASTEST, _HARDEST, period, _BANDWIDTH, self.step_s)
         self.data.qpos[:6] = self.start
 
     @property
@@ -277,11 +278,12 @@ class PlatformScene(MovedScene):
 
     def command(self, joints: ArrayLike) -> None:
         """Give the mount's servo its next set-point, (6,)."""
-        self._points.give(self.time, np.asarray(joints, dtype=np.float64))
+        self._path.give(self.time, np.asarray(joints, dtype=np.float64))
 
     def control(self) -> None:
         """Pull both sides to where they should be, with the forces that this takes."""
-        now = self.time
-        here, then = self._points.at(now), self._points.at(now + self.step_s)
-        off, slow = here - self.data.qpos[:6], (then - here) / self.step_s - self.data.qvel[:6]
-        self._push(np.concatenate([SERVO**2 * off + 2 * SERVO * slow, self._pulled()]))
+        path = self._path
+        path.go_on(self.time)
+        off, slow = path.place - self.data.qpos[:6], path.speed - self.data.qvel[:6]
+        asked = path.change + SERVO**2 * off + 2 * SERVO * slow
+        self._push(np.concatenate([asked, self._pulled()]))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.errors import InputError
-from pipeline.simulation.scenes.setpoints import SetPoints
+from pipeline.simulation.scenes.setpoints import ServoPath
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -69,13 +69,10 @@ class JointServo:
     def __init__(
         self, robot: Robot, start: NDArray[np.float64], settings: ServoSettings, step: float
     ) -> None:
-        self._robot, self._settings, self._step = robot, settings, step
-        self._fastest, self._hardest = robot.velocity_limits, robot.acceleration_limits
-        self._points = SetPoints(start, self._fastest, self._hardest, settings.period)
-        self._place, self._last = np.array(start), 0.0
-        # Of the path, and of what the joints are off it; both up to the last call.
-        self._speed, self._change = np.zeros(len(start)), np.zeros(len(start))
-        self._off, self._sum = np.zeros(len(start)), np.zeros(len(start))
+        self._robot, self._settings = robot, settings
+        fastest, hardest = robot.velocity_limits, robot.acceleration_limits
+        self._path = ServoPath(start, fastest, hardest, settings.period, settings.bandwidth, step)
+        self._off, self._sum = np.zeros(len(start)), np.zeros(len(start))  # of the joints, off the path
 
     def command(self, time: float, joints: NDArray[np.float64]) -> None:
         """
@@ -86,7 +83,7 @@ class JointServo:
         InputError
             The arm cannot go there, or these are no angles.
         """
-        self._points.give(time, self._robot.check_joints(joints, "set-point"))
+        self._path.give(time, self._robot.check_joints(joints, "set-point"))
 
     def acceleration(
         self, time: float, q: NDArray[np.float64], speed: NDArray[np.float64]
@@ -96,25 +93,14 @@ class JointServo:
 
         Asked twice at one time, it answers the same.
         """
-        self._go_on(time)
-        k = self._settings.stiffness
-        self._off = self._place - q
-        held = k**3 * self._sum + 3 * k * k * self._off + 3 * k * (self._speed - speed)
-        return np.asarray(self._change + held)
-
-    def _go_on(self, time: float) -> None:
-        """Take the path to a time."""
-        passed, self._last = time - self._last, time
-        self._speed = self._speed + passed * self._change
-        self._place = self._place + passed * self._speed
-        most = _MOST_HELD / self._settings.stiffness**3
+        path, k = self._path, self._settings.stiffness
+        passed = path.go_on(time)
+        most = _MOST_HELD / k**3
+        # What the joints were off until now; since then they went on.
         self._sum = np.clip(self._sum + passed * self._off, -most, most)
-        wanted, going = self._points.state(time)
-        w = self._settings.bandwidth
-        asked = w * w * (wanted - self._place) + 2 * w * (going - self._speed)
-        low = np.maximum(-self._hardest, (-self._fastest - self._speed) / self._step)
-        high = np.minimum(self._hardest, (self._fastest - self._speed) / self._step)
-        self._change = np.maximum(np.minimum(asked, high), low)
+        self._off = path.place - q
+        held = k**3 * self._sum + 3 * k * k * self._off + 3 * k * (path.speed - speed)
+        return np.asarray(path.change + held)
 
     def read(self, q: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return what the encoders say, rad."""

@@ -104,3 +104,56 @@ class SetPoints:
         takes = np.maximum(np.abs(self._speed_to) / self._hardest, self._period)
         over = np.minimum(late / takes, 1.0)
         return self._to + self._speed_to * takes * (over - over * over / 2), self._speed_to * (1 - over)
+
+
+class ServoPath:
+    """
+    What a position servo of some bandwidth makes of `SetPoints`: a path without jumps in acceleration.
+
+    It follows their cubics critically damped, speed fed forward, within the limits of speed and acceleration at every
+    moment.
+
+    Parameters
+    ----------
+    start, fastest, hardest, period
+        As of `SetPoints`.
+    bandwidth : float
+        rad/s.
+    step : float
+        s between two calls of `go_on`.
+
+    Attributes
+    ----------
+    place, speed, change : (n,)
+        Where it is, its speed and its acceleration, at the time of the last call.
+    """
+
+    def __init__(
+        self,
+        start: NDArray[np.float64],
+        fastest: NDArray[np.float64],
+        hardest: NDArray[np.float64],
+        period: float,
+        bandwidth: float,
+        step: float,
+    ) -> None:
+        self._points = SetPoints(start, fastest, hardest, period)
+        self._fastest, self._hardest, self._w, self._step = fastest, hardest, bandwidth, step
+        self.place, self._last = np.array(start, dtype=np.float64), 0.0
+        self.speed, self.change = np.zeros_like(self.place), np.zeros_like(self.place)
+
+    def give(self, time: float, point: NDArray[np.float64]) -> None:
+        """Take the next set-point; InputError as of `SetPoints.give`."""
+        self._points.give(time, point)
+
+    def go_on(self, time: float) -> float:
+        """Go on to a time, s; returns how long after the one before that is."""
+        passed, self._last = time - self._last, time
+        self.speed = self.speed + passed * self.change
+        self.place = self.place + passed * self.speed
+        wanted, going = self._points.state(time)
+        asked = self._w * self._w * (wanted - self.place) + 2 * self._w * (going - self.speed)
+        low = np.maximum(-self._hardest, (-self._fastest - self.speed) / self._step)
+        high = np.minimum(self._hardest, (self._fastest - self.speed) / self._step)
+        self.change = np.maximum(np.minimum(asked, high), low)
+        return passed

@@ -39,7 +39,7 @@ def test_in_motion_it_also_reads_the_inertia(truth: Truth) -> None:
     payload = Payload()
     scene = PlatformScene(truth, payload=payload, gap=0.02)
     for k in range(20):
-        scene.command(scene.start + 0.002 * np.sin(20 * k * _PERIOD) * np.array([1, 1, 1, 0, 0, 0]))
+        scene.command(scene.start + 0.006 * np.sin(20 * k * _PERIOD) * np.array([1, 1, 1, 0, 0, 0]))
         scene.advance(_PERIOD)
     places = []
     for at in range(3):

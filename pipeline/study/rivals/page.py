@@ -22,23 +22,22 @@ _FAMILIES = (place.FAMILY, plane.FAMILY, engines.FAMILY, calibrators.FAMILY)
 _MAIN_NOISE = "filtered"
 _ROUNDING_MM = 1e-6
 _SAID = "Time against error of everybody, in one run; ours filled. Times from Python; a ray alone for ray tracers."
+_OF_PLANE = (
+    "It is told the one plane that there is, and how high: no mesh, no search, no other candidate, no reason, no"
+    " covariance. Where the face is that plane nothing can be nearer; where it is not, see the errors on the other probes."
+)
+_OF_VERTICAL = (
+    "It is told two numbers more, that the base is level: where that is so, they need not be estimated; where it is not,"
+    " it is worse. It names no bumped pose, and does not say how sure it is."
+)
+_OF_ENGINE = (
+    "A library called bare: it looks after nothing that comes in - doubled vertices, units, flipped facets -, keeps no"
+    " region, and does not measure what it made."
+)
 _REASONS = {
-    (
-        plane.FAMILY,
-        plane.BOTA.name,
-    ): "It is told the one plane that there is, and how high: no mesh, no search, no other"
-    " candidate, no reason, no covariance. Where the face is that plane nothing can be nearer; where it is not, see the"
-    " errors on the other probes.",
-    (
-        calibrators.FAMILY,
-        calibrators.VERTICAL,
-    ): "It is told two numbers more, that the base is level: where that is so,"
-    " they need not be estimated; where it is not, it is worse. It names no bumped pose, and does not say how sure it is.",
-    (
-        engines.FAMILY,
-        "",
-    ): "A library called bare: it looks after nothing that comes in - doubled vertices, units, flipped"
-    " facets -, keeps no region, and does not measure what it made.",
+    (plane.FAMILY, plane.BOTA.name): _OF_PLANE,
+    (calibrators.FAMILY, calibrators.VERTICAL): _OF_VERTICAL,
+    (engines.FAMILY, ""): _OF_ENGINE,
 }
 _ABOUT = f"""Everybody gets the same inputs, in turns, in one process; simplification engines in a process of their
 own, without what it takes to start. Times are medians, with the 5th to 95th percentile of the rounds; ratios are to
@@ -113,7 +112,8 @@ def verdict(found: Sequence[Duel]) -> str:
     text = table(["family", "comparisons", "both", "faster somewhere", "more accurate somewhere"], lines)
     for family, contender in dict.fromkeys((duel.family, duel.contender) for duel in winners):
         mine = [duel for duel in winners if (duel.family, duel.contender) == (family, contender)]
-        text += f"\n\n**{contender}** is both in {len(mine)} of the comparisons of {family}. {_why(family, contender)}\n\n"
+        count = f"{len(mine)} of the comparisons of {family}"
+        text += f"\n\n**{contender}** is both in {count}. {_why(family, contender)}\n\n"
         text += "\n".join(f"- {duel.words}." for duel in mine)
     return text
 

@@ -228,7 +228,7 @@ class Controls(QWidget):
 
     def show_numbers(self, force: float | None, angles: tuple[float, float] | None) -> None:
         """Show the force, N, and the angles, degrees, the larger one."""
-        self.force.setText("–" if force is None else self.tr("{:.1f} N").format(force))
+        self.force.setText("–" if force is None else self.tr("{:z.1f} N").format(force))
         self.angle.setText("–" if angles is None else self.tr("{:.1f}°").format(max(map(abs, angles))))
 
     def show_changes(self, changes: Sequence[Change]) -> None:

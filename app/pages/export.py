@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -86,6 +87,7 @@ class ExportPage(Page):
         column.addWidget(self._boxed(self.tr("What will be in it"), self._preview_labels()))
         self.settings = ExportSettingsPanel()
         self.settings.changed.connect(self._set)
+        self.settings.failed.connect(partial(self.bench.tell, Weight.WARNING))
         column.addWidget(self._boxed(self.tr("Settings"), [self.settings]))
         column.addStretch(1)
 

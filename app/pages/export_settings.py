@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFormLayout, QLineEdit, QSizePolicy, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLineEdit,
+    QPushButton,
+    QSizePolicy,
+    QToolButton,
+    QWidget,
+)
+
+from widgets.icons import icon
 
 if TYPE_CHECKING:
     from pipeline.config.runtime.options import ExportOptions
@@ -17,6 +31,7 @@ class ExportSettingsPanel(QWidget):
     """Asks for the options of an export; null means: what the session knows."""
 
     changed = Signal(dict, str)  # option -> JSON value; what was done, in words
+    failed = Signal(str)  # why something that was chosen is not taken
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -60,6 +75,39 @@ class ExportSettingsPanel(QWidget):
             100.0, " N·m", self.tr("What a controller must never exceed, N·m"), "", "max_torque"
         )
         form.addRow(self.tr("Largest torque"), self.torque)
+        self.gains, self.no_gains = QPushButton(icon("folder"), ""), QToolButton()
+        self.gains.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.gains.setMinimumHeight(_TALL)
+        self.gains.setAccessibleName(self.tr("Gains of the controller"))
+        self.gains.setToolTip(
+            self.tr("How a robot presses and follows: gains.json of contactbench control tune")
+        )
+        self.gains.clicked.connect(self._ask_gains)
+        self.no_gains.setIcon(icon("cross"))
+        self.no_gains.setAccessibleName(self.tr("Leave the gains out"))
+        self.no_gains.setToolTip(self.no_gains.accessibleName())
+        self.no_gains.clicked.connect(lambda: self._say("controller", None, self.no_gains.toolTip()))
+        both = QHBoxLayout()
+        both.addWidget(self.gains, 1)
+        both.addWidget(self.no_gains)
+        form.addRow(self.tr("Gains"), both)
+
+    def _ask_gains(self) -> None:
+        name, _ = QFileDialog.getOpenFileName(self, self.tr("Open gains"), "", self.tr("Gains (*.json)"))
+        if name:
+            self.read_gains(Path(name))
+
+    def read_gains(self, file: Path) -> None:
+        """Take the gains of a file."""
+        from pipeline.config.runtime.settings_file import controller_in
+        from pipeline.errors import InputError
+
+        try:
+            controller = controller_in(file.read_bytes(), file.name)
+        except (InputError, OSError) as error:
+            self.failed.emit(str(error))
+            return
+        self._say("controller", controller.model_dump(mode="json"), self.gains.accessibleName())
 
     def _say(self, name: str, value: Any, text: str) -> None:
         self.changed.emit({name: value}, text)
@@ -113,6 +161,16 @@ class ExportSettingsPanel(QWidget):
         for spin, value in numbers:
             with QSignalBlocker(spin):
                 spin.setValue(value)
+        part = options.controller
+        self.gains.setText(
+            self.tr("none")
+            if part is None
+            else self.tr("{force:g} N, {variant}").format(
+                force=part.desired_force_N,
+                variant=self.tr("aware") if part.variant == "aware" else self.tr("plain"),
+            )
+        )
+        self.no_gains.setVisible(part is not None)
         for box, on in ((self.smooth, not options.no_filter), (self.region_only, options.region_only)):
             with QSignalBlocker(box):
                 box.setChecked(on)

@@ -201,6 +201,9 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
             f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
         ),
     ]
+    gains = model.controller
+    if gains is not None:
+        found.append(("Gains", f"{gains.desired_force_N:g} N, {gains.variant}"))
     part = model.verification
     if part is None:
         found.append(("Contact error", "not verified"))

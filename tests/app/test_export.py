@@ -1,5 +1,6 @@
 """The Export page in a real window: what it says, and the bytes that it writes."""
 
+import json
 import shutil
 
 import pytest
@@ -10,6 +11,8 @@ from app.bench import Bench, Weight
 from app.pages.export import ExportPage
 from pipeline import cli
 from pipeline.config.runtime import RuntimeConfig
+from pipeline.control.content import controller_of
+from pipeline.control.settings import ControlSettings
 from pipeline.session import Session
 from pipeline.workbench.desk import Desk
 from pipeline.workbench.steps import Step, StepState, StepStatus
@@ -108,6 +111,30 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
     window.wait(lambda: page.exported is not None)
     assert not RuntimeConfig.load(tmp_path / "b").model.verified
     assert "NOT verified" in page.result.text()
+
+
+def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
+    page, gains = window.page, tmp_path / "gains.json"
+    controller = controller_of(ControlSettings(desired_force=6.0))
+    gains.write_text(json.dumps({"controller": controller.model_dump()}))
+    assert page.settings.gains.text() == "none"
+    page.settings.read_gains(gains)
+    window.wait(lambda: page.settings.gains.text() == "6 N, aware")
+    window.wait(lambda: page.zip.isEnabled())
+    page.write(tmp_path / "with.zip")
+    window.wait(lambda: page.exported is not None)
+    assert RuntimeConfig.load(tmp_path / "with.zip").model.controller == controller
+    result = CliRunner().invoke(
+        cli.app, ["config", "export", str(window.desk.folder), "--out", str(tmp_path / "same.zip")]
+    )
+    assert result.exit_code == 0, result.output
+    assert (tmp_path / "same.zip").read_bytes() == (tmp_path / "with.zip").read_bytes()
+    page.settings.no_gains.click()
+    window.wait(lambda: page.settings.gains.text() == "none")
+    assert not page.settings.no_gains.isVisible()
+    gains.write_text('{"controller": {"variant": "bold"}}')
+    page.settings.read_gains(gains)
+    assert "gains.json: controller" in window.told[-1].text
 
 
 def test_a_place_that_does_not_do_is_said_in_words(window, tmp_path):

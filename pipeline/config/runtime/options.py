@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from pipeline.config.runtime.build import RobotNames
 from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import LimitsPart
+from pipeline.config.runtime.model import ControllerPart, LimitsPart
 from pipeline.config.runtime.mounts import mount_of_angles
 from pipeline.contact import Gates, WrenchNoise
 
@@ -53,6 +53,8 @@ class ExportOptions(BaseModel):
         Whether contacts outside every region are refused.
     max_force, max_torque : float
         What a controller must never exceed, N and N·m.
+    controller : ControllerPart or None
+        Gains, as the part ``controller`` of a file that ``contactbench control tune`` writes.
     sensor_frame, world_frame : str
         S and W, as the robot description names them.
     operator : str or None
@@ -73,6 +75,7 @@ class ExportOptions(BaseModel):
     region_only: bool = False
     max_force: _Positive = 30.0
     max_torque: _Positive = 3.0
+    controller: ControllerPart | None = None
     sensor_frame: _Name = "ft_sensor"
     world_frame: _Name = "base_link"
     operator: _Name | None = None
@@ -84,7 +87,7 @@ class ExportOptions(BaseModel):
             return cls.model_validate(dict(values))
         except ValidationError as error:
             first = error.errors(include_url=False)[0]
-            where = str(first["loc"][0]) if first["loc"] else "options"
+            where = ".".join(map(str, first["loc"])) or "options"
             raise ConfigError(
                 f"--{where.replace('_', '-')} ({KIND}.{where}): {first['msg']}: correct it."
             ) from None
@@ -144,6 +147,7 @@ class ExportOptions(BaseModel):
                 max_speed_mps=None,
                 max_turn_radps=None,
             ),
+            controller=self.controller,
             operator=self.operator,
             names=RobotNames(self.sensor_frame, self.world_frame),
         )

@@ -64,15 +64,42 @@ def with_file(settings: ExportSettings, data: bytes, name: str) -> ExportSetting
     ConfigError
         It is no JSON, or a field is unknown, missing, of the wrong type or out of its range.
     """
-    if len(data) > _LARGEST:
-        raise ConfigError(f"{name}: larger than {_LARGEST >> 20} MiB: choose a file of settings.")
+    given = _read(data, name)
     try:
-        given = _Settings.model_validate(from_json(data, allow_inf_nan=False))
         return replace(settings, **_parts(given, settings.gates))
-    except ValidationError as error:
+    except ValidationError as error:  # of the gates, once they are whole
         raise ConfigError(f"{name}: {fault_of(error)}: correct it.") from None
     except InputError as error:
         raise ConfigError(f"{name}: {error}") from None
+
+
+def controller_in(data: bytes, name: str) -> ControllerPart:
+    """
+    Return the controller of a file of settings.
+
+    Parameters
+    ----------
+    data, name
+        As of `with_file`.
+
+    Raises
+    ------
+    ConfigError
+        As of `with_file`, or there is none.
+    """
+    given = _read(data, name)
+    if given.controller is None:
+        raise ConfigError(f"{name}: there is no controller in it: choose the gains.json of control tune.")
+    return given.controller
+
+
+def _read(data: bytes, name: str) -> _Settings:
+    if len(data) > _LARGEST:
+        raise ConfigError(f"{name}: larger than {_LARGEST >> 20} MiB: choose a file of settings.")
+    try:
+        return _Settings.model_validate(from_json(data, allow_inf_nan=False))
+    except ValidationError as error:
+        raise ConfigError(f"{name}: {fault_of(error)}: correct it.") from None
     except ValueError as error:
         raise ConfigError(f"{name}: this is not JSON ({error!s:.100}): correct it.") from None
 

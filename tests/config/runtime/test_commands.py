@@ -293,7 +293,7 @@ def test_a_controller_is_read_from_a_file_of_settings():
 def test_a_wrong_controller_of_a_session_is_named():
     wrong = example().model.controller.model_dump()
     wrong["angle"]["gain_per_s"][1] = -1.0
-    with pytest.raises(ConfigError, match="config.controller.angle.gain_per_s.1"):
+    with pytest.raises(ConfigError, match=r"config\.controller\.angle\.gain_per_s\.1"):
         ExportOptions.checked({"controller": wrong})
 
 

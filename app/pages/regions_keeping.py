@@ -35,7 +35,7 @@ class Keeper(QObject):
         self._work: RegionsWork | None = None
         self._kept_at = 0
         self._timer = QTimer(self, singleShot=True, interval=PAUSE)
-        self._timer.timeout.connect(self.keep_now)
+        self._timer.timeout.connect(self._keep_or_wait)
         bench.mended.connect(self.changed)
 
     @property
@@ -54,8 +54,15 @@ class Keeper(QObject):
         if self.dirty:
             self._timer.start()
 
+    def _keep_or_wait(self) -> None:
+        """Keep them, but not amid a stroke: that would be lost, and its end comes soon."""
+        if self._work is not None and self._work.drawing:
+            self._timer.start()
+        else:
+            self.keep_now()
+
     def keep_now(self) -> None:
-        """Keep them at once, in the desk's thread."""
+        """Keep them at once, in the desk's thread; a stroke that is being drawn is given up."""
         self._timer.stop()
         work = self._work
         if work is None or not self.dirty:

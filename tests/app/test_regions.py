@@ -137,6 +137,23 @@ def test_a_new_region_can_be_painted_at_once(window, qtbot):
     qtbot.waitUntil(lambda: not page.keeper.dirty, timeout=LONG)
 
 
+def test_a_stroke_that_is_drawn_while_the_regions_are_kept_is_not_lost(window, qtbot):
+    page, scene = window.page, window.scene
+    page.keeper._timer.setInterval(50)
+    draw(window, (0, 0, 1))  # is kept soon, while the next stroke is drawn
+    scene.brush_began.emit(pick(page, 1, 0, 0), NO_KEY)
+    before = int((page.work.model.labels > 0).sum())
+    qtbot.wait(300)
+    assert page.work.drawing
+    assert page.keeper.dirty, "kept would be half a stroke"
+    scene.brush_moved.emit(pick(page, 0.9, 0.4, 0))
+    scene.brush_ended.emit()
+    assert int((page.work.model.labels > 0).sum()) > before
+    qtbot.waitUntil(lambda: not page.keeper.dirty, timeout=LONG)
+    window.bench.desk.do(lambda session: session).result(10)
+    assert stored(window.bench.desk.state) is not None
+
+
 def test_the_mouse_paints_what_is_under_it(window, qtbot):
     page, view = window.page, window.scene.view
     window.scene.look("top")

@@ -163,7 +163,7 @@ class ExportSettingsPanel(QWidget):
                 spin.setValue(value)
         part = options.controller
         self.gains.setText(
-            self.tr("none")
+            self.tr("left out")
             if part is None
             else self.tr("{force:g} N, {variant}").format(
                 force=part.desired_force_N,

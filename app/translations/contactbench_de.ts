@@ -721,8 +721,8 @@
         <translation>Läuft nicht</translation>
     </message>
     <message>
-        <source>{:.1f} N</source>
-        <translation>{:.1f} N</translation>
+        <source>{:z.1f} N</source>
+        <translation>{:z.1f} N</translation>
     </message>
     <message>
         <source>{:.1f}°</source>
@@ -802,6 +802,21 @@
     <message>
         <source>Where gravity pulled, seen from the sensor. Filled: taken; hollow: left out; cross: rejected; ring: the next pose; dark dot: now. Poses that are spread out tell most.</source>
         <translation>Wohin die Schwerkraft zog, vom Sensor aus gesehen. Gefüllt: aufgenommen; hohl: ausgelassen; Kreuz: abgelehnt; Ring: nächste Pose; dunkler Punkt: jetzt. Weit verteilte Posen sagen am meisten.</translation>
+    </message>
+</context>
+<context>
+    <name>DamageCheck</name>
+    <message>
+        <source>Checking the session&apos;s files</source>
+        <translation type="unfinished">Die Dateien der Sitzung werden geprüft</translation>
+    </message>
+    <message>
+        <source>A file of this session is not as it was written, so nothing that rests on it counts.</source>
+        <translation type="unfinished">Eine Datei dieser Sitzung ist nicht mehr so, wie sie geschrieben wurde; was darauf beruht, zählt deshalb nicht.</translation>
+    </message>
+    <message>
+        <source>{} files of this session are not as they were written, so nothing that rests on them counts. `contactbench session verify` lists them all.</source>
+        <translation type="unfinished">{} Dateien dieser Sitzung sind nicht mehr so, wie sie geschrieben wurden; was darauf beruht, zählt deshalb nicht. `contactbench session verify` listet sie alle auf.</translation>
     </message>
 </context>
 <context>
@@ -1269,6 +1284,46 @@
     <message>
         <source>Largest torque</source>
         <translation>Größtes Moment</translation>
+    </message>
+    <message>
+        <source>Gains of the controller</source>
+        <translation>Verstärkungen der Regelung</translation>
+    </message>
+    <message>
+        <source>How a robot presses and follows: gains.json of contactbench control tune</source>
+        <translation>Wie ein Roboter drückt und folgt: gains.json von contactbench control tune</translation>
+    </message>
+    <message>
+        <source>Leave the gains out</source>
+        <translation>Die Verstärkungen weglassen</translation>
+    </message>
+    <message>
+        <source>Gains</source>
+        <translation>Verstärkungen</translation>
+    </message>
+    <message>
+        <source>Open gains</source>
+        <translation>Verstärkungen öffnen</translation>
+    </message>
+    <message>
+        <source>Gains (*.json)</source>
+        <translation>Verstärkungen (*.json)</translation>
+    </message>
+    <message>
+        <source>left out</source>
+        <translation>weggelassen</translation>
+    </message>
+    <message>
+        <source>{force:g} N, {variant}</source>
+        <translation>{force:g} N, {variant}</translation>
+    </message>
+    <message>
+        <source>aware</source>
+        <translation>vorausschauend</translation>
+    </message>
+    <message>
+        <source>plain</source>
+        <translation>einfach</translation>
     </message>
 </context>
 <context>
@@ -1892,26 +1947,6 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
 </context>
 <context>
     <name>MainWindow</name>
-    <message>
-        <source>Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes again, save diagnostics (menu File) and send them to whoever looks after this program.</source>
-        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
-    </message>
-    <message>
-        <source>{}: {}</source>
-        <translation>{}: {}</translation>
-    </message>
-    <message>
-        <source>Checking the session&apos;s files</source>
-        <translation>Die Dateien der Sitzung werden geprüft</translation>
-    </message>
-    <message>
-        <source>A file of this session is not as it was written, so nothing that rests on it counts.</source>
-        <translation>Eine Datei dieser Sitzung ist nicht mehr so, wie sie geschrieben wurde; was darauf beruht, zählt deshalb nicht.</translation>
-    </message>
-    <message>
-        <source>{} files of this session are not as they were written, so nothing that rests on them counts. `contactbench session verify` lists them all.</source>
-        <translation>{} Dateien dieser Sitzung sind nicht mehr so, wie sie geschrieben wurden; was darauf beruht, zählt deshalb nicht. `contactbench session verify` listet sie alle auf.</translation>
-    </message>
     <message>
         <source>Closing the session</source>
         <translation>Die Sitzung wird geschlossen</translation>
@@ -3900,6 +3935,17 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>{start:.1f} to {end:.1f} s of {whole:.1f} s</source>
         <translation>{start:.1f} bis {end:.1f} s von {whole:.1f} s</translation>
+    </message>
+</context>
+<context>
+    <name>Told</name>
+    <message>
+        <source>Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes again, save diagnostics (menu File) and send them to whoever looks after this program.</source>
+        <translation type="unfinished">Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
+    </message>
+    <message>
+        <source>{}: {}</source>
+        <translation type="unfinished">{}: {}</translation>
     </message>
 </context>
 <context>

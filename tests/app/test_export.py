@@ -117,7 +117,7 @@ def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     page, gains = window.page, tmp_path / "gains.json"
     controller = controller_of(ControlSettings(desired_force=6.0))
     gains.write_text(json.dumps({"controller": controller.model_dump()}))
-    assert page.settings.gains.text() == "none"
+    assert page.settings.gains.text() == "left out"
     page.settings.read_gains(gains)
     window.wait(lambda: page.settings.gains.text() == "6 N, aware")
     window.wait(lambda: page.zip.isEnabled())
@@ -130,7 +130,7 @@ def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     assert result.exit_code == 0, result.output
     assert (tmp_path / "same.zip").read_bytes() == (tmp_path / "with.zip").read_bytes()
     page.settings.no_gains.click()
-    window.wait(lambda: page.settings.gains.text() == "none")
+    window.wait(lambda: page.settings.gains.text() == "left out")
     assert not page.settings.no_gains.isVisible()
     gains.write_text('{"controller": {"variant": "bold"}}')
     page.settings.read_gains(gains)

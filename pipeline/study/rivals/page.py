@@ -24,11 +24,11 @@ _ROUNDING_MM = 1e-6
 _SAID = "Time against error of everybody, in one run; ours filled. Times from Python; a ray alone for ray tracers."
 _OF_PLANE = (
     "It is told the one plane that there is, and how high: no mesh, no search, no other candidate, no reason, no"
-    " covariance. Where the face is that plane nothing can be nearer; where it is not, see the errors on the other probes."
+    " covariance. Where the face is that plane nothing can be nearer; elsewhere, see the errors on the other probes."
 )
 _OF_VERTICAL = (
-    "It is told two numbers more, that the base is level: where that is so, they need not be estimated; where it is not,"
-    " it is worse. It names no bumped pose, and does not say how sure it is."
+    "It is told two numbers more, that the base is level: where that is so, they need not be estimated; where not, it"
+    " is worse. It names no bumped pose, and does not say how sure it is."
 )
 _OF_ENGINE = (
     "A library called bare: it looks after nothing that comes in - doubled vertices, units, flipped facets -, keeps no"

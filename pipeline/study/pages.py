@@ -88,8 +88,15 @@ def gather(folders: Sequence[Path], out: Path) -> Path:
             _write(out / f"{name}-{picture}", _read(folder / picture))
         chapters.append(_PICTURE.sub(rf"\g<1>{name}-\g<2>", chapter))
     page = out / TOGETHER
-    _write(page, ("\n".join([_HEAD, *chapters])).encode())
+    _write(page, "\n".join([_HEAD, _contents(chapters), *chapters]).encode())
     return page
+
+
+def _contents(chapters: Sequence[str]) -> str:
+    """Return links to the chapters, as GitHub and others name headings."""
+    titles = [line[3:] for chapter in chapters for line in chapter.splitlines() if line.startswith("## ")]
+    anchors = [re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles]
+    return "\n".join(f"- [{title}](#{anchor})" for title, anchor in zip(titles, anchors, strict=True)) + "\n"
 
 
 _HEAD = """# Results

@@ -14,7 +14,7 @@ from pipeline.contact.methods import make
 from pipeline.contact.wrench_axis import EmbreeAxis
 from pipeline.errors import InputError
 from pipeline.simulation import draw_touches
-from pipeline.study.sweep.bodies import body_of, mesh_of
+from pipeline.study.sweep.bodies import body_of, file_facets, mesh_of
 from pipeline.study.sweep.judging import bound_of, judged
 from pipeline.study.sweep.noise import believed, deviations
 from pipeline.study.sweep.plan import identity, label
@@ -50,8 +50,9 @@ def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
     Returns
     -------
     dict
-        Plain values: those of the cell, its key, the facets there were, what `judged` gives, times in ns. A method that
-        cannot do it has ``failed`` with the reason, and no figures.
+        Plain values: those of the cell, its key, the facets there were, whether they are the very mesh that is touched
+        (exact), what `judged` gives, times in ns. A method that cannot do it has ``failed`` with the reason, and no
+        figures.
     """
     row: dict[str, Any] = {"key": cell.key, **asdict(cell), "probe": label(cell.probe), "failed": ""}
     try:
@@ -61,6 +62,7 @@ def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
     except InputError as error:
         return row | {"failed": str(error)}
     row["facets_found"] = facets
+    row["exact"] = facets == file_facets(cell.probe)
     row |= judged(
         method.locate_batch(wrenches), touches, bound_of(touches, deviations(cell.noise, cell.filter))
     )

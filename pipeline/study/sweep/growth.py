@@ -17,6 +17,8 @@ TIME, COMPILED, ERROR = "python_median_ns", "compiled_median_ns", "mean_mm"
 _TIMES = (COMPILED, "compiled_p99_ns", TIME, "python_p99_ns")
 _SHARES = ("answered", "sure", "astray", "astray_sure")
 _MATTERS = 1.01
+_BENT = 0.1  # of the squares that a power leaves: with less left than this a floor is there
+_FALLS = 3.0  # a figure that falls less than this has no power to tell
 
 
 def merged(rows: Iterable[Row], by: Sequence[str]) -> list[Row]:
@@ -97,12 +99,15 @@ class Power:
     scale : float
     count : int
         Of the points it is fitted to.
+    floor : float
+        What is left however fine the mesh is: its square adds to that of the power. 0: nothing that shows.
     """
 
     exponent: float
     sigma: float
     scale: float
     count: int
+    floor: float = 0.0
 
 
 def power(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
@@ -117,6 +122,36 @@ def power(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
     variance = float(left @ left) / max(kept.sum() - 2, 1)
     sigma = float(np.sqrt(variance * np.linalg.inv(A.T @ A)[0, 0]))
     return Power(float(found[0]), sigma, float(np.exp(found[1])), int(kept.sum()))
+
+
+def settling(facets: Sequence[float], figures: Sequence[float]) -> Power | None:
+    """
+    Fit a power with a floor, where that explains the figures much better than a power alone.
+
+    An error of the mesh ends where the method's own begins: a power fitted across that bend says nothing.
+    """
+    plain = power(facets, figures)
+    if plain is None or plain.count < 4 or np.nanmax(figures) < _FALLS * np.nanmin(figures):
+        return plain
+    from scipy.optimize import least_squares
+
+    x, y = np.array(facets, dtype=np.float64), np.array(figures, dtype=np.float64)
+    kept = np.isfinite(y) & (y > 0)
+    x, y = np.log(x[kept]), np.log(y[kept])
+
+    def left(u: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(0.5 * np.logaddexp(2 * u[2], 2 * (u[1] + u[0] * x)) - y)
+
+    start = [min(plain.exponent, -0.5), float(y[np.argmin(x)]) + 0.8 * float(x.min()), float(y.min())]
+    found = least_squares(left, start, bounds=([-3.0, -np.inf, -np.inf], [0.0, np.inf, np.inf]))
+    straight = float(np.sum((np.log(plain.scale) + plain.exponent * x - y) ** 2))
+    if 2 * found.cost > _BENT * straight:
+        return plain
+    variance = 2 * found.cost / max(len(x) - 3, 1)
+    jacobian: NDArray[np.float64] = np.array(found.jac, dtype=np.float64)
+    sigma = float(np.sqrt(variance * np.linalg.pinv(jacobian.T @ jacobian)[0, 0]))
+    exponent, scale, floor = (float(v) for v in found.x)
+    return Power(exponent, sigma, float(np.exp(scale)), len(x), float(np.exp(floor)))
 
 
 def enough_facets(facets: Sequence[float], mesh_mm: Sequence[float], bound_mm: float) -> float | None:

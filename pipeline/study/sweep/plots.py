@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged
 from pipeline.study.sweep.tables import exponents
-from pipeline.study.sweep.targets import OURS, is_noisy, plain
+from pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -85,7 +85,7 @@ def _growth(rows: Sequence[Row]) -> bytes:
     if len({row["facets"] for row in rows}) < 3:
         return b""
     times = [row for row in merged(rows, ("probe", "method", "facets")) if np.isfinite(row[TIME])]
-    quiet = merged([row for row in rows if not is_noisy(row)], ("probe", "method", "facets"))
+    quiet = merged(of_meshes(rows), ("probe", "method", "facets"))
     bounds = merged([row for row in rows if is_noisy(row) and row["method"] == OURS], ("probe", "force"))
     laws = exponents(rows)
     probes = list(dict.fromkeys(row["probe"] for row in rows))

@@ -38,8 +38,9 @@ _RESOLUTION = _GROWING | {
 # The same in a minute: fewer meshes, forces and touches.
 _QUICK = _GROWING | {
     "name": "quick",
-    "facets": (200, 1_000, 5_000, 50_000),
+    "facets": (100, 500, 2_000, 20_000, 100_000),
     "forces": (9.0,),
+    "most_facets": {"algorithm1": 2_000},
     "touches": 500,
 }
 # Error against force and angle: little and much force, steep, twisted, quiet and loud.

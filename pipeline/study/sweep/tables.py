@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.study.markdown import number, table
-from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power
-from pipeline.study.sweep.targets import OURS, is_noisy, needed_facets, plain, targets
+from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power, settling
+from pipeline.study.sweep.targets import OURS, is_noisy, needed_facets, of_meshes, plain, targets
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -137,19 +137,20 @@ def exponents(rows: Sequence[Row]) -> dict[tuple[str, str], tuple[Power | None, 
     """
     Return, for each probe and method, the powers of the facets that time and error grow as.
 
-    Time is that of the compiled solve where there is one. The error is the median over conditions of the mean without
-    noise, so that it is that of the mesh.
+    Time is that of the compiled solve where there is one. The error is that of sure answers on the right part of the
+    probe, without noise: that of the mesh, and of the method.
     """
     times = merged(rows, ("probe", "method", "facets"))
-    quiet = merged([row for row in rows if not is_noisy(row)], ("probe", "method", "facets"))
+    quiet = merged(of_meshes(rows), ("probe", "method", "facets"))
     found = {}
     for probe, method in dict.fromkeys((row["probe"], row["method"]) for row in times):
-
-        def of(points: list[Row], name: str, probe: str = probe, method: str = method) -> Power | None:
-            here = [row for row in points if (row["probe"], row["method"]) == (probe, method)]
-            return power([row["facets_found"] for row in here], [row[name] for row in here])
-
-        found[probe, method] = of(times, COMPILED) or of(times, TIME), of(quiet, "rms_near_mm")
+        mine, own = (
+            [r for r in each if (r["probe"], r["method"]) == (probe, method)] for each in (times, quiet)
+        )
+        facets = [row["facets_found"] for row in mine]
+        time = power(facets, [row[COMPILED] for row in mine]) or power(facets, [row[TIME] for row in mine])
+        error = settling([row["facets_found"] for row in own], [row["rms_near_mm"] for row in own])
+        found[probe, method] = time, error
     return found
 
 
@@ -198,7 +199,10 @@ def _facets(enough: float | None, least: float) -> str:
 
 
 def _power(found: Power | None) -> str:
-    return "–" if found is None else f"{found.exponent:.2f} ± {found.sigma:.2f}"
+    if found is None:
+        return "–"
+    floor = f", down to {found.floor:.2g} mm" if found.floor else ""
+    return f"{found.exponent:.2f} ± {found.sigma:.2f}{floor}"
 
 
 def _us(ns: float) -> str:

@@ -42,6 +42,11 @@ def is_noisy(row: Row) -> bool:
     return bool(row["noise"] != "none")
 
 
+def of_meshes(rows: Iterable[Row]) -> list[Row]:
+    """Return the rows that tell what a mesh does: without noise, and not on the very mesh that is touched."""
+    return [row for row in rows if not is_noisy(row) and not row.get("exact")]
+
+
 def targets(rows: Sequence[Row]) -> list[Target]:
     """Return the targets that the rows can tell about."""
     return [*over_bound(rows), *on_front(rows)]
@@ -106,7 +111,7 @@ def needed_facets(rows: Iterable[Row]) -> list[tuple[str, float, float | None, f
     list of (probe, force in N, facets or None, fewest facets that were tried)
     """
     ours = [row for row in rows if row["method"] == OURS and row["filter"] == "none"]
-    meshes = merged([row for row in ours if not is_noisy(row)], ("probe", "facets"))
+    meshes = merged(of_meshes(ours), ("probe", "facets"))
     bounds = merged([row for row in ours if is_noisy(row)], ("probe", "force"))
     found = []
     for row in bounds:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.study.sweep.compare import compare
-from pipeline.study.sweep.growth import beaten, enough_facets, front, knee, merged, power
+from pipeline.study.sweep.growth import beaten, enough_facets, front, knee, merged, power, settling
 from pipeline.study.sweep.targets import needed_facets, on_front, over_bound
 
 _FACETS = (100, 300, 1_000, 3_000, 20_000)
@@ -42,6 +42,19 @@ def test_a_power_is_found_with_its_uncertainty():
     assert power([100, 200], [1, 2]) is None
     assert power([100, 100, 100], [1, 2, 3]) is None
     assert power([1, 2, 3], [0, np.nan, 1]) is None
+
+
+def test_a_floor_is_told_from_a_power():
+    facets = np.array([100, 1_000, 10_000, 100_000, 1_000_000.0])
+    bent = settling(facets, np.hypot(50 * facets**-0.9, 0.1))
+    assert (bent.exponent, bent.floor) == (pytest.approx(-0.9, abs=1e-3), pytest.approx(0.1, rel=1e-3))
+    straight = settling(facets, 50 * facets**-0.8 * np.array([1.1, 0.9, 1.05, 1, 0.95]))
+    assert straight.floor == 0
+    assert straight.exponent == pytest.approx(-0.8, abs=0.03)
+    level = settling(facets, [1.0, 1.1, 0.9, 1.05, 1.0])
+    assert abs(level.exponent) < 0.02
+    assert settling(facets[:3], 1 / facets[:3]).exponent == pytest.approx(-1)
+    assert settling(facets[:2], facets[:2]) is None
 
 
 def test_the_front_and_its_knee():

@@ -67,6 +67,7 @@ def test_several_studies_make_one_page(alone, tmp_path):
     text = page.read_text(encoding="utf-8")
     assert page == tmp_path / "docs" / TOGETHER
     assert text.count("## Sweep: small") == 2
+    assert "- [Sweep: small](#sweep-small)" in text
     for name in re.findall(r"\]\(([\w.-]+\.png)\)", text):
         assert (tmp_path / "docs" / name).is_file()
     assert "(moved-growth.png)" in text

@@ -172,6 +172,7 @@ def test_a_file_is_swept_up_to_its_own_mesh(tmp_path):
     assert abs(found[300] - 300) < 10
     assert 780 <= found[1_000] <= 820
     assert {row["probe"] for row in results.rows} == {"mine.ply"}
+    assert {row["facets"]: row["exact"] for row in results.rows} == {300: False, 1_000: True}
     assert str(tmp_path) not in json.dumps([results.about, results.command, dict(results.environment)])
 
 

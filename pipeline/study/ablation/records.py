@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pipeline.simulation.scenes import Moment, MovedScene, Truth
 
 TOUCH, PRESS, BENCH, PLATFORM, ARM = SCENES = ("touch", "press", "bench", "platform", "arm")
-ANYWHERE = "anywhere"  # touches drawn over the whole head: no physics, but every curvature
+ANYWHERE = "whole head"  # touches drawn over the whole head: no physics, but every curvature
 PAYLOAD = Payload()
 WEIGHT = GravityModel(
     np.array([0.0, 0.0, -STANDARD_GRAVITY * PAYLOAD.mass]), np.zeros(3), PAYLOAD.centre_of_mass_S, np.zeros(3)

@@ -47,10 +47,12 @@ def _as_it_was():
     application = widgets and widgets.QApplication.instance()
     if not application:
         return
-    from PySide6.QtCore import QTranslator
+    from PySide6.QtCore import QCoreApplication, QEvent, QTranslator
     from PySide6.QtGui import QPalette
 
     for translator in application.findChildren(QTranslator):
         application.removeTranslator(translator)
     application.setStyleSheet("")
     application.setPalette(QPalette())
+    # What is to be deleted later is deleted by the next event loop: after the last test there is none.
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

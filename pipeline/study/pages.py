@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 PAGE, TOGETHER = "page.md", "results.md"
 # Kind of a study -> the package whose module `page` tells about it.
 PACKAGES = {name: f"pipeline.study.{name}" for name in ("sweep", "stability", "ablation", "rivals")}
+_BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")
 
 
@@ -114,6 +115,9 @@ def _origin(results: Results) -> str:
     versions = ", ".join(
         f"{name} {facts[name]}" for name in ("contactbench", "python", "numpy", "scipy") if name in facts
     )
+    load, cores = facts.get("load"), facts.get("cores")
+    if load and cores and load > _BUSY * cores:
+        machine += f", which other programs kept busy (load {load:g}: times are no better than upper bounds)"
     compiler = str(facts.get("compiler", "?"))
     compiler = f"GCC {compiler}" if compiler[:1].isdigit() else compiler
     return (

@@ -52,7 +52,7 @@ class Results:
 
 
 def environment(**more: Any) -> dict[str, Any]:
-    """Return what results are computed with: versions, processor, cores, when, and what is given."""
+    """Return what results are computed with: versions, processor, cores and their load, when, and what is given."""
     from importlib.metadata import PackageNotFoundError, version
 
     from pipeline import __version__, kernel
@@ -63,6 +63,7 @@ def environment(**more: Any) -> dict[str, Any]:
         "platform": f"{platform.system()} {platform.machine()}, {' '.join(platform.libc_ver())}",
         "processor": _processor(),
         "cores": os.cpu_count(),
+        "load": round(os.getloadavg()[2], 1) if hasattr(os, "getloadavg") else None,
         "kernel": kernel.variant,
         "compiler": kernel.compiler,
         "finished": datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),

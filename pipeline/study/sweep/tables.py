@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -50,11 +51,20 @@ def knee_table(rows: Sequence[Row]) -> str:
         here = [row for row in points if row["probe"] == probe]
         best = knee(here)
         if best is not None:
-            ends = ", ".join(f"{row['method']} {row['facets']:,}" for row in front(here))
             ours = knee([row for row in here if row["method"] == OURS])
-            shown.append([plain(probe), _knee(best), _knee(ours), ends])
+            shown.append([plain(probe), _knee(best), _knee(ours), _in_short(front(here))])
     columns = ("probe", "knee of all methods", f"knee of {OURS}", "the front, fastest first")
     return table(columns, shown)
+
+
+def _in_short(line: Sequence[Row]) -> str:
+    """Return the methods of a front in order, with the meshes of each stretch."""
+    stretches = []
+    for method, group in groupby(line, key=lambda row: str(row["method"])):
+        facets = [row["facets"] for row in group]
+        span = f"{min(facets):,}" if len(facets) == 1 else f"{min(facets):,} to {max(facets):,}"
+        stretches.append(f"{method} {span}")
+    return "; ".join(stretches)
 
 
 def _knee(row: Row | None) -> str:

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
 from pipeline.study.ablation import locating, scenery
 from pipeline.study.ablation.effects import INERTIA, NOISES
 from pipeline.study.ablation.reading import MOUNT
@@ -22,6 +20,7 @@ from pipeline.study.ablation.verdicts import (
     crossings,
     unit_of,
 )
+from pipeline.study.chapters import chapter
 from pipeline.study.markdown import number, table
 
 if TYPE_CHECKING:
@@ -69,18 +68,8 @@ def make(results: Results, folder: Path) -> str:
     """
     from pipeline.study.ablation.plots import plots
 
-    parts = ["## What a scene needs", _ABOUT]
-    for title, text in tables(results.rows):
-        parts += [f"### {title}", text]
-    for name, data in plots(results.rows).items():
-        try:
-            write_durably(folder / name, data)
-        except OSError as error:
-            raise InputError(
-                f"{folder / name}: cannot be written ({error}): choose another folder."
-            ) from error
-        parts.append(f"![{_SAID[name]}]({name})\n\n{_SAID[name]}")
-    return "\n\n".join(parts)
+    pictures = plots(results.rows)
+    return chapter("What a scene needs", _ABOUT, tables(results.rows), pictures, _SAID, folder)
 
 
 def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:

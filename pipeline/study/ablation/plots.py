@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,24 +11,12 @@ from matplotlib.figure import Figure
 from pipeline.study.ablation import locating, reading
 from pipeline.study.ablation.effects import FILTERED
 from pipeline.study.ablation.verdicts import ANSWERS, MATTERS, located_more, noise_name, share_of
+from pipeline.study.chapters import COLOURS, STYLE, png
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
 Row = dict[str, Any]
-# Okabe and Ito: everybody can tell them apart.
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
-_STYLE: dict[Any, Any] = {
-    "font.size": 8.5,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e3e5e7",
-    "grid.linewidth": 0.6,
-    "lines.linewidth": 1.3,
-    "lines.markersize": 4.0,
-    "legend.frameon": False,
-}
 _PANEL, _HEIGHT, _DPI = 3.4, 2.9, 80
 
 
@@ -113,14 +100,14 @@ def _lines(
 
 
 def _panels(panels: Sequence[Panel]) -> bytes:
-    with rc_context(_STYLE):
+    with rc_context(STYLE):
         figure = Figure(figsize=(_PANEL * len(panels), _HEIGHT), dpi=_DPI, layout="constrained")
         for axes, (title, x_name, y_name, lines, mark) in zip(
             figure.subplots(1, len(panels), squeeze=False)[0], panels, strict=True
         ):
             colours: dict[str, str] = {}
             for name, (xs, ys, style) in lines.items():
-                colour = colours.setdefault(name.split(", ")[0], _COLOURS[len(colours) % len(_COLOURS)])
+                colour = colours.setdefault(name.split(", ")[0], COLOURS[len(colours) % len(COLOURS)])
                 axes.plot(xs, ys, style, marker="o", color=colour, label=name)
             least = min((x for xs, _, _ in lines.values() for x in xs if x > 0), default=1.0)
             if "angle" not in x_name:
@@ -130,6 +117,4 @@ def _panels(panels: Sequence[Panel]) -> bytes:
                 axes.axhline(mark, color="#6b6b6b", linewidth=0.8, linestyle=":")
             axes.set(title=title, xlabel=x_name, ylabel=y_name)
             axes.legend(fontsize=6.5)
-        data = BytesIO()
-        figure.savefig(data, format="png", metadata={"Software": None})
-    return data.getvalue()
+        return png(figure)

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from pipeline.study.chapters import chapter
 from pipeline.study.markdown import number, table
 from pipeline.study.rivals import calibrators, engines, place, plane
 from pipeline.study.rivals.rows import OURS
@@ -63,18 +62,10 @@ def make(results: Results, folder: Path) -> str:
     """
     from pipeline.study.rivals.plots import plots
 
-    parts = ["## Rivals, measured", _ABOUT]
-    for title, text in tables(results.rows):
-        parts += [f"### {title}", text]
-    for name, data in plots(results.rows).items():
-        try:
-            write_durably(folder / name, data)
-        except OSError as error:
-            raise InputError(
-                f"{folder / name}: cannot be written ({error}): choose another folder."
-            ) from error
-        parts.append(f"![{_SAID}]({name})\n\n{_SAID}")
-    return "\n\n".join(parts)
+    pictures = plots(results.rows)
+    return chapter(
+        "Rivals, measured", _ABOUT, tables(results.rows), pictures, dict.fromkeys(pictures, _SAID), folder
+    )
 
 
 def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:

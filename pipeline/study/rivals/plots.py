@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
+from pipeline.study.chapters import COLOURS, STYLE, png
 from pipeline.study.rivals import engines, place
 from pipeline.study.rivals.rows import OURS
 
@@ -15,18 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Row = dict[str, Any]
-# Okabe and Ito: everybody can tell them apart.
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6b6b6b", "#000000")
 _MARKS = "osv^D<>P"
-_STYLE: dict[Any, Any] = {
-    "font.size": 8.5,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e3e5e7",
-    "grid.linewidth": 0.6,
-    "legend.frameon": False,
-}
 _PANEL, _HEIGHT, _DPI = 3.3, 3.0, 80
 _NOISE = "filtered"
 
@@ -78,13 +67,13 @@ def _draw(panels: dict[str, Points], x_name: str, y_name: str) -> bytes:
     if not panels:
         return b""
     names = list(dict.fromkeys(name for points in panels.values() for name in points))
-    with rc_context(_STYLE):
+    with rc_context(STYLE):
         figure = Figure(figsize=(_PANEL * max(len(panels), 2), _HEIGHT + 0.6), dpi=_DPI, layout="constrained")
         drawn = figure.subplots(1, len(panels), squeeze=False)[0]
         for axes, (title, points) in zip(drawn, panels.items(), strict=True):
             for name, some in points.items():
                 k = names.index(name)
-                colour = _COLOURS[k % len(_COLOURS)]
+                colour = COLOURS[k % len(COLOURS)]
                 axes.plot(
                     *zip(*some, strict=True),
                     _MARKS[k % len(_MARKS)],
@@ -95,6 +84,4 @@ def _draw(panels: dict[str, Points], x_name: str, y_name: str) -> bytes:
             axes.set(title=title, xlabel=x_name, ylabel=y_name, xscale="log", yscale="log")
         handles, labels = drawn[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(panels) + 1, 4), fontsize=7)
-        data = BytesIO()
-        figure.savefig(data, format="png", metadata={"Software": None})
-    return data.getvalue()
+        return png(figure)

@@ -808,15 +808,15 @@
     <name>DamageCheck</name>
     <message>
         <source>Checking the session&apos;s files</source>
-        <translation type="unfinished">Die Dateien der Sitzung werden geprüft</translation>
+        <translation>Die Dateien der Sitzung werden geprüft</translation>
     </message>
     <message>
         <source>A file of this session is not as it was written, so nothing that rests on it counts.</source>
-        <translation type="unfinished">Eine Datei dieser Sitzung ist nicht mehr so, wie sie geschrieben wurde; was darauf beruht, zählt deshalb nicht.</translation>
+        <translation>Eine Datei dieser Sitzung ist nicht mehr so, wie sie geschrieben wurde; was darauf beruht, zählt deshalb nicht.</translation>
     </message>
     <message>
         <source>{} files of this session are not as they were written, so nothing that rests on them counts. `contactbench session verify` lists them all.</source>
-        <translation type="unfinished">{} Dateien dieser Sitzung sind nicht mehr so, wie sie geschrieben wurden; was darauf beruht, zählt deshalb nicht. `contactbench session verify` listet sie alle auf.</translation>
+        <translation>{} Dateien dieser Sitzung sind nicht mehr so, wie sie geschrieben wurden; was darauf beruht, zählt deshalb nicht. `contactbench session verify` listet sie alle auf.</translation>
     </message>
 </context>
 <context>
@@ -1008,11 +1008,11 @@
     <name>DiskWatch</name>
     <message>
         <source>Nothing is written into this session at the moment, because the last write failed. Free some space, or check the disk: the session goes on by itself then, and says so.</source>
-        <translation type="unfinished"></translation>
+        <translation>In diese Sitzung wird gerade nichts geschrieben, denn das letzte Schreiben ist fehlgeschlagen. Schaffen Sie Platz oder prüfen Sie den Datenträger: Die Sitzung geht dann von selbst weiter und sagt es.</translation>
     </message>
     <message>
         <source>The disk can be written again, and the session goes on. Do again what was refused; what was recorded before is there.</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Datenträger kann wieder beschrieben werden, und die Sitzung geht weiter. Wiederholen Sie, was abgelehnt wurde; was vorher aufgezeichnet wurde, ist da.</translation>
     </message>
 </context>
 <context>
@@ -1124,7 +1124,7 @@
     </message>
     <message>
         <source>How many readings a second the robot will get is not known: a verification would have told. Verify in step 5, or fill in Readings under Settings, as the sensor is set.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie viele Messwerte pro Sekunde der Roboter bekommen wird, ist nicht bekannt: Eine Überprüfung hätte es gesagt. Überprüfen Sie in Schritt 5, oder füllen Sie unter „Einstellungen“ das Feld „Messwerte“ aus, so wie der Sensor eingestellt ist.</translation>
     </message>
     <message>
         <source>together {size}, SHA-256 {sha256}…</source>
@@ -1771,7 +1771,7 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
     <message>
         <source>Reading again</source>
-        <translation type="unfinished"></translation>
+        <translation>Neu lesen</translation>
     </message>
     <message>
         <source>Open the folder of a session</source>
@@ -1812,43 +1812,43 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <name>Leaving</name>
     <message>
         <source>Leave {name} out</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} auslassen</translation>
     </message>
     <message>
         <source>Why is {name} not touched? The report says so.</source>
-        <translation type="unfinished"></translation>
+        <translation>Warum wird {name} nicht berührt? Der Bericht sagt es.</translation>
     </message>
     <message>
         <source>nothing reaches it</source>
-        <translation type="unfinished"></translation>
+        <translation>nichts kommt dorthin</translation>
     </message>
     <message>
         <source>the mark cannot be seen any more</source>
-        <translation type="unfinished"></translation>
+        <translation>die Markierung ist nicht mehr zu sehen</translation>
     </message>
     <message>
         <source>the housing gives way there</source>
-        <translation type="unfinished"></translation>
+        <translation>das Gehäuse gibt dort nach</translation>
     </message>
     <message>
         <source>a touch there would do damage</source>
-        <translation type="unfinished"></translation>
+        <translation>eine Berührung dort würde Schaden anrichten</translation>
     </message>
     <message>
         <source>Leave it out</source>
-        <translation type="unfinished">Auslassen</translation>
+        <translation>Auslassen</translation>
     </message>
     <message>
         <source>{name} is not left out: that needs a reason.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} wird nicht ausgelassen: Das braucht einen Grund.</translation>
     </message>
     <message>
         <source>{name} is not left out: it was touched meanwhile.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} wird nicht ausgelassen: Es wurde inzwischen berührt.</translation>
     </message>
     <message>
         <source>{name} is left out: {why}. The verdict and the report say so.</source>
-        <translation type="unfinished"></translation>
+        <translation>{name} wird ausgelassen: {why}. Das Urteil und der Bericht sagen es.</translation>
     </message>
 </context>
 <context>
@@ -2849,35 +2849,35 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <name>ReadingBox</name>
     <message>
         <source>Reading recordings</source>
-        <translation type="unfinished"></translation>
+        <translation>Aufzeichnungen lesen</translation>
     </message>
     <message>
         <source>Mount of the sensor, degrees</source>
-        <translation type="unfinished"></translation>
+        <translation>Montage des Sensors, Grad</translation>
     </message>
     <message>
         <source>Off: as the session says, or not turned. On: about the flange&apos;s fixed axes x, y, z.</source>
-        <translation type="unfinished"></translation>
+        <translation>Aus: wie die Sitzung sagt, sonst nicht gedreht. Ein: um die festen Achsen x, y, z des Flansches.</translation>
     </message>
     <message>
         <source>Mount about {axis}, degrees</source>
-        <translation type="unfinished"></translation>
+        <translation>Montage um {axis}, Grad</translation>
     </message>
     <message>
         <source>How much later a wrench is heard than its pose, ms</source>
-        <translation type="unfinished"></translation>
+        <translation>Um wie viel später ein Messwert ankommt als seine Pose, ms</translation>
     </message>
     <message>
         <source>A touch is above this force, N</source>
-        <translation type="unfinished"></translation>
+        <translation>Eine Berührung liegt über dieser Kraft, N</translation>
     </message>
     <message>
         <source>Delay</source>
-        <translation type="unfinished"></translation>
+        <translation>Verzug</translation>
     </message>
     <message>
         <source>Touched above</source>
-        <translation type="unfinished"></translation>
+        <translation>Berührt ab</translation>
     </message>
 </context>
 <context>
@@ -3941,11 +3941,11 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <name>Told</name>
     <message>
         <source>Something went wrong that should not: {}. What is in the session is safe. Try it again; if it comes again, save diagnostics (menu File) and send them to whoever looks after this program.</source>
-        <translation type="unfinished">Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
+        <translation>Es ist etwas schiefgegangen, was nicht sein sollte: {}. Was in der Sitzung ist, ist sicher. Versuchen Sie es noch einmal; kommt es wieder, speichern Sie die Diagnose (Menü Datei) und senden Sie sie an die Person, die dieses Programm betreut.</translation>
     </message>
     <message>
         <source>{}: {}</source>
-        <translation type="unfinished">{}: {}</translation>
+        <translation>{}: {}</translation>
     </message>
 </context>
 <context>
@@ -4155,7 +4155,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     </message>
     <message>
         <source>Go on with the marker after the next one; you say why, and the report repeats it</source>
-        <translation type="unfinished"></translation>
+        <translation>Mit dem übernächsten Marker weitermachen; Sie sagen, warum, und der Bericht wiederholt es</translation>
     </message>
     <message>
         <source>Touch it for me</source>

@@ -17,6 +17,10 @@ def add_stability_commands(app: typer.Typer) -> None:
 
 
 def stability(
+    probe: Annotated[
+        list[str] | None,
+        typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the bundled ones]."),
+    ] = None,
     samples: Annotated[int, typer.Option(help="Touches for each figure, at least 50.")] = 1_000,
     quick: Annotated[
         bool, typer.Option("--quick", help="Coarse meshes, one build of each compiler.")
@@ -34,8 +38,9 @@ def stability(
     Exit code 1 when a stated bound is broken.
     """
     from pipeline.study.stability import study
+    from pipeline.study.stability.probes import BUNDLED
 
-    report = study.run(samples=samples, seed=seed, quick=quick, progress=say)
+    report = study.run(probe or BUNDLED, samples=samples, seed=seed, quick=quick, progress=say)
     if out:
         say(f"{study.keep(report, out)}: page and plots")
     finish(report, None, as_json=as_json)

@@ -126,12 +126,10 @@ def _run_other(
     sizes: dict[str, Any] = {} if touches is None else {"samples": touches}
     if preset != "hard":
         meaningless += ["--touches"] if sizes else []
-    elif probes:
-        meaningless += ["--probe"]
     if meaningless:
         raise InputError(f"--preset {preset}: {', '.join(meaningless)}: it has no such option: leave it out.")
     if preset == "hard":
-        stability(seed=seed or 0, out=out, as_json=as_json, **sizes)
+        stability(probe=probes or None, seed=seed or 0, out=out, as_json=as_json, **sizes)
     else:
         command = ablation if preset == "ablation" else rivals
         command(out=out, probe=probes or None, seed=seed or 0, as_json=as_json)

@@ -9,15 +9,16 @@ import numpy as np
 from pipeline.contact import ContactSolver, Gates, WrenchNoise
 from pipeline.simulation import add_noise
 from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import theory
+from pipeline.study.stability import probes, theory
 from pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from pipeline.study.hard_meshes import Body, Float
     from pipeline.study.stability.theory import Touches
 
 PART = "amplification"
-PROBES = ("linear", "convex", "t-shape")
 OPEN = Gates(friction_angle=89.9999999, min_force=0.0)
 QUIET = WrenchNoise(0.0, 0.0)
 MEASURED, PREDICTED = "measured", "first order"
@@ -29,7 +30,7 @@ COSINE, FORCE, ANGLE = "cosine of the friction angle", "force, N", "friction ang
 _FIRST_ORDER = 1.0  # %
 
 
-def run(samples: int, seed: int) -> list[Row]:
+def run(samples: int, seed: int, names: Sequence[str] = probes.BUNDLED) -> list[Row]:
     """
     Measure amplification towards n . F = 0 and towards F = 0, and the condition of ordinary solves.
 
@@ -38,6 +39,8 @@ def run(samples: int, seed: int) -> list[Row]:
     samples : int
         Touches of each figure.
     seed : int
+    names : sequence of str
+        Probes: bundled, or prepared files in S.
     """
     body = hm.ellipsoid()
     rows: list[Row] = []
@@ -45,7 +48,7 @@ def run(samples: int, seed: int) -> list[Row]:
         rows += _steep(body, 10.0**-power, samples, np.random.default_rng((seed, power)))
     for power in range(2, -7, -1):
         rows += _weak(body, 10.0**power, samples, np.random.default_rng((seed, 10 - power)))
-    for i, name in enumerate(PROBES):
+    for i, name in enumerate(names):
         rows += _ordinary(name, samples, np.random.default_rng((seed, 100 + i)))
     return rows
 
@@ -112,11 +115,13 @@ def _share(case: str, same: int, tries: int, more: Where) -> Row:
 
 def _ordinary(name: str, samples: int, rng: np.random.Generator) -> list[Row]:
     """Give the condition of solves inside the friction cone."""
-    body = hm.bundled(name, 1000)
+    body = probes.body_of(name, 1000)
     rows = []
     for angle in (0.0, 30.0, 60.0, 75.0):
         touches = theory.touch(body, samples, rng, angle=np.full(samples, angle))
         normals = body.normals[touches.faces].astype(np.float64)
         values = theory.condition(normals, touches.points, touches.wrenches)
-        rows.append(Row.of(PART, name, PREDICTED, CONDITION, "m", values, x=angle, axis=ANGLE))
+        rows.append(
+            Row.of(PART, probes.title_of(name), PREDICTED, CONDITION, "m", values, x=angle, axis=ANGLE)
+        )
     return rows

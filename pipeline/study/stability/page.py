@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from pipeline.study.markdown import number, table
-from pipeline.study.stability.amplification import PROBES
+from pipeline.study.stability import precision
 from pipeline.study.stability.rows import PARTS, Row, of_part
 from pipeline.study.stability.verdicts import verdicts
 
@@ -70,8 +70,7 @@ def _groups(rows: Sequence[Row]) -> list[list[Row]]:
 
 def _every_probe(row: Row) -> str:
     """Return a row's case without the name of a probe: what was tried on all of them is one line."""
-    probe, _, rest = row.case.partition(", ")
-    return f"all probes, {rest}" if probe in PROBES and rest else row.case
+    return f"all probes, {row.case.partition(', ')[2]}" if row.part == precision.PART else row.case
 
 
 def _line(group: list[Row]) -> list[str]:

@@ -126,7 +126,8 @@ def _biases(axes: Axes, rows: Sequence[Row]) -> bool:
 def _singles(axis: str) -> _Panel:
     def panel(axes: Axes, rows: Sequence[Row]) -> bool:
         own = of_part(rows, precision.PART, figure=precision.APART, axis=axis)
-        series = {name: [r for r in own if r.case.startswith(name)] for name in am.PROBES}
+        names = dict.fromkeys(r.case.partition(", ")[0] for r in own)
+        series = {name: [r for r in own if r.case.startswith(f"{name}, ")] for name in names}
         return _lines(axes, series, "single from double precision, worst, mm")
 
     return panel

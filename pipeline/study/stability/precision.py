@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pipeline.contact import ContactSolver, Gates, WrenchNoise
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import builds, theory
-from pipeline.study.stability.amplification import PROBES
+from pipeline.study.stability import builds, probes, theory
 from pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from pipeline.study.hard_meshes import Body, Float
     from pipeline.study.stability.builds import Workshop
 
@@ -27,9 +27,17 @@ BY = "single"
 # Stated: a hundredth of what a force of 10 N scatters by, and so seldom another answer that noise hides it.
 MOST_MM, MOST_SHARE = 0.01, 1.0
 _CONE = Gates()
+_FACETS = (500, 1000, 20_000, 100_000)
 
 
-def run(samples: int, seed: int, workshop: Workshop, *, quick: bool = False) -> list[Row]:
+def run(
+    samples: int,
+    seed: int,
+    workshop: Workshop,
+    names: Sequence[str] = probes.BUNDLED,
+    *,
+    quick: bool = False,
+) -> list[Row]:
     """
     Compare the precisions inside the friction cone, past it, and where the local torque is large.
 
@@ -40,35 +48,44 @@ def run(samples: int, seed: int, workshop: Workshop, *, quick: bool = False) -> 
     seed : int
     workshop : Workshop
         Where the single-precision solver is built.
+    names : sequence of str
+        Probes: bundled, or prepared files in S.
     quick : bool
         Only coarse meshes.
     """
     rows: list[Row] = []
-    for i, name in enumerate(PROBES):
+    for i, name in enumerate(names):
         rng = np.random.default_rng((seed, i))
-        for facets in (500, 1000) if quick else (500, 1000, 20_000, 100_000):
-            body = hm.bundled(name, facets)
+        for facets in probes.sizes_of(name, _FACETS[:2] if quick else _FACETS):
+            body = probes.body_of(name, facets)
             touches = theory.touch(body, samples, rng, angle=(0.0, 60.0))
-            case = f"{name}, {INSIDE}"
-            rows += _compared(
-                case, body, touches.wrenches, _CONE, workshop, judged=True, x=facets, axis=FACETS
-            )
-        body = hm.bundled(name, 1000)
-        for low, high in ((60.0, 75.0), (75.0, 85.0), (85.0, 89.0), (89.0, 89.9), (89.9, 89.99)):
-            touches = theory.touch(body, samples, rng, angle=(low, high))
-            gates = _CONE if high <= _CONE.friction_angle else Gates(friction_angle=min(high + 0.5, 89.999))
-            case = f"{name}, {STEEP if high > _CONE.friction_angle else INSIDE}"
-            rows += _compared(case, body, touches.wrenches, gates, workshop, judged=False, x=high, axis=ANGLE)
-        for arm in (1e-3, 1e-2, 1e-1, 1.0):
-            touches = theory.touch(body, samples, rng, arm=arm)
-            case = f"{name}, {LARGE}"
-            rows += _compared(case, body, touches.wrenches, _CONE, workshop, judged=False, x=arm, axis=PITCH)
-        touches = theory.touch(body, samples, rng)
-        for power in (-18, -12, -6, 0, 6, 12, 18):
-            gates, noise = Gates(min_force=0.0), WrenchNoise(0.0, 0.0)
-            case, wrenches = f"{name}, any force, no gate, no noise", 10.0**power * touches.wrenches / 9.0
-            more: Where = {"judged": abs(power) <= 12, "x": 10.0**power, "axis": FORCE}
-            rows += _compared(case, body, wrenches, gates, workshop, noise=noise, **more)
+            case = f"{probes.title_of(name)}, {INSIDE}"
+            where: Where = {"x": len(body.faces), "axis": FACETS}
+            rows += _compared(case, body, touches.wrenches, _CONE, workshop, judged=True, **where)
+        rows += _on_one(name, samples, rng, workshop)
+    return rows
+
+
+def _on_one(name: str, samples: int, rng: np.random.Generator, workshop: Workshop) -> list[Row]:
+    """Turn, twist and scale the wrench on a probe of 1,000 facets."""
+    body, title = probes.body_of(name, 1000), probes.title_of(name)
+    rows: list[Row] = []
+    for low, high in ((60.0, 75.0), (75.0, 85.0), (85.0, 89.0), (89.0, 89.9), (89.9, 89.99)):
+        touches = theory.touch(body, samples, rng, angle=(low, high))
+        steep = high > _CONE.friction_angle
+        gates = Gates(friction_angle=min(high + 0.5, 89.999)) if steep else _CONE
+        case = f"{title}, {STEEP if steep else INSIDE}"
+        rows += _compared(case, body, touches.wrenches, gates, workshop, judged=False, x=high, axis=ANGLE)
+    for arm in (1e-3, 1e-2, 1e-1, 1.0):
+        touches = theory.touch(body, samples, rng, arm=arm)
+        case = f"{title}, {LARGE}"
+        rows += _compared(case, body, touches.wrenches, _CONE, workshop, judged=False, x=arm, axis=PITCH)
+    touches = theory.touch(body, samples, rng)
+    for power in (-18, -12, -6, 0, 6, 12, 18):
+        gates, noise = Gates(min_force=0.0), WrenchNoise(0.0, 0.0)
+        case, wrenches = f"{title}, any force, no gate, no noise", 10.0**power * touches.wrenches / 9.0
+        more: Where = {"judged": abs(power) <= 12, "x": 10.0**power, "axis": FORCE}
+        rows += _compared(case, body, wrenches, gates, workshop, noise=noise, **more)
     return rows
 
 

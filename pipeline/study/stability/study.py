@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import shlex
 import shutil
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pipeline.durable import make_folder
@@ -15,6 +17,7 @@ from pipeline.study.stability import (
     edges,
     exact,
     precision,
+    probes,
     repeat,
     rounding,
     thin,
@@ -23,8 +26,7 @@ from pipeline.study.stability import (
 from pipeline.study.stability.verdicts import verdicts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from pathlib import Path
+    from collections.abc import Callable, Iterator, Sequence
 
     from rich.table import Table
 
@@ -42,11 +44,12 @@ class StabilityReport:
 
     Attributes
     ----------
-    samples, seed, quick
+    names, samples, seed, quick
         As given to :func:`run`.
     rows : tuple of Row
     """
 
+    names: tuple[str, ...]
     samples: int
     seed: int
     quick: bool
@@ -61,6 +64,7 @@ class StabilityReport:
         """Return plain data for ``--json``."""
         return {
             "passed": self.passed,
+            "probes": list(self.names),
             "samples": self.samples,
             "seed": self.seed,
             "quick": self.quick,
@@ -95,6 +99,7 @@ class StabilityReport:
 
 
 def run(
+    names: Sequence[str] = probes.BUNDLED,
     *,
     samples: int = 1000,
     seed: int = 0,
@@ -108,6 +113,8 @@ def run(
 
     Parameters
     ----------
+    names : sequence of str
+        Probes whose condition, thinnest facets and single precision are measured: bundled, or prepared files in S.
     samples : int
         Touches of each figure, at least 50; a fifth of them in exact arithmetic.
     seed : int
@@ -119,17 +126,18 @@ def run(
     Raises
     ------
     InputError
-        Too few samples, or a compiler that fails.
+        Too few samples, a probe that cannot be read, or a compiler that fails.
     """
     if samples < FEWEST:
         raise InputError(f"samples: {samples} are too few to meet the worst: give at least {FEWEST}.")
+    probes.check(names)
     with builds.Workshop() as made:
         workshop = made if shutil.which(builds.SINGLE.compiler) else None
         rows: list[Row] = []
-        for said, part in _parts(samples, seed, workshop, quick=quick):
+        for said, part in _parts(names, samples, seed, workshop, quick=quick):
             progress(said)
             rows += part()
-    return StabilityReport(samples, seed, quick, tuple(rows))
+    return StabilityReport(tuple(names), samples, seed, quick, tuple(rows))
 
 
 def keep(report: StabilityReport, folder: Path) -> Path:
@@ -156,23 +164,33 @@ def keep(report: StabilityReport, folder: Path) -> Path:
     from pipeline.study.results import environment, write_results
 
     make_folder(folder)
-    command = f"contactbench study stability --samples {report.samples} --seed {report.seed}"
-    command += " --quick" if report.quick else ""
+    words = [
+        "contactbench",
+        "study",
+        "stability",
+        "--samples",
+        str(report.samples),
+        "--seed",
+        str(report.seed),
+    ]
+    words += ["--quick"] if report.quick else []
+    if report.names != probes.BUNDLED:
+        words += [word for name in report.names for word in ("--probe", Path(name).name)]
     rows = [row.to_json() for row in report.rows]
-    write_results(folder, KIND, command, rows, environment())
+    write_results(folder, KIND, shlex.join(words), rows, environment())
     make_page(folder)
     return folder / PAGE
 
 
 def _parts(
-    samples: int, seed: int, workshop: Workshop | None, *, quick: bool
+    names: Sequence[str], samples: int, seed: int, workshop: Workshop | None, *, quick: bool
 ) -> Iterator[tuple[str, Callable[[], list[Row]]]]:
-    yield "what an error of the wrench does", lambda: amplification.run(samples, seed)
+    yield "what an error of the wrench does", lambda: amplification.run(samples, seed, names)
     yield "rounding", lambda: rounding.run(samples, seed, workshop, quick=quick)
     yield "edges and vertices", lambda: edges.run(samples, seed, workshop)
     if workshop is not None:
-        yield "single precision", lambda: precision.run(samples, seed, workshop, quick=quick)
-    yield "thin facets", lambda: thin.run(samples, seed, workshop)
+        yield "single precision", lambda: precision.run(samples, seed, workshop, names, quick=quick)
+    yield "thin facets", lambda: thin.run(samples, seed, workshop, names)
     yield "units", lambda: units.run(samples, seed, workshop)
     yield "bias", lambda: bias.run(samples, seed, workshop)
     yield "exact arithmetic", lambda: exact.run(max(FEWEST, samples // 5) if not quick else FEWEST // 2, seed)

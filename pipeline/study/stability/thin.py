@@ -9,12 +9,14 @@ import numpy as np
 from pipeline.contact import ContactSolver
 from pipeline.errors import InputError
 from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import builds, theory
+from pipeline.study.stability import builds, probes, theory
 from pipeline.study.stability.amplification import OPEN, QUIET
 from pipeline.study.stability.rounding import DOUBLE, ERROR, SINGLE
 from pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from pipeline.study.hard_meshes import Body, Float, Ints
     from pipeline.study.stability.builds import Workshop
 
@@ -22,13 +24,17 @@ PART = "thin facets"
 HEIGHT = "height of the facet, of its longest edge"
 NORMAL = "normal, off by"
 FROM_TRUTH = "from the point that was pressed"
+SLENDER = "longest edge of a facet over its height"
 UNANSWERED, REFUSED = "not answered", "mesh refused"
 CAP, NEEDLE = "caps", "needles"
 # Stated for double precision, from a height of this on: what thinner facets do is only shown.
 _HEIGHT, MOST_MM = 1e-8, 1e-3
+_MANY = 20_000  # facets of a probe whose thinnest one is told
 
 
-def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
+def run(
+    samples: int, seed: int, workshop: Workshop | None, names: Sequence[str] = probes.BUNDLED
+) -> list[Row]:
     """
     Press on thin facets.
 
@@ -39,8 +45,15 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
     seed : int
     workshop : Workshop, optional
         Where the single-precision solver is built; without one there is only double precision.
+    names : sequence of str
+        Probes whose thinnest facet is told: bundled, or prepared files in S.
     """
-    rows: list[Row] = []
+    rows: list[Row] = [
+        Row.of(
+            PART, probes.title_of(name), DOUBLE, SLENDER, "", probes.slenderness(probes.body_of(name, _MANY))
+        )
+        for name in names
+    ]
     for power in range(1, 16):
         for i, kind in enumerate((CAP, NEEDLE)):
             rows += _thin(kind, 10.0**-power, samples, np.random.default_rng((seed, power, i)), workshop)

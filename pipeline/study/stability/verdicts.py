@@ -76,7 +76,8 @@ def _furthest(rows: Sequence[Row], limit: float, **which: str) -> float:
 
 
 def _amplification(rows: Sequence[Row]) -> str:
-    ordinary = {row.x: row for row in rows if row.figure == am.CONDITION and row.case == "t-shape"}
+    name = [row.case for row in rows if row.figure == am.CONDITION][-1]
+    ordinary = {row.x: row for row in rows if row.figure == am.CONDITION and row.case == name}
     along, slanted = ordinary[0.0], ordinary[75.0]
     measured, predicted = (
         {r.x: r.worst for r in rows if r.figure == am.SPREAD and r.by == by and r.x}
@@ -86,7 +87,7 @@ def _amplification(rows: Sequence[Row]) -> str:
     return (
         f"A small error of the wrench moves the point as first-order theory says, to {_said(rows, figure=am.OFF)} %,"
         " from cosines of the friction angle of 1 to 1e-7 and from forces of 100 to 1e-6 N: as 1 / cosine and as 1 /"
-        f" force. On the T-shape an error of 1 % moves it by up to {number(10 * along.median)} mm (median) along the"
+        f" force. On {name} an error of 1 % moves it by up to {number(10 * along.median)} mm (median) along the"
         f" normal, {number(10 * slanted.median)} mm at 75 degrees and {number(10 * slanted.worst)} mm at worst."
         f" With the default noise, first order holds within 10 % down to {number(min(fits, default=_NONE))} N; the"
         " gate for low forces is at 0.5 N."
@@ -161,9 +162,11 @@ def _thin(rows: Sequence[Row]) -> str:
             f" {number(max(refused, default=_NONE))} on the mesh is refused)"
         )
     judged = [r for r in rows if r.figure == thin.FROM_TRUTH and r.most is not None]
+    slender = [f"{number(1.0 / r.worst)} ({r.case})" for r in rows if r.figure == thin.SLENDER]
     return (
         f"Points on thin facets are right to {_ENOUGH_MM:g} mm {' and '.join(parts)}. Stated for double precision:"
         f" {thin.MOST_MM:g} mm down to 1e-8; worst {_said(judged)} mm."
+        f" The thinnest facets of the probes are {', '.join(slender)} of their longest edge high."
     )
 
 

@@ -8,12 +8,15 @@ import shutil
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from pipeline.cli import app
 from pipeline.errors import InputError
-from pipeline.study.stability import repeat, study, verdicts
+from pipeline.mesh.save import save_probe
+from pipeline.study import hard_meshes as hm
+from pipeline.study.stability import amplification, probes, repeat, study, thin, verdicts
 from pipeline.study.stability.rows import PARTS
 from pipeline.study.stability.study import StabilityReport
 
@@ -82,13 +85,35 @@ def test_the_report_is_plain_data(report: StabilityReport) -> None:
 
 def test_the_command_tells_a_broken_bound(report: StabilityReport, monkeypatch: pytest.MonkeyPatch) -> None:
     for given, code in ((report, 0), (broken(report), 1)):
-        monkeypatch.setattr(study, "run", lambda given=given, **_: given)
+        monkeypatch.setattr(study, "run", lambda *_, given=given, **__: given)
         ran = CliRunner().invoke(app, ["study", "stability", "--json"])
         assert ran.exit_code == code
         assert json.loads(ran.stdout)["passed"] is (code == 0)
     ran = CliRunner().invoke(app, ["study", "stability"])
     assert ran.exit_code == 1
     assert "BROKEN" in ran.stdout
+
+
+def test_a_probe_of_ones_own_is_measured(tmp_path: Path) -> None:
+    body = hm.ellipsoid(2)
+    file = tmp_path / "own, round.ply"
+    save_probe(body.probe(), file)
+    assert probes.sizes_of(str(file), (100, 1000)) == [100, 320]
+    assert probes.sizes_of("linear", (100, 1000)) == [100, 1000]
+    rows = thin.run(50, 0, None, [str(file)]) + amplification.run(50, 0, [str(file)])
+    assert {row.case for row in rows if row.figure in (thin.SLENDER, amplification.CONDITION)} == {
+        "own  round"
+    }
+    slender = next(row for row in rows if row.figure == thin.SLENDER)
+    a, b, c = np.moveaxis(body.vertices[body.faces], 1, 0)
+    sides = np.linalg.norm([b - a, c - b, a - c], axis=2)
+    half = sides.sum(axis=0) / 2
+    area = np.sqrt(half * np.prod(half - sides, axis=0))  # Heron
+    assert slender.worst == pytest.approx((sides.max(axis=0) ** 2 / (2 * area)).max(), rel=1e-6)
+    with pytest.raises(InputError, match=r"nowhere\.ply"):
+        study.run([str(tmp_path / "nowhere.ply")], samples=50, quick=True)
+    with pytest.raises(InputError, match="another one is named linear"):
+        study.run(["linear", "linear"], samples=50)
 
 
 def test_too_few_samples_are_refused() -> None:
@@ -101,4 +126,4 @@ def test_without_a_compiler_the_rest_is_measured(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(shutil, "which", lambda _: None)
     monkeypatch.setattr(study, "_parts", lambda *a, **_: given.append(a) or iter(()))
     assert study.run(samples=50).rows == ()
-    assert given == [(50, 0, None)]
+    assert given == [(("linear", "convex", "t-shape"), 50, 0, None)]

@@ -147,7 +147,7 @@ def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, prese
         (("run", "--preset", "slow"), "choose one of paper"),
         (("run", "--preset", "quick", "--probe", "banana"), "banana: the probe cannot be read"),
         (("run", "--preset", "quick", "--touches", "1"), "touches: Input should be greater"),
-        (("run", "--preset", "hard", "--probe", "linear"), "--preset hard: --probe: it has no such option"),
+        (("run", "--preset", "hard", "--workers", "2"), "--preset hard: --workers: it has no such option"),
         (
             ("run", "--preset", "ablation", "--touches", "9", "--workers", "2"),
             "--workers, --touches: it has no",

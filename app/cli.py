@@ -83,7 +83,7 @@ def screenshots(
     theme: Annotated[str, typer.Option(metavar="NAME", help="light, dark or both.")] = "light",
     size: Annotated[str, typer.Option(metavar="WxH", help="Of the window, px.")] = "1280x800",
     pages: Annotated[
-        str, typer.Option(metavar="NAME,...", help="Of start, the six steps and heatmap [all].")
+        str, typer.Option(metavar="NAME,...", help="Of start, the six steps, motion and heatmap [all].")
     ] = "",
     language: Annotated[str, typer.Option(metavar="CODE", help="Language, such as de.")] = "en",
 ) -> None:

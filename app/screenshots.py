@@ -1,4 +1,4 @@
-"""Pictures of the real window, for the README: one of each page, of the first page, and of the heatmap viewer."""
+"""Pictures of the real window, for the README: of each page, the first one, a closed loop, and the heatmap viewer."""
 
 from __future__ import annotations
 
@@ -28,11 +28,12 @@ if TYPE_CHECKING:
 
     from PySide6.QtGui import QPixmap
 
-START, HEATMAP = "start", "heatmap"
-PAGES = (START, *(step.value for step in Step), HEATMAP)
+START, MOTION, HEATMAP = "start", "motion", "heatmap"
+PAGES = (START, *(step.value for step in Step), MOTION, HEATMAP)
 THEMES = ("light", "dark")
 _HOME = "CONTACTBENCH_HOME"
 _PATIENCE_S, _SETTLED_S = 180.0, 0.4
+_WATCHED_S = 9.0  # of a closed loop: by then it tracks, and the phantom moves
 _TILT = 0.35  # rad, about y: how the tool stands in the pictures
 
 
@@ -119,9 +120,11 @@ class _Tour:
             if START in self._wanted:
                 made.append((START, self._taken(window)))
             steps = [step for step in Step if step.value in self._wanted]
-            if steps:
+            if steps or MOTION in self._wanted:
                 self._open(window)
-                made += [(step.value, self._step(window, step)) for step in steps]
+            made += [(step.value, self._step(window, step)) for step in steps]
+            if MOTION in self._wanted:
+                made.append((MOTION, self._motion(window)))
             self._close(window)
         if HEATMAP in self._wanted:
             made.append((HEATMAP, self._heatmap()))
@@ -172,6 +175,19 @@ class _Tour:
         go_on(bench.live, 1.0)
         page.discard()
         self._until(lambda: not page.work.going_on)
+        return picture
+
+    def _motion(self, window: MainWindow) -> QPixmap:
+        """Run the session's bundle, and take the picture while it tracks."""
+        motion = window.menus.show_motion()
+        self._place(motion)
+        self._until(motion.controls.start.isEnabled)
+        motion.begin()
+        run = motion.run
+        assert run is not None  # noqa: S101  (just begun)
+        self._until(lambda: not run.running or (run.newest is not None and run.newest.time_s > _WATCHED_S))
+        picture = self._taken(motion)
+        motion.close()
         return picture
 
     def _heatmap(self) -> QPixmap:

@@ -94,6 +94,9 @@ class Picture(QWidget):
         self.scene.show_phantom(None)
         self.scene.show_contact(None)
         self.scene.show_force(None)
+        nothing = np.empty(0)
+        for pane in (self.force, self.angle):
+            pane.show_data(nothing, np.empty((0, 2)), -_SPAN_S, 0.0)
 
     def changeEvent(self, event: QEvent) -> None:
         """Take the colours of another theme."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -56,6 +57,7 @@ class MotionWindow(QWidget):
         self.controls, self.picture = Controls(self), Picture(self)
         self.run: MotionRun | None = None
         self._bundle: Path | None = None
+        self._unturned = False
         self._made = tempfile.TemporaryDirectory(prefix="contactbench-", ignore_cleanup_errors=True)
         self._busy = self._closed = False
         self._ticks = self._told = 0
@@ -125,6 +127,7 @@ class MotionWindow(QWidget):
         if self._closed:
             return
         self._bundle, self._busy = bundle, False
+        self._unturned = config.model.frames.quaternion_ES is None
         self.picture.show_probe(config.probe)
         self.controls.bundle.setText(self._words_on(config, name))
         self.controls.say("")
@@ -132,9 +135,11 @@ class MotionWindow(QWidget):
 
     def _words_on(self, config: RuntimeConfig, name: str) -> str:
         model = config.model
-        words = self.tr("{name}, probe “{probe}”.").format(name=name, probe=model.probe.name)
+        words = self.tr("{name}: {facets:,} facets.").format(name=name, facets=model.probe.facets)
         if not model.verified:
             words += " " + self.tr("It is not verified: for trials only.")
+        if model.frames.quaternion_ES is None:
+            words += " " + self.tr("How the sensor is mounted is not said: it is taken as not turned.")
         if model.controller is None:
             return words + " " + self.tr("It has no gains: the usual ones for its probe are taken.")
         gains = self.tr("It presses with {force:g} N.").format(force=model.controller.desired_force_N)
@@ -163,7 +168,7 @@ class MotionWindow(QWidget):
             self.run.close()
             self.run = None
         try:
-            self.run = MotionRun(self._bundle, self.controls.choice())
+            self.run = MotionRun(self._bundle, replace(self.controls.choice(), unturned=self._unturned))
         except ValueError as error:
             self.controls.say(in_words(error)[0], bad=True)
             return

@@ -57,6 +57,8 @@ class MotionChoice:
         Of that motion, mm or degrees.
     variant : str or None
         One of `VARIANTS`; None: the bundle's.
+    unturned : bool
+        The sensor sits on the flange as it is: for a bundle that does not say how it is turned.
 
     Raises
     ------
@@ -69,6 +71,7 @@ class MotionChoice:
     period_s: float = 10.0
     size: float = 10.0
     variant: str | None = None
+    unturned: bool = False
 
     def __post_init__(self) -> None:
         for given, known, what in (
@@ -88,6 +91,7 @@ class MotionChoice:
     def arguments(self, bundle: Path) -> list[str]:
         """Return what the command is given, after ``contactbench``."""
         chosen = [] if self.variant is None else ["--variant", self.variant]
+        chosen += ["--mount", "0,0,0"] if self.unturned else []
         return [
             *("control", "run", str(bundle), "--robot", self.robot, "--motion", self.motion),
             *("--period", f"{self.period_s:g}", "--size", f"{self.size:g}", "--seconds", f"{_LONGEST_S:g}"),
@@ -285,7 +289,7 @@ class MotionRun:
         with suppress(OSError, ValueError):
             size = self._said.seek(0, os.SEEK_END)
             self._said.seek(max(0, size - _LAST_WORDS))
-            return " ".join(self._said.read().decode(errors="replace").split()).removeprefix("Error: ")
+            return " ".join(self._said.read().decode(errors="replace").split()).removeprefix("error: ")
         return ""
 
 

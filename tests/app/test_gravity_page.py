@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -13,6 +15,7 @@ from pipeline.session import Session
 from pipeline.session.unfinished import adopt_unfinished
 from pipeline.workbench.desk import Desk
 from pipeline.workbench.gravity_poses import PoseState
+from pipeline.workbench.gravity_solving import Finding, Solved
 from pipeline.workbench.steps import StepState, StepStatus
 
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
@@ -225,6 +228,23 @@ def test_a_refused_calibration_says_why_and_its_remedy_mends_it(window):
     assert np.abs(w.bench.desk.state.settings["devices.mount"].value).max() < 0.01
     w.bench.undo.undo()
     w.until(lambda: w.page.run.outcome.calibration.verdict.level is Level.REFUSE)
+
+
+def test_findings_are_told_while_another_page_is_shown(window):
+    w = window()
+    run = w.page.run
+    w.open()
+    w.start()
+    w.page.leave()
+    found = Finding(
+        "rejected pose 2", "Pose 2: bumped. Take it again, or go on with 3 poses.", leave_out=(1,)
+    )
+    run.work._solved = Solved(None, None, (found,))
+    w.page.watch()  # as the window calls it for all pages; the page is not ticked
+    assert found.sentence in w.said()
+    run.work._solved = Solved(None, None, (replace(found, sentence="Pose 2: bumped. Go on with 4 poses."),))
+    w.page.watch()
+    assert sum(text.startswith("Pose 2: bumped") for text in w.said()) == 1, "told once, not with each pose"
 
 
 def test_too_few_poses_are_kept_and_gone_on_from(window):

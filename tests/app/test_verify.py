@@ -5,7 +5,7 @@ import shutil
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QWidget
 from workbench.touch_session import STEPWISE, make_session, press
 
 from app.bench import Bench, Weight
@@ -198,6 +198,33 @@ def test_a_table_is_imported_and_saved(window, tmp_path):
         lambda: any("m.csv" in message.text and message.weight is Weight.WARNING for message in window.told)
     )
     assert page.markers.names == ("nose",)
+
+
+def test_a_marker_is_left_out_only_with_a_reason(window):
+    spread(window, 2)
+    page = window.page
+    page.start()
+    window.wait(lambda: page.panel_touch.finish.isEnabled())
+    window.click(page.panel_touch.skip)
+    dialog = page.window().findChild(QInputDialog)
+    assert "M1" in dialog.labelText()
+    assert dialog.isComboBoxEditable()
+    dialog.setTextValue("the arm cannot get there")
+    dialog.accept()
+    assert page.work.touches.left_out == {"M1": "the arm cannot get there"}
+    assert "the arm cannot get there" in window.told[-1].text
+    page._leaving.leave_out("M2", "  ")
+    assert "needs a reason" in window.told[-1].text
+    page._leaving.leave_out("M1", "again")
+    assert "touched meanwhile" in window.told[-1].text
+    page.tick()
+    assert page.panel_markers.table.item(0, 4).text() == "left out"
+    press(window.bench.live, page.markers.all[1].point_S)
+    page.tick()
+    window.click(page.panel_touch.finish)
+    window.wait(lambda: page.outcome is not None and not page.work.going_on)
+    assert page.outcome.passed
+    assert any("M1 (the arm cannot get there)" in note for note in page.outcome.notes)
 
 
 def test_settings_are_those_of_the_session_and_can_be_undone(window):

@@ -241,10 +241,13 @@ class Scene:
             " turn more slowly."
         )
 
+    def settle(self) -> None:
+        """Have the sensors tell of now; after a step they are those of its beginning."""
+        self.mujoco.mj_forward(self.model, self.data)
+
     def moment(self) -> Moment:
         """Return the truth now."""
-        # After a step the sensors are those of its beginning; now state and sensors are of the same time.
-        self.mujoco.mj_forward(self.model, self.data)
+        self.settle()
         R_WS = self.data.site_xmat[self._site].reshape(3, 3).copy()
         p_WS = self.data.site_xpos[self._site].copy()
         values = self.data.sensordata

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.simulation.scenes.physics import OTHER, Moment, Payload, Truth, new_spec
+from pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
 from pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
 from pipeline.simulation.scenes.setpoints import ServoPath
 from pipeline.simulation.scenes.tissue import (
@@ -127,11 +127,12 @@ class MovedScene(TissueScene):
         if self._warnings.any():
             self._fail()
 
-    def moment(self) -> Moment:
-        """Return the truth now, with the forces that the servos give now: what speeds up is felt by the sensor."""
+    def settle(self) -> None:
+        """Have the sensors tell of now, with the forces that the servos give now: what speeds up is felt by them."""
         self.mujoco.mj_step1(self.model, self.data)
         self.control()
-        return super().moment()
+        # Places and speeds are known by now.
+        self.mujoco.mj_forwardSkip(self.model, self.data, self.mujoco.mjtStage.mjSTAGE_VEL, 0)
 
     def surface(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return the middle of the phantom's top in B, m, and the normal that points out of it, both (3,)."""

@@ -102,10 +102,10 @@ class TissueScene(Scene):
     ) -> Moment:
         """Return the truth, and the reading, with every force where the probe feels it."""
         places, forces, moved = self._felt(R_WS, p_WS)
-        reading = reading + np.concatenate([np.zeros(3), np.cross(places - moved, forces).sum(axis=0)])
+        reading = reading + np.concatenate([np.zeros(3), _torque(places - moved, forces)])
         total = forces.sum(axis=0)
-        contact = np.concatenate([total, np.cross(places, forces).sum(axis=0)])
-        sizes = np.linalg.norm(forces, axis=1)
+        contact = np.concatenate([total, _torque(places, forces)])
+        sizes = np.sqrt((forces * forces).sum(axis=1))
         if not sizes.any():  # they have just met: where is all that there is to say
             sizes = np.ones(len(sizes))
         centroid = sizes @ places / sizes.sum()
@@ -140,6 +140,12 @@ class TissueScene(Scene):
         scale = (1 - _SHARE) * weight * self.area
         # Any contact of a pair takes these from the phantom, whose priority is higher.
         model.geom_solref[model.geom_bodyid == other] = [-tissue.modulus * scale, -tissue.damping * scale]
+
+
+def _torque(places: NDArray[np.float64], forces: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the sum of places x forces, both (n, 3); numpy's own cross takes twenty times as long."""
+    C = places.T @ forces
+    return np.array([C[1, 2] - C[2, 1], C[2, 0] - C[0, 2], C[0, 1] - C[1, 0]])
 
 
 def add_probe(

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.reproduce.dynamic_cells import IN_PLANE, OUT_OF_PLANE
+from pipeline.control.foundation import USUAL_MODULUS
+from pipeline.study.control_rig import foundation_of
+from pipeline.study.reproduce.dynamic_cells import FORCE_N, IN_PLANE, OUT_OF_PLANE
 from pipeline.study.reproduce.dynamic_paper import FORCES, TABLE_1, TABLE_2
 from pipeline.study.reproduce.sheets import Cell as Value
 from pipeline.study.reproduce.sheets import Sheet, short
@@ -86,14 +88,14 @@ def runs(outcomes: Sequence[Outcome]) -> Sheet:
     rows = tuple(
         (
             str(o.cell.variant), o.cell.period, o.cell.motion, o.cell.method, o.cell.seed, o.followed, *o.force,
-            *o.angle, *o.other, o.whole, o.first, o.lost, o.place, o.speed, o.held, o.ended,
+            *o.angle, *o.other, o.whole, o.first, o.lost, o.place, *o.torsion, o.speed, o.held, o.ended,
         )
         for o in outcomes
     )  # fmt: skip
     columns = (
         "variant", "T s", "motion", "method", "seed", "followed", "least N", "mean N", "largest N", "error deg",
         "SD deg", "other axis deg", "other SD deg", "whole angle deg", "largest before N", "lost", "place mm",
-        "joint speed", "limited", "why not followed",
+        "torsion Nmm", "axis shift mm", "joint speed", "limited", "why not followed",
     )  # fmt: skip
     return Sheet("runs", "Every run", columns, rows)
 
@@ -119,15 +121,29 @@ def order_notes(outcomes: Sequence[Outcome]) -> list[str]:
             f" {apart} does another method differ from the first by more than three standard errors of the paired"
             " seeds."
         )
-    place = {m: float(np.mean([o.place for o in outcomes if o.cell.method == m])) for m in methods}
+    return [*said, _why_equal(outcomes, methods)]
+
+
+def _why_equal(outcomes: Sequence[Outcome], methods: Sequence[str]) -> str:
+    """Say what a contact of this scene leaves methods to differ by."""
+    place = {m: float(np.nanmean([o.place for o in outcomes if o.cell.method == m])) for m in methods}
     listed = ", ".join(f"{m} {short(value)} mm" for m, value in place.items())
-    said.append(
-        f"From sensed to true contact (RMS): {listed}. On a flat soft phantom the force has next to no torque about"
-        " itself, so that every method finds the point where its line leaves the face: what is left to differ is the"
-        " fit of a paraboloid. The paper's differences may come from what this scene does not have: time that a"
-        " method takes, a surface that is fitted worse, or contacts with friction torque."
+    torsion, shift = np.nanmean([o.torsion for o in outcomes], axis=0).tolist()
+    press = foundation_of(outcomes[0].cell.probe).at(FORCE_N, USUAL_MODULUS)
+    within, across = (float(np.degrees(1e-3 * shift / gain)) for gain in (press.gain_x, press.gain_y))
+    lost = (
+        "less than one degree: the order cannot come from it here. A flat soft phantom that does not spin twists no"
+        " probe; the paper's differences must come from what this scene leaves out: time that a method takes, a surface"
+        " that is fitted worse, or tissue that twists the probe."
+        if max(within, across) < 1
+        else "enough to tell methods apart that neglect it."
     )
-    return said
+    return (
+        f"From sensed to true contact (RMS): {listed}. The true contact's torque about its own normal is"
+        f" {short(torsion)} N·mm (RMS). It moves the wrench's axis by {short(shift)} mm, which a place alone would take"
+        f" for {short(within)} degrees of tilt in plane and {short(across)} out of plane: {lost} The aware variant"
+        " takes its tilt from where the force leans, too, which is the same for every method."
+    )
 
 
 def _angle(mine: Sequence[Outcome] | None) -> Value:

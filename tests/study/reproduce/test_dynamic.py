@@ -127,7 +127,11 @@ def test_the_order_of_methods_is_told_as_it_is(result):
     assert "holds in 2 of 2 cases; in 2 does another method differ" in kept[0]
     equal = order_notes(of_methods(result, {"contactbench": 1.0, "wrench_axis": 1.0, "iterative": 1.0}))
     assert "holds in 0 of 2 cases; in 0 does another" in equal[0]
-    assert "no torque" in equal[-1]
+    assert "cannot come from it" in equal[-1]
+    twisted = of_methods(result, {"contactbench": 1.0, "wrench_axis": 1.0, "iterative": 1.0})
+    told = order_notes([replace(each, torsion=(50.0, 9.0)) for each in twisted])
+    assert "moves the wrench's axis by 9.00 mm" in told[-1]
+    assert "enough to tell" in told[-1]
     assert order_notes(result.outcomes) == []
 
 

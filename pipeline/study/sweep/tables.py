@@ -9,14 +9,14 @@ import numpy as np
 
 from pipeline.study.markdown import number, table
 from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power, settling
-from pipeline.study.sweep.targets import OURS, is_noisy, needed_facets, of_meshes, plain, targets
+from pipeline.study.sweep.targets import OURS, STEEP_DEG, is_noisy, needed_facets, of_meshes, plain, targets
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from pipeline.study.sweep.growth import Power
 
-_STEEP_DEG = 45.0
+_AXIS = "wrench_axis"
 _REASONS = ("ok", "vertex", "ambiguous", "off_surface", "tangential", "low_force")
 
 
@@ -29,6 +29,7 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
         ("Growth with the mesh", growth_table(rows)),
         ("Facets at which the mesh adds 1 % to the noise", needed_table(rows)),
         ("Steep touches, without noise", steep_table(rows)),
+        ("The local torque: solved for, or taken for zero", torque_table(rows)),
         ("Reasons, and answers on another part of the probe", reason_table(noisy or rows)),
     ]
     return [(title, text) for title, text in made if text]
@@ -79,7 +80,7 @@ def steep_table(rows: Sequence[Row]) -> str:
     """Return how far all answers and sure ones are off, by angle, without noise; empty without steep angles."""
     quiet = [row for row in rows if not is_noisy(row)]
     points = merged(quiet, ("angle", "method"))
-    if not any(row["angle"] >= _STEEP_DEG for row in points):
+    if not any(row["angle"] > STEEP_DEG for row in points):
         return ""
     shown = []
     for row in sorted(points, key=lambda row: (row["angle"], row["method"])):
@@ -96,6 +97,27 @@ def steep_table(rows: Sequence[Row]) -> str:
         "astray, yet sure %",
     )
     return table(columns, shown)
+
+
+def torque_table(rows: Sequence[Row]) -> str:
+    """Return, by force and torsion, what it brings to solve for the local torque; empty with one torsion or method."""
+    noisy = [row for row in rows if is_noisy(row) and row["angle"] <= STEEP_DEG and not row["failed"]]
+    torsions = sorted({row["torsion"] for row in noisy})
+    finest = [row for row in noisy if row["facets"] == max(each["facets"] for each in noisy)]
+    points = {
+        (r["force"], r["torsion"], r["method"]): r for r in merged(finest, ("force", "torsion", "method"))
+    }
+    both = [OURS, _AXIS]
+    if len(torsions) < 2 or not all(any(key[2] == method for key in points) for method in both):
+        return ""
+    shown = []
+    for force in sorted({key[0] for key in points}):
+        found = [points[force, torsion, method] for torsion in torsions for method in both]
+        shown.append(
+            [f"{force:g} N", *(number(row["rms_near_mm"] / row["bound_mm"], ".2f") for row in found)]
+        )
+    columns = [f"{method}, torsion {1e3 * torsion:g} mm" for torsion in torsions for method in both]
+    return table(("RMS error over the bound", *columns), shown)
 
 
 def speed_table(rows: Sequence[Row]) -> str:

@@ -5,7 +5,8 @@ import pytest
 
 from pipeline.study.sweep.compare import compare
 from pipeline.study.sweep.growth import beaten, enough_facets, front, knee, merged, power, settling
-from pipeline.study.sweep.targets import needed_facets, on_front, over_bound
+from pipeline.study.sweep.tables import torque_table
+from pipeline.study.sweep.targets import needed_facets, on_front, over_bound, targets
 
 _FACETS = (100, 300, 1_000, 3_000, 20_000)
 
@@ -103,6 +104,29 @@ def test_targets_are_judged_both_ways():
     [beaten_at] = on_front([_row(), _row("wrench_axis", error=0.4, time=900.0)])
     assert not beaten_at.met
     assert "20,000: wrench_axis" in beaten_at.measured
+
+
+def test_steep_touches_are_judged_apart():
+    rows = [_row(), _row("wrench_axis", error=0.6, time=900.0)]
+    rows += [_row(angle=60.0, error=0.52), _row("wrench_axis", angle=60.0, error=0.4, time=900.0)]
+    found = {target.what: target.met for target in targets(rows)}
+    assert found["linear: no rival is both faster and more accurate at the same resolution"]
+    assert not found["linear: no rival is both faster and more accurate at the same resolution, beyond 45°"]
+    # Torsion beyond what friction makes is no part of the target.
+    assert over_bound([_row(error=9, torsion=0.003)]) == []
+
+
+def test_what_the_local_torque_brings_is_shown_by_force_and_torsion():
+    rows = [
+        _row(method, force=force, torsion=torsion, rms_near_mm=error)
+        for method, error in (("contactbench", 0.5), ("wrench_axis", 1.5))
+        for force in (2.0, 9.0)
+        for torsion in (0.0003, 0.003)
+    ]
+    shown = torque_table(rows)
+    assert "contactbench, torsion 0.3 mm | wrench_axis, torsion 0.3 mm | contactbench, torsion 3 mm" in shown
+    assert "| 2 N | 1.00 | 3.00 | 1.00 | 3.00 |" in shown
+    assert torque_table(rows[:1]) == torque_table([]) == ""
 
 
 def _sweep(exponent=-0.9, swap=1.0):

@@ -98,12 +98,12 @@ def _forces(axes: Axes, rows: Sequence[Row]) -> bool:
 
 
 def _rounding(axes: Axes, rows: Sequence[Row]) -> bool:
-    series = _by(rows, (ro.DOUBLE, ro.SINGLE), part=ro.PART, figure=ro.ERROR, axis=am.COSINE)
+    series = _by(rows, (ro.DOUBLE, ro.SINGLE, ro.ALGORITHM1), part=ro.PART, figure=ro.ERROR, axis=am.COSINE)
     return _lines(axes, series, "worst error, mm")
 
 
 def _facets(axes: Axes, rows: Sequence[Row]) -> bool:
-    series = _by(rows, (ro.DOUBLE, ro.SINGLE), part=ro.PART, figure=ro.RATIO, axis=ro.FACETS)
+    series = _by(rows, (ro.DOUBLE, ro.SINGLE, ro.ALGORITHM1), part=ro.PART, figure=ro.RATIO, axis=ro.FACETS)
     return _lines(axes, series, "worst error, roundoffs x condition")
 
 

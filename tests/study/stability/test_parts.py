@@ -63,7 +63,12 @@ def test_a_wrong_prediction_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_rounding_stays_within_the_condition() -> None:
     rows = rounding.run(SAMPLES, 1, None, quick=True)
     assert not missed(rows)
-    assert {row.by for row in rows} == {rounding.DOUBLE}
+    assert {row.by for row in rows} == {rounding.DOUBLE, rounding.ALGORITHM1}
+    assert all(row.most is None for row in rows if row.by == rounding.ALGORITHM1)
+    worst = {
+        row.by: row.worst for row in rows if row.figure == rounding.RATIO and row.axis == rounding.FACETS
+    }
+    assert worst[rounding.DOUBLE] < worst[rounding.ALGORITHM1]
 
 
 def test_a_solver_off_by_more_than_rounding_is_noticed() -> None:

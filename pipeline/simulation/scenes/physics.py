@@ -241,13 +241,13 @@ class Scene:
             " turn more slowly."
         )
 
-    def settle(self) -> None:
+    def look(self) -> None:
         """Have the sensors tell of now; after a step they are those of its beginning."""
         self.mujoco.mj_forward(self.model, self.data)
 
     def moment(self) -> Moment:
         """Return the truth now."""
-        self.settle()
+        self.look()
         R_WS = self.data.site_xmat[self._site].reshape(3, 3).copy()
         p_WS = self.data.site_xpos[self._site].copy()
         values = self.data.sensordata

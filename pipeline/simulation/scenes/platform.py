@@ -127,7 +127,7 @@ class MovedScene(TissueScene):
         if self._warnings.any():
             self._fail()
 
-    def settle(self) -> None:
+    def look(self) -> None:
         """Have the sensors tell of now, with the forces that the servos give now: what speeds up is felt by them."""
         self.mujoco.mj_step1(self.model, self.data)
         self.control()

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pipeline.control.settings import LEFT
 from pipeline.study.ablation import locating, reading
 from pipeline.study.ablation.locating import Locators, locators, sigmas_of
 from pipeline.study.sweep.noise import FILTERS
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     from pipeline.study.ablation.records import Record
 
-INERTIA = "inertia of the tool"
+INERTIA = reading.INERTIA
 CHOICES = (*locating.CHOICES, *reading.CHOICES, INERTIA)
 # Noise of a wrench, times that of one reading.
 QUIET, FILTERED, RAW = 0.0, FILTERS["kalman"], 1.0
@@ -64,7 +65,9 @@ def effect(
         return _read(choice, record, made, size, noise, rng)
     drawn = sigmas_of(noise) * rng.standard_normal(record.felt.shape)
     if choice == INERTIA:
-        pair = made.ours.locate_batch(record.felt + drawn), made.ours.locate_batch(record.contacts + drawn)
+        # The controller's own model does not take all of it off.
+        kept = record.contacts + LEFT * (record.felt - record.contacts)
+        pair = made.ours.locate_batch(record.felt + drawn), made.ours.locate_batch(kept + drawn)
     elif choice in locating.SMOOTHED:
         flat, points = made.smoothed(choice, record.contacts + drawn)
         sure = flat.reasons <= _ACCEPTED

@@ -47,8 +47,9 @@ modelling where it takes away {MATTERS:.0%} of the error - by twice the standard
 locates one touch in a thousand more. The touches of `whole head` are drawn all over it, 8 to 10 N, up to 30° from
 the normal, without physics. The truth of the scenes `touch` and `bench` is a tip on the true surface; of the
 others, where the line of action of all forces leaves it. Of a deformable phantom and of arm dynamics, *without* is how
-far the true contact is off in a scene that leaves them out, *with* what half the time step changes. Smooth normals are
-timed as NumPy on whole batches: compiled they cost less."""
+far the true contact is off in a scene that leaves them out, *with* what half the time step changes. The tool's inertia
+is taken off as well as the controller does it, by two thirds. Smooth normals are timed as NumPy on whole batches:
+compiled they cost less."""
 
 
 def make(results: Results, folder: Path) -> str:

@@ -15,6 +15,7 @@ from pipeline.calibration.drift import BiasTracker
 from pipeline.calibration.mounting import estimate_mount
 from pipeline.calibration.reachable import by_hand
 from pipeline.calibration.suggest import plan_poses
+from pipeline.control.inertia import Inertia
 from pipeline.simulation.sensor_model import preset
 from pipeline.study.ablation.locating import SENSOR, sigmas_of
 from pipeline.study.ablation.records import WEIGHT
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from pipeline.study.ablation.records import Record
 
 DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
+INERTIA = "inertia of the tool"  # of what moves; see `effects`
 # What each is varied by, and what it is where nothing else is said.
 UNITS = {DRIFT: "K", MOUNT: "deg", CROSSTALK: "% of full scale"}
 USUAL = {DRIFT: 4.0, MOUNT: 2.0, CROSSTALK: 0.5}
@@ -72,7 +74,7 @@ def read(choice: str, record: Record, amount: float, noise: float, rng: np.rando
 
 
 def costs(rng: np.random.Generator, rounds: int) -> dict[str, tuple[float, float]]:
-    """Time what each choice adds, µs, medians; interleaved: a moment without contact, a calibration, a reading."""
+    """Time what each choice adds, µs, medians: a moment without contact, a calibration, a reading, a control period."""
     R_WE = _orientations()
     readings = WEIGHT.predict(R_WE) + _bias() + _pose_noise().sigmas * rng.standard_normal((_POSES, 6))
     poses = _poses(R_WE, readings)
@@ -93,9 +95,16 @@ def costs(rng: np.random.Generator, rounds: int) -> dict[str, tuple[float, float
         t, reading = next(moments)
         tracker.update(t, R, reading, told)
 
-    once = time_calls({DRIFT: (follow, [None] * 12)}, rounds=rounds, block=12)
+    inertia, place = Inertia(model, 0.04), np.zeros(3)
+
+    def weigh(_: None) -> None:
+        inertia.moved(R, place)
+        inertia.wrench(R, 0.02)
+
+    once = time_calls({DRIFT: (follow, [None] * 12), INERTIA: (weigh, [None] * 12)}, rounds=rounds, block=12)
     return {
         DRIFT: (0.0, once[DRIFT].median / 1e3),
+        INERTIA: (0.0, once[INERTIA].median / 1e3),
         MOUNT: (timed["calibrate"], timed[MOUNT]),
         CROSSTALK: (timed["compensate"], timed[CROSSTALK]),
     }

@@ -152,6 +152,7 @@ def costs(sizes: Sizes, seed: int) -> list[Row]:
         reading.DRIFT: "a moment without contact",
         reading.MOUNT: "a calibration",
         reading.CROSSTALK: "a reading",
+        reading.INERTIA: "a control period",
     }
     timed = reading.costs(rng, max(sizes.rounds // 2, 2))
     return rows + [_cost(choice, "", per[choice], *pair) for choice, pair in timed.items()]

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
+from pipeline.study.markdown import table as markdown_table
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -42,8 +44,8 @@ def markdown(report: SpeedReport) -> str:
     parts = [
         f"# Speed against error: {report.probe}",
         f"{report.touches:,} touches, seed {report.seed}. {_stream(report)}",
-        _markdown_table(_COLUMNS, _rows(report)),
-        _markdown_table(_TARGETS, _target_rows(report)),
+        markdown_table(_COLUMNS, _rows(report)),
+        markdown_table(_TARGETS, _target_rows(report)),
     ]
     return "\n\n".join(parts) + "\n"
 
@@ -102,9 +104,3 @@ def _table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) ->
     for row in rows:
         table.add_row(*row)
     return table
-
-
-def _markdown_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = ["| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
-    lines += ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join(lines)

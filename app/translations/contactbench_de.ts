@@ -2496,12 +2496,16 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Ein Paket wird geöffnet</translation>
     </message>
     <message>
-        <source>{name}, probe “{probe}”.</source>
-        <translation>{name}, Sonde „{probe}“.</translation>
+        <source>{name}: {facets:,} facets.</source>
+        <translation>{name}: {facets:,} Facetten.</translation>
     </message>
     <message>
         <source>It is not verified: for trials only.</source>
         <translation>Es ist nicht überprüft: nur für Versuche.</translation>
+    </message>
+    <message>
+        <source>How the sensor is mounted is not said: it is taken as not turned.</source>
+        <translation>Wie der Sensor sitzt, ist nicht gesagt: Er gilt als nicht gedreht.</translation>
     </message>
     <message>
         <source>It has no gains: the usual ones for its probe are taken.</source>

@@ -114,6 +114,9 @@ class MotionWindow(QWidget):
             self._load(bundle, bundle.name)
 
     def _load(self, bundle: Path, name: str) -> None:
+        if self._closed:
+            return
+
         def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> RuntimeConfig:
             from pipeline.config.runtime import RuntimeConfig
 

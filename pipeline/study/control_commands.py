@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -26,6 +27,10 @@ def control_safety(
     ] = 1_000,
     workers: Annotated[int | None, typer.Option(help="Processes [one for each core].")] = None,
     seed: SeedOption = 0,
+    kept: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Ends are added to it as they come; started again, it goes on."),
+    ] = None,
     out: MarkdownOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -36,7 +41,7 @@ def control_safety(
     from pipeline.study import control_safety as study
 
     with Bar("starting", counted=True) as bar:
-        report = study.run(runs, seed=seed, workers=workers, progress=bar)
+        report = study.run(runs, seed=seed, workers=workers, kept=kept, progress=bar)
     finish(report, out, as_json=as_json)
 
 

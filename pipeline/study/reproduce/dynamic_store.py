@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from pipeline.control.settings import ControlSettings
 
 # What a run computes with; other parts may change, and it stays what it was.
-_SOURCES = ("control", "simulation", "contact", "study/control_rig.py", "study/reproduce/dynamic_cells.py")
+_SOURCES = ("control", "simulation", "contact", "study/control_rig.py")
 _UNUSED = ("control/bundle.py", "control/virtual.py", "control/tuning.py", "control/margins.py")
 
 
@@ -81,17 +81,19 @@ class Store:
 
     def _name(self, cell: Cell) -> str:
         gains = None if self.settings is None else asdict(self.settings)
-        text = json.dumps([asdict(cell), gains, code_print()], sort_keys=True)
+        text = json.dumps(
+            [asdict(cell), gains, code_print("study/reproduce/dynamic_cells.py")], sort_keys=True
+        )
         return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
 @cache
-def code_print() -> str:
-    """Return a hash of the code that a run is computed by."""
+def code_print(*more: str) -> str:
+    """Return a hash of the code that a closed loop is computed by, and of more modules, by their files' names."""
     home = Path(pipeline.__file__).parent
     sources = sorted(
         file
-        for each in _SOURCES
+        for each in (*_SOURCES, *more)
         for file in ([home / each] if each.endswith(".py") else (home / each).rglob("*.py"))
     )
     made = hashlib.sha256(metadata.version("mujoco").encode())

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged
 from pipeline.study.sweep.tables import exponents
-from pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain
+from pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain, usual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -41,7 +41,7 @@ _PANEL, _HEIGHT, _DPI = 3.1, 2.9, 90  # inches
 def plots(rows: Sequence[Row]) -> dict[str, bytes]:
     """Return PNG images by file name: those that the rows have something for."""
     noisy = [row for row in rows if is_noisy(row) and not row["failed"]]
-    made = {"speed-error.png": _pareto(noisy), "growth.png": _growth(rows)}
+    made = {"speed-error.png": _pareto(usual(noisy)), "growth.png": _growth(rows)}
     made |= {f"{name}.png": _against(noisy, name) for name in ("force", "angle")}
     return {name: data for name, data in made.items() if data}
 

@@ -9,7 +9,16 @@ import numpy as np
 
 from pipeline.study.markdown import number, table
 from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power, settling
-from pipeline.study.sweep.targets import OURS, STEEP_DEG, is_noisy, needed_facets, of_meshes, plain, targets
+from pipeline.study.sweep.targets import (
+    OURS,
+    STEEP_DEG,
+    is_noisy,
+    needed_facets,
+    of_meshes,
+    plain,
+    targets,
+    usual,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +34,7 @@ def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
     noisy = [row for row in rows if is_noisy(row)]
     made = [
         ("Targets", target_table(rows)),
-        ("Speed against error: the knees", knee_table(noisy)),
+        ("Speed against error: the knees", knee_table(usual(noisy))),
         ("Growth with the mesh", growth_table(rows)),
         ("Facets at which the mesh adds 1 % to the noise", needed_table(rows)),
         ("Steep touches, without noise", steep_table(rows)),
@@ -101,9 +110,10 @@ def steep_table(rows: Sequence[Row]) -> str:
 
 def torque_table(rows: Sequence[Row]) -> str:
     """Return, by force and torsion, what it brings to solve for the local torque; empty with one torsion or method."""
-    noisy = [row for row in rows if is_noisy(row) and row["angle"] <= STEEP_DEG and not row["failed"]]
+    noisy = [row for row in usual(rows) if is_noisy(row) and not row["failed"]]
     torsions = sorted({row["torsion"] for row in noisy})
-    finest = [row for row in noisy if row["facets"] == max(each["facets"] for each in noisy)]
+    most = max((row["facets"] for row in noisy), default=0)
+    finest = [row for row in noisy if row["facets"] == most]
     points = {
         (r["force"], r["torsion"], r["method"]): r for r in merged(finest, ("force", "torsion", "method"))
     }

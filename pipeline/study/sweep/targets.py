@@ -50,9 +50,13 @@ def of_meshes(rows: Iterable[Row]) -> list[Row]:
 
 def targets(rows: Sequence[Row]) -> list[Target]:
     """Return the targets that the rows can tell about."""
-    usual = [row for row in rows if row["angle"] <= STEEP_DEG]
     beyond = [row for row in rows if row["angle"] > STEEP_DEG]
-    return [*over_bound(rows), *on_front(usual), *on_front(beyond, f", beyond {STEEP_DEG:g}°")]
+    return [*over_bound(rows), *on_front(usual(rows)), *on_front(beyond, f", beyond {STEEP_DEG:g}°")]
+
+
+def usual(rows: Iterable[Row]) -> list[Row]:
+    """Return the rows of touches that are not steep."""
+    return [row for row in rows if row["angle"] <= STEEP_DEG]
 
 
 def over_bound(rows: Iterable[Row]) -> list[Target]:
@@ -118,14 +122,18 @@ def needed_facets(rows: Iterable[Row]) -> list[tuple[str, float, float | None, f
     -------
     list of (probe, force in N, facets or None, fewest facets that were tried)
     """
-    ours = [row for row in rows if row["method"] == OURS and row["filter"] == "none"]
+    ours = [
+        row
+        for row in usual(rows)
+        if row["method"] == OURS and row["filter"] == "none" and row["torsion"] <= _TWISTED_M
+    ]
     meshes = merged(of_meshes(ours), ("probe", "facets"))
     bounds = merged([row for row in ours if is_noisy(row)], ("probe", "force"))
     found = []
     for row in bounds:
         here = [each for each in meshes if each["probe"] == row["probe"]]
         facets = [each["facets_found"] for each in here]
-        if len(set(facets)) >= 2:
+        if len(set(facets)) >= 3:
             enough = enough_facets(facets, [each["rms_near_mm"] for each in here], row["bound_mm"])
             found.append((row["probe"], row["force"], enough, min(facets)))
     return found

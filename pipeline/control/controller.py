@@ -372,7 +372,7 @@ class Controller:
 
     def _limited(self, twist: NDArray[np.float64]) -> NDArray[np.float64]:
         for part, most in ((slice(0, 3), self.settings.max_speed), (slice(3, 6), self.settings.max_turn)):
-            size = float(np.linalg.norm(twist[part]))
+            size = math.sqrt(float(twist[part] @ twist[part]))
             if size > most:
                 twist[part] *= most / size
         return twist

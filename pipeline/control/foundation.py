@@ -82,16 +82,20 @@ class Foundation:
             weighted = deep @ x / np.maximum(deep.sum(axis=1), 1e-15)
             means.append(weighted)
             gains.append((inside @ (x * x) - (inside @ x) * weighted) * area / self._force)
-        self._gains, self._means = np.maximum(np.array(gains), 1e-5), np.array(means)
+        self._gains = np.maximum(np.array(gains), 1e-5)
+        # One row per depth: all that a press is made of is found with one look into the table.
+        self._rows = np.column_stack([self._depths, self._slope, self._gains.T, np.array(means).T])
+        self._numbers = np.arange(float(_DEPTHS))
         self.height = high
 
     def at(self, force: float, modulus: float) -> Press:
         """Return the press of a force, N, on tissue of a modulus, N/m³; beyond 12 mm that of 12 mm."""
-        depth = float(np.interp(force / modulus, self._force, self._depths))
-        slope = float(np.interp(depth, self._depths, self._slope))
-        gains = [float(np.interp(depth, self._depths, each)) for each in self._gains]
-        means = [float(np.interp(depth, self._depths, each)) for each in self._means]
-        return Press(depth, modulus * slope, *gains, *means)
+        place = float(np.interp(force / modulus, self._force, self._numbers))
+        first = min(int(place), _DEPTHS - 2)
+        share = place - first
+        found = (1 - share) * self._rows[first] + share * self._rows[first + 1]
+        depth, slope, gain_x, gain_y, x, y = found.tolist()
+        return Press(depth, modulus * slope, gain_x, gain_y, x, y)
 
     def modulus_of(self, force: float, stiffness: float) -> float:
         """Return the modulus, N/m³, that gives a stiffness, N/m, at a force, N; the nearest that the table has."""

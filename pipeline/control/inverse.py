@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pipeline.control.arms import Arm
 
 _LENGTH_M = 0.3  # an arm's length for which 1 rad counts as much as 0.3 m
+_SCALE = np.repeat([1 / _LENGTH_M, 1.0], 3)
 _NEAR = 0.05  # smallest singular value below which it is damped; at 0 by as much
 _MARGIN = 0.02  # rad or m that are kept from a limit
 # Of an arm's acceleration; the rest is the servo's, which else cannot make up for what it is behind: set-points at the
@@ -92,9 +93,8 @@ def solve_step(
     before : (n,), optional
         Joint speeds of the step before, per s: then accelerations are limited, too.
     """
-    scale = np.repeat([1 / _LENGTH_M, 1.0], 3)
-    J = tip_jacobian(arm.flange_jacobian(q), lever) * scale[:, None]
-    e = twist * scale * dt
+    J = tip_jacobian(arm.flange_jacobian(q), lever) * _SCALE[:, None]
+    e = twist * _SCALE * dt
     U, sizes, Vt = np.linalg.svd(J, full_matrices=False)
     smallest = float(sizes[-1])
     damping = 0.0 if smallest >= _NEAR else _NEAR**2 * (1 - (smallest / _NEAR) ** 2)
@@ -116,16 +116,17 @@ def solve_step(
 
 
 def _share(sizes: NDArray[np.float64], most: NDArray[np.float64]) -> float:
-    ratio = float(np.max(sizes / most))
+    ratio = float((sizes / most).max())
     return 1.0 if ratio <= 1 else 1 / ratio
 
 
 def _room(arm: Arm, q: NDArray[np.float64], dq: NDArray[np.float64]) -> tuple[float, int | None]:
     """Return how much of a step the limits leave, and which joint says so; a way back inside is always free."""
     low, high = arm.lower + _MARGIN, arm.upper - _MARGIN
+    steps = dq.tolist()
+    free = np.where(dq > 0, high - q, q - low).tolist()
     least, which = 1.0, None
-    for joint, (here, step) in enumerate(zip(q.tolist(), dq.tolist(), strict=True)):
-        free = high[joint] - here if step > 0 else here - low[joint]
-        if step != 0 and free < abs(step) * least:
-            least, which = max(float(free), 0.0) / abs(step), joint
+    for joint, (step, room) in enumerate(zip(steps, free, strict=True)):
+        if step != 0 and room < abs(step) * least:
+            least, which = max(room, 0.0) / abs(step), joint
     return least, which

@@ -86,9 +86,10 @@ class Loop:
             if sample is not None:
                 samples.append(sample)
         self.scene.advance(max(end - self.scene.time, 0.0))
-        began = time.perf_counter()
-        command = self.controller.step(self.scene.time, self.scene.joints, samples)
-        took = time.perf_counter() - began
+        here = self.scene.joints
+        began, own = time.perf_counter(), time.thread_time()
+        command = self.controller.step(self.scene.time, here, samples)
+        took = time.perf_counter() - began, time.thread_time() - own
         self._note(command, peak, took)
         self.scene.command(command.q)
         return command
@@ -119,7 +120,7 @@ class Loop:
         )
         return self._line.carry(sample), moment.force
 
-    def _note(self, command: Command, peak: float, took: float) -> None:
+    def _note(self, command: Command, peak: float, took: tuple[float, float]) -> None:
         scene = self.scene
         moment = scene.moment()
         contact = moment.contact
@@ -139,7 +140,8 @@ class Loop:
                 "joints": command.q,
                 "state": STATES.index(command.state),
                 "share": command.step.share,
-                "step_s": took,
+                "step_s": took[0],
+                "step_cpu_s": took[1],
             }
         )
 

@@ -221,8 +221,8 @@ class Intake:
             fault = Fault.SATURATED
         if not rows or fault is not None:
             return Sensed(self._good, np.full(6, np.nan), None, fault, age, 0)
-        wrench = np.mean(rows, axis=0) + added
-        return Sensed(float(np.mean(times)), wrench, self._located(wrench), None, age, len(rows))
+        wrench = np.add.reduce(rows) / len(rows) + added
+        return Sensed(sum(times) / len(times), wrench, self._located(wrench), None, age, len(rows))
 
     def _located(self, wrench: NDArray[np.float64]) -> Contact | None:
         if float(wrench[:3] @ wrench[:3]) < self._from**2:

@@ -52,7 +52,10 @@ class Trace:
     share : (n,)
         What the arm's limits left of the wanted motion.
     step_s : (n,)
-        How long the controller took, s; the only thing here that is not the same each time.
+        How long the controller took, s.
+    step_cpu_s : (n,)
+        How long the processor worked for it, s: without what else ran on the machine. These two are all that is not
+        the same each time.
     changes : tuple of Change
     """
 
@@ -71,6 +74,7 @@ class Trace:
     state: NDArray[np.int_]
     share: NDArray[np.float64]
     step_s: NDArray[np.float64]
+    step_cpu_s: NDArray[np.float64]
     changes: tuple[Change, ...] = ()
 
     def __len__(self) -> int:
@@ -97,7 +101,7 @@ class Trace:
         return STATES[int(self.state[-1])]
 
     def csv(self) -> str:
-        """Write it as CSV, in the units of the names, without `step_s`."""
+        """Write it as CSV, in the units of the names, without what steps took."""
         joints = [f"joint_{k + 1}" for k in range(self.joints.shape[1])]
         heads = [*_HEADS, *joints, "state"]
         columns = [

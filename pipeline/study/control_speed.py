@@ -95,11 +95,12 @@ def _timed(
     trace = run_loop(rig.scene, rig.controller, rig.sensor, seconds, watch=watch)
     wall, own = time.perf_counter() - wall, time.process_time() - own
     done = float(trace.time[-1])
-    steps = 1e3 * trace.step_s[_SKIPPED:]
+    steps, worked = 1e3 * trace.step_s[_SKIPPED:], 1e3 * trace.step_cpu_s[_SKIPPED:]
     subject = f"{scene}, {variant}"
     return [
         Figure(subject, "control step, median", float(np.median(steps)), "ms"),
         Figure(subject, "control step, 99th percentile", float(np.percentile(steps, 99)), "ms", most=MOST_MS),
+        Figure(subject, "... of the processor's time alone", float(np.percentile(worked, 99)), "ms"),
         Figure(subject, "scene and controller, times real time", done / wall, least=LEAST_TIMES),
         Figure(subject, "... by processor time alone", done / own),
         Figure(subject, "time in track", 100 * float(trace.was(State.TRACK).mean()), "%"),

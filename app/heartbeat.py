@@ -23,11 +23,15 @@ class Stalls:
     beats : int
     longest, p99 : float
         s; 99 of 100 beats were at most `p99` late.
+    worked : float
+        Longest time that the GUI thread itself worked between two beats, s, drawing included. What a stall is longer
+        than that, others had the processors or the interpreter.
     """
 
     beats: int
     longest: float
     p99: float
+    worked: float
 
 
 class Heartbeat(QObject):
@@ -38,7 +42,7 @@ class Heartbeat(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._late: deque[float] = deque(maxlen=_KEPT)
-        self._last = time.perf_counter()
+        self._last, self._spent, self._worked = time.perf_counter(), time.thread_time(), 0.0
         self._timer = QTimer(self, interval=_BEAT_MS, timerType=Qt.TimerType.PreciseTimer)
         self._timer.timeout.connect(self._beat)
 
@@ -54,19 +58,21 @@ class Heartbeat(QObject):
     def restart(self) -> None:
         """Forget what was measured."""
         self._late.clear()
-        self._last = time.perf_counter()
+        self._last, self._spent, self._worked = time.perf_counter(), time.thread_time(), 0.0
 
     def stalls(self) -> Stalls:
-        """Return how late the beats of the last ten minutes came."""
+        """Return how late the beats of the last ten minutes came, and the longest work since `restart`."""
         late = sorted(self._late)
         if not late:
-            return Stalls(0, 0.0, 0.0)
-        return Stalls(len(late), late[-1], late[min(len(late) - 1, int(0.99 * len(late)))])
+            return Stalls(0, 0.0, 0.0, 0.0)
+        return Stalls(len(late), late[-1], late[min(len(late) - 1, int(0.99 * len(late)))], self._worked)
 
     def _beat(self) -> None:
         now = time.perf_counter()
         late = max(0.0, now - self._last - _BEAT_MS / 1000)
-        self._last = now
+        spent = time.thread_time()
+        self._worked = max(self._worked, spent - self._spent)
+        self._last, self._spent = now, spent
         self._late.append(late)
         if late > _LONG_S:
             self.stalled.emit(late)

@@ -56,6 +56,7 @@ def run(
         Told what is being done.
     """
     before = machine_load()
+    figures: tuple[Figure, ...] = ()
     with own_home() as home, ExitStack() as stack:
         mesh = _mesh_file(home, facets)
         progress("starting three sensors")
@@ -64,8 +65,11 @@ def run(
             for number in range(_STREAMS)
         ]
         window = stack.enter_context(shown_window())
+        rest(1.0)
+        window.heartbeat.restart()
         bench = opened(window, lambda: window.sessions.new(home / "session"))
         until(lambda: window.pages.made, "the pages to be made")
+        figures += _opening(window)
         sinks = [Sink() for _ in urls[1:]]
         for url, sink in zip(urls[1:], sinks, strict=True):
             stack.enter_context(SensorStream(url, sink, lambda _health: None))
@@ -82,7 +86,7 @@ def run(
         turner.stop()
         loop.stop()
         rounds = loop.rounds
-    figures = (*quiet, *busy, Figure("simplifying, turning, three streams", "meshes begun", rounds, least=1))
+    figures += (*quiet, *busy, Figure("simplifying, turning, three streams", "meshes begun", rounds, least=1))
     settings = {"seconds": seconds, "facets": facets, "streams": _STREAMS, "rate": f"{_RATE_HZ:g} Hz"}
     return Report("The window standing still", settings, figures, (loaded(before),))
 
@@ -154,6 +158,15 @@ class Turning(QObject):
             scene.move_camera(turned(scene.projection().look, 0.05, 0.01))
 
 
+def _opening(window: MainWindow) -> tuple[Figure, ...]:
+    """Return how long the window stood still while a session was opened and its pages were made."""
+    stalls, subject = window.heartbeat.stalls(), "opening a session, making its pages"
+    return (
+        Figure(subject, "longest stall", 1e3 * stalls.longest, "ms", most=_LONGEST_MS),
+        Figure(subject, "longest work of the window itself between two beats", 1e3 * stalls.worked, "ms"),
+    )
+
+
 def _measured(
     window: MainWindow, seconds: float, subject: str, bench: Bench, sinks: Sequence[Sink]
 ) -> tuple[Figure, ...]:
@@ -172,6 +185,8 @@ def _measured(
     return (
         Figure(subject, "longest stall", 1e3 * stalls.longest, "ms", most=_LONGEST_MS),
         Figure(subject, "99 of 100 beats at most late by", 1e3 * stalls.p99, "ms"),
+        Figure(subject, "longest work of the window itself between two beats", 1e3 * stalls.worked, "ms"),
+        Figure(subject, "longest frame, from its beginning to the screen", max(frames, default=0.0), "ms"),
         Figure(subject, "samples a second, slowest stream", came / took, "Hz", least=0.98 * _RATE_HZ),
         Figure(subject, "frames of the window with its scene a second", len(frames) / took, "Hz"),
     )

@@ -35,7 +35,7 @@ def test_the_zip_helps_and_tells_no_secret(session, tmp_path, monkeypatch):
     )
     settings = Remembered(recent=(Recent(str(session)),))
     file = tmp_path / "d.zip"
-    save_diagnostics(file, session, log, settings, Stalls(10, 0.2, 0.1))
+    save_diagnostics(file, session, log, settings, Stalls(10, 0.2, 0.1, 0.05))
     with zipfile.ZipFile(file) as archive:
         names = set(archive.namelist())
         texts = {name: archive.read(name).decode() for name in names}

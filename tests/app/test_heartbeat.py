@@ -14,6 +14,11 @@ def test_a_stall_is_measured_and_told(qtbot):
         time.sleep(0.25)
     assert stalled.args[0] >= 0.2
     assert heart.stalls().longest >= 0.2
+    assert heart.stalls().worked < 0.2, "asleep is not at work"
+    spent = time.thread_time()
+    while time.thread_time() < spent + 0.15:
+        pass
+    qtbot.waitUntil(lambda: heart.stalls().worked >= 0.14, timeout=10_000)
     heart.stop()
 
 

@@ -23,7 +23,8 @@ _ROUNDING_MM = 1e-6
 _SAID = "Time against error of everybody, in one run; ours filled. Times from Python; a ray alone for ray tracers."
 _OF_PLANE = (
     "It is told the one plane that there is, and how high: no mesh, no search, no other candidate, no reason, no"
-    " covariance. Where the face is that plane nothing can be nearer; elsewhere, see the errors on the other probes."
+    " covariance. Where the face is that plane nothing can be nearer, and it cannot take another part of the probe for"
+    " the one that is touched: of ours all answers count, doubtful ones too. Elsewhere, see its errors."
 )
 _OF_VERTICAL = (
     "It is told two numbers more, that the base is level: where that is so, they need not be estimated; where not, it"
@@ -96,8 +97,8 @@ def verdict(found: Sequence[Duel]) -> str:
                 family,
                 str(len(mine)),
                 str(len(beaten)),
-                ", ".join(faster) or "nobody",
-                ", ".join(better) or "nobody",
+                "; ".join(faster) or "nobody",
+                "; ".join(better) or "nobody",
             ]
         )
     text = table(["family", "comparisons", "both", "faster somewhere", "more accurate somewhere"], lines)
@@ -162,7 +163,7 @@ def _subject(mine: Sequence[Row], found: Sequence[Duel]) -> str:
         lines.append(cells)
     figures = ["RMS mm", "Hausdorff mm", "normals, °", "facets"] if shape else [
         *(f"{_condition(condition)}, mean mm" for condition in conditions), "answered %"]  # fmt: skip
-    return table(["contender", *(f"{mode}, µs" for mode in modes), "time / ours", *figures], lines)
+    return table(["contender", *(f"{mode}, µs" for mode in modes), "least time / ours", *figures], lines)
 
 
 def _same(duel: Duel, row: Row, contender: str) -> bool:

@@ -15,7 +15,8 @@ from pipeline.study.ablation.effects import NOISES
 from pipeline.study.ablation.locating import sigmas_of
 from pipeline.study.reproduce.touching import model_of
 from pipeline.study.rivals.interleave import medians
-from pipeline.study.rivals.rows import OURS, Contender, Row, erred, known, missing, timed
+from pipeline.study.rivals.place import ACCEPTED
+from pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -105,8 +106,11 @@ def plane_rows(touches: int, rounds: int, seed: int) -> Iterator[Row]:
             sigmas = np.maximum(sigmas_of(times), _QUIETEST)
             solver = ContactSolver(mesh, WrenchNoise(sigmas[:3], sigmas[3:]))
             wrenches = truth.wrenches + sigmas_of(times) * drawn
-            ours = np.linalg.norm(solver.locate_batch(wrenches).points - truth.points, axis=1)
+            found = solver.locate_batch(wrenches)
+            ours = np.linalg.norm(found.points - truth.points, axis=1)
             yield erred(FAMILY, OURS, subject, noise, ours, ours)
+            sure = np.where(np.asarray(found.reasons) <= ACCEPTED, ours, np.nan)
+            yield erred(FAMILY, SURE, subject, noise, sure, ours)
             if theirs:
                 points = BotaPlane(top).locate_batch(wrenches)
                 off = np.linalg.norm(points - truth.points, axis=1)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from matplotlib import rc_context
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from pipeline.study.chapters import COLOURS, STYLE, png
 from pipeline.study.rivals import engines, place
@@ -82,6 +83,10 @@ def _draw(panels: dict[str, Points], x_name: str, y_name: str) -> bytes:
                     label=name,
                 )
             axes.set(title=title, xlabel=x_name, ylabel=y_name, xscale="log", yscale="log")
+            for axis in (axes.xaxis, axes.yaxis):
+                axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=6))
+                axis.set_major_formatter("{x:g}")
+                axis.set_minor_formatter(NullFormatter())
         handles, labels = drawn[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(panels) + 1, 4), fontsize=7)
         return png(figure)

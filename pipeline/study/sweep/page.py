@@ -21,8 +21,8 @@ _SAID = {
     " and mesh, touches within 45° (first and last are named). Dotted: the front; ringed: its knee.",
     "growth.png": "How time and error grow with the mesh, with the fitted exponents. Error: of the mesh alone, without"
     " noise, of sure answers on the right part of the probe.",
-    "force.png": "Error against force, touches within 45°, with the bound that the sensor's noise sets. Where few answers"
-    " are sure (little force), they are a selection that can lie below it.",
+    "force.png": "Error against force, touches within 45°, with the bound that the sensor's noise sets. Where few"
+    " answers are sure (little force), they are a selection that can lie below it.",
     "angle.png": "Error against the angle between force and normal, at a middle force, with the bound.",
     "Targets": "The bound is that of methods without a bias. The wrench axis has one: it takes the local torque for"
     " zero, which is a good guess where noise hides that torque (little force, little torsion) and then saves some per"

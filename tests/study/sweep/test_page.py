@@ -60,10 +60,14 @@ def test_tables_say_what_the_rows_say(rows):
     assert "Steep touches, without noise" not in few
 
 
-def test_several_studies_make_one_page(alone, tmp_path):
-    other = tmp_path / "other"
-    shutil.copytree(alone, other)
-    page = gather([alone, other], tmp_path / "docs")
+def test_several_studies_make_one_page(small, tmp_path):
+    results = read_results(small)
+    rows = [row | {"worst_reason": []} for row in results.rows if row["angle"] == 0]  # no pictures of touches
+    folders = [tmp_path / "moved", tmp_path / "other"]
+    for folder in folders:
+        folder.mkdir()
+        write_results(folder, results.kind, results.command, rows, environment(), results.about)
+    page = gather(folders, tmp_path / "docs")
     text = page.read_text(encoding="utf-8")
     assert page == tmp_path / "docs" / TOGETHER
     assert text.count("## Sweep: small") == 2
@@ -75,7 +79,7 @@ def test_several_studies_make_one_page(alone, tmp_path):
     twin = tmp_path / "twin" / "other"
     twin.mkdir(parents=True)
     with pytest.raises(InputError, match="two folders have the same name"):
-        gather([other, twin], tmp_path / "docs")
+        gather([folders[1], twin], tmp_path / "docs")
 
 
 def test_unknown_and_missing_studies_are_named(tmp_path):

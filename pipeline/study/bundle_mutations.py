@@ -175,7 +175,8 @@ def _put(content: Any, path: tuple[Any, ...], value: Any) -> None:
 
 def _wrong_type(content: Any, rng: np.random.Generator) -> None:
     # An object where none is meant; one with a field of its own is wrong everywhere.
-    values: list[Any] = [{"x": 1}, [[[]]], "\x00?" * 600, {"": None}]
+    # A text is longer than the longest that is allowed anywhere.
+    values: list[Any] = [{"x": 1}, [[[]]], "\x00?" * 5_100, {"": None}]
     _put(content, _any_path(content, rng), values[int(rng.integers(len(values)))])
 
 

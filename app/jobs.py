@@ -64,9 +64,13 @@ class Job(QObject):
             self.progressed.emit(share)
 
 
+class _NoSignals:
+    """In place of the worker's own signals: a worker may be freed in its thread, and a QObject may not."""
+
+
 class _Worker(WorkerBase[Any]):
     def __init__(self, job: Job, work: Callable[..., Any]) -> None:
-        super().__init__()
+        super().__init__(SignalsClass=_NoSignals)  # type: ignore[arg-type]
         self._job = job
         self._do: Callable[..., Any] | None = work
 
@@ -83,6 +87,7 @@ class _Worker(WorkerBase[Any]):
         try:
             result = do(self._job.progress, self._job.cancelled)
         except Exception as error:  # noqa: BLE001 - handed to whoever started it
+            del do
             self._job._errored.emit(error)
         else:
             del do  # what it holds may be widgets: let go of in the GUI thread, by `forget`

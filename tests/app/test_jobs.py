@@ -5,6 +5,7 @@ import warnings
 from concurrent.futures import Future
 
 import pytest
+from PySide6.QtCore import QObject
 
 from app.jobs import Jobs
 
@@ -93,3 +94,16 @@ def test_a_future_that_ends_after_the_window_is_no_fault(qapp):  # noqa: ARG001
     jobs.follow("Writing", future)
     delete(jobs)
     future.set_result(1)
+
+
+def test_nothing_of_qt_that_lives_in_a_thread_is_freed_with_a_worker(qtbot, jobs):
+    begun, go_on = threading.Event(), threading.Event()
+    jobs.start("Work", lambda _p, _c: begun.set() or go_on.wait(5))
+    assert begun.wait(5)
+    (worker,) = jobs._running.values()
+    assert not [
+        held for held in vars(worker).values() if isinstance(held, QObject) and held is not worker._job
+    ]
+    del worker
+    go_on.set()
+    qtbot.waitUntil(lambda: not jobs.running, timeout=10_000)

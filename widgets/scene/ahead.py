@@ -52,7 +52,8 @@ class Ahead(QObject):
         super().__init__(parent)
         self._take = take
         self._wanted: Probe | None = None
-        self._thread: threading.Thread | None = None
+        self._threads: list[threading.Thread] = []
+        self._newest: Prepared | None = None
         self._came.connect(self._taken)
 
     @property
@@ -62,16 +63,22 @@ class Ahead(QObject):
 
     def begin(self, probe: Probe | None) -> None:
         """Prepare a probe, instead of any other; None: none."""
+        if self._newest is not None and self._newest.probe is probe:  # as when a page is shown again
+            self._wanted = None
+            self._take(self._newest)
+            return
         self._wanted = probe
+        self._threads = [thread for thread in self._threads if thread.is_alive()]
         if probe is not None:
-            self._thread = threading.Thread(target=self._work, args=(probe,), name="ahead", daemon=True)
-            self._thread.start()
+            thread = threading.Thread(target=self._work, args=(probe,), name="ahead", daemon=True)
+            self._threads.append(thread)
+            thread.start()
 
     def close(self) -> None:
-        """End it."""
-        self._wanted = None
-        if self._thread is not None:
-            self._thread.join()
+        """End it; waits for all that was begun, for they tell an object that is gone soon."""
+        self._wanted = self._newest = None
+        for thread in self._threads:
+            thread.join()
 
     def _work(self, probe: Probe) -> None:
         prepared = prepare(probe)
@@ -80,7 +87,7 @@ class Ahead(QObject):
 
     def _taken(self, prepared: Prepared) -> None:
         if prepared.probe is self._wanted:
-            self._wanted = None
+            self._wanted, self._newest = None, prepared
             self._take(prepared)
 
 

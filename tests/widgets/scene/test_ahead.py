@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 
 from widgets.scene.ahead import MANY, Ahead, crease_ends, prepare
@@ -41,3 +43,35 @@ def test_only_the_newest_probe_is_handed_on(qtbot):
     ahead.close()
     qtbot.wait(50)
     assert len(taken) == 1
+
+
+def test_a_probe_that_is_shown_again_is_not_prepared_again(qtbot, monkeypatch):
+    taken, made = [], []
+    monkeypatch.setattr("widgets.scene.ahead.prepare", lambda probe: made.append(probe) or prepare(probe))
+    ahead, probe = Ahead(taken.append, None), ball(2_000)
+    ahead.begin(probe)
+    qtbot.waitUntil(lambda: len(taken) == 1, timeout=20_000)
+    ahead.begin(None)
+    ahead.begin(probe)
+    assert len(taken) == 2
+    assert taken[0] is taken[1]
+    assert len(made) == 1
+    ahead.close()
+
+
+def test_the_end_waits_for_all_that_was_begun(qapp, monkeypatch):  # noqa: ARG001 - for what it does
+    going_on = threading.Event()
+    done = []
+
+    def slow(probe):
+        going_on.wait(5)
+        done.append(probe)
+        return prepare(probe)
+
+    monkeypatch.setattr("widgets.scene.ahead.prepare", slow)
+    ahead, probes = Ahead(lambda _: None, None), (ball(500), ball(700))
+    for probe in probes:
+        ahead.begin(probe)
+    threading.Timer(0.1, going_on.set).start()
+    ahead.close()
+    assert {id(probe) for probe in done} == {id(probe) for probe in probes}

@@ -65,7 +65,7 @@ def _from_1(content: dict[str, Any]) -> dict[str, Any]:
             "attempts": 3,
         },
         "tool": {"left_force_N": 0.01, "left_torque_Nm": 0.0005, "taring_s": 0.5, "gyration_m": 0.035},
-        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.6},
+        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.5},
     }
     return {**content, "controller": controller}
 

@@ -24,8 +24,6 @@ from pipeline.config.runtime.differ import differences
 from pipeline.config.runtime.pack import KNOWN, read_bundle
 from pipeline.config.runtime.swap import write_folder
 from pipeline.contact import Gates, WrenchNoise
-from pipeline.control.content import controller_of
-from pipeline.control.settings import ControlSettings
 from pipeline.filtering import LowPass
 from pipeline.mesh import Probe
 from pipeline.mesh.regions import RegionSet
@@ -347,22 +345,41 @@ def test_an_older_version_is_carried_over(monkeypatch):
 
 
 def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_2():
-    files = of_version_1(example().encoded())
-    found = RuntimeConfig.from_files(files)
-    part, (inertia, damping, stiffness) = found.model.controller, (0.05, 1.0, 0.25)
-    assert (part.desired_force_N, part.force.mass_kg, part.force.damping_Nspm) == (5.0, 1.0, 80.0)
-    assert part.force.stiffness_Npm == 0.5
-    assert part.angle.inertia == [inertia] * 2
-    assert part.angle.damping == [damping] * 2
-    assert part.angle.stiffness == [stiffness] * 2
-    # The same as what was left out there and comes from the defaults.
-    usual = ControlSettings(desired_force=5.0, force_mass=1.0, force_damping=80.0, force_stiffness=0.5)
-    turns = {
-        "angle_inertia": (inertia,) * 2,
-        "angle_damping": (damping,) * 2,
-        "angle_stiffness": (stiffness,) * 2,
+    found = RuntimeConfig.from_files(of_version_1(example().encoded()))
+    # What was left open then, as it was taken then: it stays, whatever the defaults become.
+    assert found.model.controller.model_dump() == {
+        "variant": "aware",
+        "desired_force_N": 5.0,
+        "period_s": 0.02,
+        "servo_lag_s": 0.0,
+        "force": {"mass_kg": 1.0, "damping_Nspm": 80.0, "stiffness_Npm": 0.5, "gain_per_s": 6.0},
+        "angle": {
+            "inertia": [0.05, 0.05],
+            "damping": [1.0, 1.0],
+            "stiffness": [0.25, 0.25],
+            "gain_per_s": [6.0, 6.0],
+            "settling_s": 0.04,
+        },
+        "lead": {
+            "bandwidth_per_s": [20.0, 13.0, 13.0],
+            "smoothing_s": 0.08,
+            "lean_rad": 0.025,
+            "lean_s": 0.8,
+        },
+        "touch": {
+            "approach_speed_mps": 0.006,
+            "approach_travel_m": 0.05,
+            "retract_speed_mps": 0.06,
+            "retract_travel_m": 0.03,
+            "touch_force_N": 0.7,
+            "low_force_N": 0.7,
+            "ramp_s": 0.5,
+            "probing_m": 0.00015,
+            "attempts": 3,
+        },
+        "tool": {"left_force_N": 0.01, "left_torque_Nm": 0.0005, "taring_s": 0.5, "gyration_m": 0.035},
+        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.5},
     }
-    assert part == controller_of(dataclasses.replace(usual, **turns))
     again = RuntimeConfig.from_files(found.encoded())
     assert again.model == found.model
     assert json.loads(found.encoded()["contactbench.json"])["version"] == 2

@@ -32,7 +32,7 @@ struct Controller {
     double touch_force = 0.7, low_force = 0.7, ramp = 0.5, probing = 0.00015;
     std::int64_t attempts = 3;
     double left_force = 0.01, left_torque = 0.0005, taring = 0.5, gyration = 0.035;
-    double stale = 0.06, give_up = 0.2, following = 0.05, max_tilt = 0.6;
+    double stale = 0.06, give_up = 0.2, following = 0.05, max_tilt = 0.5;
 };
 
 struct Config {

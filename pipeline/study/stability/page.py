@@ -40,7 +40,11 @@ def make(results: Results, folder: Path) -> str:
     parts = [_HEAD, verdict_list(rows)]
     for name, alt in pictures.draw(rows, folder):
         parts.append(f"![{alt}]({name})")
-    return "\n\n".join([*parts, *(f"### {title}\n\n{text}" for title, text in tables(rows))]) + "\n"
+    folded = (
+        f"<details><summary>{title}: every figure</summary>\n\n{text}\n\n</details>"
+        for title, text in tables(rows)
+    )
+    return "\n\n".join([*parts, *folded]) + "\n"
 
 
 def verdict_list(rows: Sequence[Row]) -> str:

@@ -75,7 +75,7 @@ def _on_one(name: str, samples: int, rng: np.random.Generator, workshop: Worksho
         steep = high > _CONE.friction_angle
         gates = Gates(friction_angle=min(high + 0.5, 89.999)) if steep else _CONE
         case = f"{title}, {STEEP if steep else INSIDE}"
-        rows += _compared(case, body, touches.wrenches, gates, workshop, judged=False, x=high, axis=ANGLE)
+        rows += _compared(case, body, touches.wrenches, gates, workshop, judged=not steep, x=high, axis=ANGLE)
     for arm in (1e-3, 1e-2, 1e-1, 1.0):
         touches = theory.touch(body, samples, rng, arm=arm)
         case = f"{title}, {LARGE}"

@@ -85,7 +85,7 @@ def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = Fal
     ]
     for workers in WORKERS[1:2] if quick else WORKERS:
         located, _ = _in_processes(solver, wrenches, workers)
-        rows.append(_row(f"{workers} processes", base, located))
+        rows.append(_row(f"{workers} new process{'es' if workers > 1 else ''}", base, located))
     for variant in _other_variants():
         located, followed = _in_processes(solver, wrenches, 1, variant)
         name = f"kernel {variant} beside {kernel.variant}"

@@ -35,7 +35,8 @@ _SHARE = 1e-3
 _CARRIAGE_KG, _CARRIAGE_GYRATION = 5.0, 0.17
 FACE_DEPTH_M = 0.012
 _REACH_M = 0.01  # how far the centroid of a bulged area may lie inside the probe
-_HALF_HEIGHT_M = 0.02
+# Nearer to the far side than to the top, it would push out there: soft tissue lets a narrow face in by 25 mm.
+_HALF_HEIGHT_M = 0.06
 
 
 @dataclass(frozen=True)

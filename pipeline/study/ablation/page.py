@@ -110,7 +110,8 @@ def _verdicts(found: Sequence[Verdict]) -> str:
 def _cell(each: Any) -> str:
     if each is None:
         return "–"
-    text = f"{each.without:.2f} → {each.made:.2f}"
+    digits = 3 if each.without < 1 else 2  # a twentieth must be seen
+    text = f"{each.without:.{digits}f} → {each.made:.{digits}f}"
     return f"**{text}**" if each.models else text
 
 

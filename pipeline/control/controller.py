@@ -367,7 +367,9 @@ class Controller:
         stiffness = self.surface.press(force).stiffness
         # As Eq. 7, with the damping that gives the usual gain on what is touched.
         scale = self.settings.force_damping * self.settings.force_gain / stiffness
-        led = self.surface.speed_along(inward, lead) if self.state is State.TRACK else 0.0
+        # Not while the force grows at first touch: the surface is known only from then on.
+        grown = self.state is State.TRACK or self.safety.elapsed > self.settings.ramp
+        led = self.surface.speed_along(inward, lead) if grown else 0.0
         return led + self._force.step((wanted - force) * scale, dt)
 
     def _limited(self, twist: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -95,6 +95,8 @@ class Safety:
     ----------
     state : State
     changes : list of Change
+    elapsed : float
+        s in this state, by the periods: it goes on when a clock does not.
     turning : bool
         While tracking: whether the place of the contact is known well enough to turn by it.
     """
@@ -105,7 +107,7 @@ class Safety:
         self.changes: list[Change] = []
         self.turning = True
         self.since = 0.0
-        self._elapsed = 0.0  # s in this state, by the periods: it goes on when a clock does not
+        self.elapsed = 0.0
         self._now = 0.0
         self._low = self._lost = self._blocked = self._steady = self._late = 0.0
         self._attempts = 0
@@ -159,7 +161,7 @@ class Safety:
             How fast the force would grow if the probe stood still, at most, as far as is known, N/s.
         """
         self._now = now
-        self._elapsed += dt
+        self.elapsed += dt
         self._count(sensed, force, last, follows, dt)
         if self.state is not State.SAFE and self._alarm(sensed, force, turned, dt):
             return self.state  # what was travelled until now is not the way back
@@ -256,7 +258,7 @@ class Safety:
             return
         near = abs(force - self.settings.desired_force) < _NEAR * self.settings.desired_force
         self._steady = self._steady + dt if near else 0.0
-        if self._steady >= _STEADY_S and probed and self._elapsed > self.settings.ramp:
+        if self._steady >= _STEADY_S and probed and self.elapsed > self.settings.ramp:
             self._to(State.TRACK, f"the force is {force:.1f} N.")
 
     def _track(self) -> None:
@@ -286,8 +288,8 @@ class Safety:
             if self._held_from is State.TRACK and after is State.CONTACT:
                 after = State.TRACK  # all is known; and tissue that moves does not wait
             self._to(after, "the readings are fresh, and the arm is where it should be.")
-        elif self._elapsed > self._patience:
-            self._to(State.RETRACT, f"{self._elapsed:.2g} s did not help: it goes back the way it came.")
+        elif self.elapsed > self._patience:
+            self._to(State.RETRACT, f"{self.elapsed:.2g} s did not help: it goes back the way it came.")
 
     def _wait(self, reason: str, rising: float) -> None:
         """Hold, for no longer than moving tissue can be trusted not to press too hard meanwhile."""
@@ -300,13 +302,13 @@ class Safety:
     def _retract(self, sensed: Sensed, force: float, travelled: float, last: Step | None) -> None:
         away = travelled >= self.settings.retract_travel
         free = not sensed.fresh or force < self.settings.low_force
-        stuck = self._elapsed > 1.0 and (self._late > 1.0 or (last is not None and last.share < _LITTLE))
+        stuck = self.elapsed > 1.0 and (self._late > 1.0 or (last is not None and last.share < _LITTLE))
         if (away and free) or travelled >= 2 * self.settings.retract_travel or stuck:
             self._to(State.SAFE, "it has gone back." if not stuck else "it can go back no farther.")
 
     def _to(self, state: State, reason: str) -> None:
         self.changes.append(Change(self._now, self.state, state, reason))
-        self.state, self.since, self._elapsed = state, self._now, 0.0
+        self.state, self.since, self.elapsed = state, self._now, 0.0
         self._low = self._lost = self._blocked = self._steady = self._late = 0.0
         self.turning = True
 

@@ -38,7 +38,7 @@ _RESOLUTION = _GROWING | {
 # The same in a minute: fewer meshes, forces and touches.
 _QUICK = _GROWING | {
     "name": "quick",
-    "facets": (100, 500, 2_000, 20_000, 100_000),
+    "facets": (100, 500, 2_000, 20_000, 300_000),
     "forces": (9.0,),
     "most_facets": {"algorithm1": 2_000},
     "touches": 500,

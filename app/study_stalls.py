@@ -188,7 +188,7 @@ def _measured(
         Figure(subject, "longest work of the window itself between two beats", 1e3 * stalls.worked, "ms"),
         Figure(subject, "longest frame, from its beginning to the screen", max(frames, default=0.0), "ms"),
         Figure(subject, "samples a second, slowest stream", came / took, "Hz", least=0.98 * _RATE_HZ),
-        Figure(subject, "frames of the window with its scene a second", len(frames) / took, "Hz"),
+        Figure(subject, "frames of the scene a second", len(frames) / took, "Hz"),
     )
 
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 )
 
 from app.heatmap_viewer.reading import ReadingBox
+from widgets.finish import finish
 from widgets.icons import icon
 from widgets.progress import show_value
 from widgets.range_slider import RangeSlider
@@ -60,6 +61,7 @@ class Controls(QWidget):
         self._fill()
         self._lay_out()
         self._connect()
+        finish(self)
         self.show_force()
         self.show_work(None)
 

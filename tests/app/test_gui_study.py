@@ -14,6 +14,7 @@ from PySide6.QtCore import QCoreApplication, QEvent, QObject, QThread
 
 from app import study_charts, study_stalls
 from app.garbage import Garbage
+from app.study_leaks import growth
 from app.study_window import loaded
 from pipeline.study.preparation.report import Figure, Report
 
@@ -98,6 +99,12 @@ def test_a_sink_keeps_what_streams_give():
     sink = study_stalls.Sink()
     sink([Sample(), Sample()])
     assert sink.count == 2
+
+
+def test_memory_grows_by_its_slope_and_not_by_one_jump():
+    assert growth([100.0, 103.0]) == pytest.approx(3.0)
+    assert growth([100.0, *(180.0 for _ in range(20))]) == pytest.approx(0.0, abs=1e-9)
+    assert growth([100.0 + 2.0 * k + (-1) ** k for k in range(41)]) == pytest.approx(2.0, abs=0.05)
 
 
 def test_the_load_is_said():

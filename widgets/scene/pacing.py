@@ -36,7 +36,7 @@ class Pacing(QObject):
     def __init__(self, view: View, parent: QObject) -> None:
         super().__init__(parent)
         self._view = view
-        self._closed = self.brisk = False
+        self._closed = self.brisk = self._drawing = False
         self._cost = self._began = 0.0
         self.waiting: list[Callable[[], None]] = []
         self._redraw = QTimer(self, singleShot=True)
@@ -68,7 +68,7 @@ class Pacing(QObject):
 
     def begin(self) -> None:
         """Say that a frame is begun."""
-        self._began = time.perf_counter()
+        self._began, self._drawing = time.perf_counter(), True
 
     def settle(self) -> None:
         """Say that something moved."""
@@ -100,6 +100,11 @@ class Pacing(QObject):
             self._later.stop()
 
     def _swapped(self) -> None:
+        # The window is put together anew for charts and texts, too: since the last frame of the scene minutes may
+        # have passed, which are not its cost.
+        if not self._drawing:
+            return
+        self._drawing = False
         cost = (time.perf_counter() - self._began) * 1e3
         # quick to believe in a quicker frame: one slow frame must not slow down the next ten
         self._cost = cost if cost < self._cost else 0.5 * (self._cost + cost)

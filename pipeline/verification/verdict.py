@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
 MOST_UNRESOLVED = 0.05
 FEWEST_MARKERS = 6
-LEFT_OUT = "left out on purpose"
 _ROOM = 0.002  # m between what two neighbours may both be off
 _LISTED = 10
 
@@ -63,7 +62,7 @@ class Case:
         notes = [] if times is not None else ["time: not measured"]
         if self.left_out:
             said = ", ".join(f"{name} ({why})" for name, why in self.left_out.items())
-            notes.append(f"{LEFT_OUT}: {said}: nothing is known of contacts there")
+            notes.append(f"left out on purpose: {said}: nothing is known of contacts there")
         if self.markers < FEWEST_MARKERS:
             many = "1 marker was" if self.markers == 1 else f"{self.markers} markers were"
             notes.append(

@@ -12,7 +12,6 @@ from pipeline.config.runtime.canonical import fault_of
 from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.model import VerificationPart
 from pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
-from pipeline.verification.verdict import LEFT_OUT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -130,11 +129,19 @@ def _unsaid(content: Mapping[str, Any]) -> str:
     )
 
 
+def _left_out(content: Mapping[str, Any]) -> str:
+    """Return a sentence about markers that were left out on purpose; empty if none was."""
+    left_out = content.get("settings", {}).get("left_out")
+    if not isinstance(left_out, dict) or not left_out:
+        return ""
+    said = ", ".join(f"{name} ({why})" for name, why in left_out.items())
+    return f"Left out on purpose: {said}: nothing is known of contacts there."
+
+
 def _summary(content: Mapping[str, Any]) -> dict[str, Any]:
     overall, times, verdict = content["overall"], content["times"], content["verdict"]
     words = [*verdict["reasons"], *([] if content["diagnosis"] is None else [content["diagnosis"]["text"]])]
-    words += [note for note in verdict.get("notes", ()) if note.startswith(LEFT_OUT)]
-    words += filter(None, [_unsaid(content)])
+    words += filter(None, [_left_out(content), _unsaid(content)])
     return {
         "touches": overall["touches"],
         "markers": len(content["per_marker"]),

@@ -17,8 +17,6 @@ from pipeline.calibration import calibrate
 from pipeline.calibration.files.calibration_file import Mount, save_calibration
 from pipeline.config.runtime import ConfigError, RuntimeConfig
 from pipeline.config.runtime.canonical import json_schema
-from pipeline.config.runtime.options import ExportOptions
-from pipeline.config.runtime.settings_file import controller_in
 from pipeline.config.runtime.verified import read_verification
 from pipeline.mesh import Probe
 from pipeline.mesh.regions import RegionSet
@@ -274,27 +272,6 @@ def test_wrong_settings_are_refused(bench, text, words):
     made = invoke("export", *files_of(bench), "--settings", bench / "settings.json", "--out", bench / "b")
     assert made.exit_code == 2
     assert words in made.stderr
-
-
-def test_a_controller_is_read_from_a_file_of_settings():
-    part = example().model.controller
-    data = json.dumps({"controller": part.model_dump(), "limits": None}).encode()
-    assert controller_in(data, "gains.json") == part
-    for wrong, words in (
-        (b"{}", "gains.json: there is no controller"),
-        (b"x", "not JSON"),
-        (b'{"controller":{"variant":"bold"}}', "gains.json: controller.variant is 'bold'"),
-        (b" " * (2**20 + 1), "larger than 1 MiB"),
-    ):
-        with pytest.raises(ConfigError, match=words):
-            controller_in(wrong, "gains.json")
-
-
-def test_a_wrong_controller_of_a_session_is_named():
-    wrong = example().model.controller.model_dump()
-    wrong["angle"]["gain_per_s"][1] = -1.0
-    with pytest.raises(ConfigError, match=r"config\.controller\.angle\.gain_per_s\.1"):
-        ExportOptions.checked({"controller": wrong})
 
 
 # ---- sessions ----------------------------------------------------------------------------------

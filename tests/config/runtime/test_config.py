@@ -12,12 +12,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from config.runtime.bundles import OLD_GAINS, example, example_bundle, of_version_1
+from config.runtime.bundles import example, example_bundle
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import Level, Verdict
 from pipeline.config.runtime import ConfigError, Filters, RuntimeConfig, UnverifiedError, build_config
-from pipeline.config.runtime import migrate as migrations
 from pipeline.config.runtime.canonical import decode_json, encode_json, json_schema
 from pipeline.config.runtime.config import checksum
 from pipeline.config.runtime.differ import differences
@@ -319,92 +318,6 @@ def test_without_filters_the_noise_is_that_of_a_reading(rebuild):
 
     part = rebuild(change).model.noise
     assert np.diag(part.wrench_covariance)[0] > 0.05**2
-
-
-def test_an_older_version_is_carried_over(monkeypatch):
-    """Worked example: version 0 had gravity's weight in kg, and no gate for regions."""
-
-    def from_0(content):
-        gravity = dict(content["gravity"])
-        gravity["gravity_W_N"] = [9.80665 * each for each in gravity.pop("mass_W_kg")]
-        return {**content, "gravity": gravity, "gates": {**content["gates"], "region_only": False}}
-
-    monkeypatch.setitem(migrations.STEPS, 0, from_0)
-    content = {**example().model.to_json(), "controller": OLD_GAINS}
-    weight = content["gravity"].pop("gravity_W_N")
-    content["gravity"]["mass_W_kg"] = [each / 9.80665 for each in weight]
-    del content["gates"]["region_only"]
-    old = encode_json({**content, "version": 0})
-    model = decode_json(old, "old")
-    assert model.version == 2
-    assert model.controller.force.damping_Nspm == 80.0
-    assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
-    del content["gravity"]["mass_W_kg"]
-    with pytest.raises(ConfigError, match="version 0 cannot be carried over"):
-        decode_json(encode_json({**content, "version": 0}), "old")
-
-
-def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_2():
-    found = RuntimeConfig.from_files(of_version_1(example().encoded()))
-    # What was left open then, as it was taken then: it stays, whatever the defaults become.
-    assert found.model.controller.model_dump() == {
-        "variant": "aware",
-        "desired_force_N": 5.0,
-        "period_s": 0.02,
-        "servo_lag_s": 0.0,
-        "force": {"mass_kg": 1.0, "damping_Nspm": 80.0, "stiffness_Npm": 0.5, "gain_per_s": 6.0},
-        "angle": {
-            "inertia": [0.05, 0.05],
-            "damping": [1.0, 1.0],
-            "stiffness": [0.25, 0.25],
-            "gain_per_s": [6.0, 6.0],
-            "settling_s": 0.04,
-        },
-        "lead": {
-            "bandwidth_per_s": [20.0, 13.0, 13.0],
-            "smoothing_s": 0.08,
-            "lean_rad": 0.025,
-            "lean_s": 0.8,
-        },
-        "touch": {
-            "approach_speed_mps": 0.006,
-            "approach_travel_m": 0.05,
-            "retract_speed_mps": 0.06,
-            "retract_travel_m": 0.03,
-            "touch_force_N": 0.7,
-            "low_force_N": 0.7,
-            "ramp_s": 0.5,
-            "probing_m": 0.00015,
-            "attempts": 3,
-        },
-        "tool": {"left_force_N": 0.01, "left_torque_Nm": 0.0005, "taring_s": 0.5, "gyration_m": 0.035},
-        "watch": {"stale_s": 0.06, "give_up_s": 0.2, "following_s": 0.05, "max_tilt_rad": 0.5},
-    }
-    again = RuntimeConfig.from_files(found.encoded())
-    assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 2
-    bare = RuntimeConfig.from_files(of_version_1(example().encoded(), None))
-    assert bare.model.controller is None
-
-
-@pytest.mark.parametrize(
-    ("controller", "words"),
-    [
-        ({**OLD_GAINS, "extra": 1}, "version 1 cannot be carried over"),
-        (
-            {name: value for name, value in OLD_GAINS.items() if name != "angle_inertia"},
-            "cannot be carried over",
-        ),
-        ({**OLD_GAINS, "angle_inertia": [0.1, 0.2]}, "controller.angle.inertia"),
-        ({**OLD_GAINS, "angle_damping": 0.0}, "controller.angle.damping.0 is 0.0"),
-        ({**OLD_GAINS, "force_mass_kg": "1"}, "controller.force.mass_kg is '1'"),
-        ([], "cannot be carried over"),
-        (3, "cannot be carried over"),
-    ],
-)
-def test_a_wrong_controller_of_version_1_is_refused(controller, words):
-    with pytest.raises(ConfigError, match=words):
-        RuntimeConfig.from_files(of_version_1(example().encoded(), controller))
 
 
 def test_the_schema_that_is_checked_in_is_that_of_the_model():

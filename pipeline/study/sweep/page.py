@@ -62,13 +62,13 @@ def make(results: Results, folder: Path) -> str:
     rows = list(results.rows)
     plan = Plan.of(dict(results.about.get("plan", {})), "results")
     pictures = plots(rows) | {"astray.png": draw(astray(rows, results.about.get("meshes", {})))}
-    parts = [f"## Sweep: {plan.name}", _about(plan)]
+    parts = [f"## Sweep: {plan.name}", _about(plan, len(rows))]
     for title, text in tables(rows):
         parts += [f"### {title}", text, *([_SAID[title]] if title in _SAID else [])]
     for name, data in pictures.items():
         if data:
             _write(folder / name, data)
-            parts.append(f"![{_SAID[name]}]({name})\n\n{_SAID[name]}")
+            parts.append(f"![{name.removesuffix('.png')}]({name})\n\n{_SAID[name]}")
     noisy = [row for row in rows if is_noisy(row) and not row["failed"]]
     parts.append(
         f"<details><summary>Every method on every mesh</summary>\n\n{speed_table(usual(noisy or rows))}\n\n</details>"
@@ -80,12 +80,12 @@ def make(results: Results, folder: Path) -> str:
     return "\n\n".join(parts)
 
 
-def _about(plan: Plan) -> str:
+def _about(plan: Plan, cells: int) -> str:
     def of(values: tuple[object, ...]) -> str:
         return ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
 
     return (
-        f"{len(plan):,} cells of {plan.touches:,} touches each, seed {plan.seed}, spread over the whole probe above its"
+        f"{cells:,} cells of {plan.touches:,} touches each, seed {plan.seed}, spread over the whole probe above its"
         f" mount, none of it a region of priority."
         f" Methods {of(plan.methods)}; probes {of(tuple(map(plain, plan.probes)))}; facets {plan.facets[0]:,} to"
         f" {plan.facets[-1]:,}; forces {of(plan.forces)} N; angles {of(plan.angles)}°; torsion (standard deviation of"

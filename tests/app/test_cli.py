@@ -12,6 +12,8 @@ from app import cli
 from pipeline.errors import InputError
 from pipeline.session import Session
 
+from .failures import prepared
+
 
 def run(*arguments, **environment):
     env = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -80,5 +82,48 @@ def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
         window.send_signal(signal.SIGINT)
         _, said = window.communicate(timeout=60)
     assert window.returncode == 0, said
+    assert "leaked" not in said
     with Session.open(tmp_path / "s") as session:
         assert session.state.settings["devices.sensor"].value.startswith("virtual://")
+
+
+_LOOKED_AT = """
+import sys
+from pathlib import Path
+from PySide6.QtCore import QTimer
+from app import application
+from app.window import MainWindow
+from pipeline.workbench.steps import Step
+
+class Window(MainWindow):
+    def __init__(self, *given):
+        super().__init__(*given)
+        self.timer = QTimer(self, interval=100)
+        self.timer.timeout.connect(self.look)
+        self.timer.start()
+
+    def look(self):
+        if self.bench is None or not self.pages.made:
+            return
+        self.show_step(Step.VERIFY)
+        if self.pages.current.tool is not None and self.bench.live.solver is not None:
+            self.timer.stop()
+            self.close()
+
+application.MainWindow = Window
+sys.exit(application.run(Path(sys.argv[1])))
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="a screen of X")
+def test_nothing_of_the_kernel_or_qt_is_left_when_the_application_ends(tmp_path):
+    if not os.environ.get("DISPLAY"):
+        pytest.skip("needs a screen")
+    env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
+    command = [sys.executable, "-X", "faulthandler", "-c", _LOOKED_AT, str(prepared(tmp_path))]
+    ended = subprocess.run(command, env=env, capture_output=True, text=True, timeout=120, check=False)
+    assert ended.returncode == 0, ended.stderr
+    said = [line for line in ended.stderr.splitlines() if "stood still" not in line]
+    assert not [line for line in said if "leaked" in line or "QThread" in line or "Fatal" in line], (
+        ended.stderr
+    )

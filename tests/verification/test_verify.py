@@ -146,6 +146,21 @@ def test_limits_decide_the_verdict(good):
     assert not more.verdict.passed
 
 
+def test_a_marker_that_is_left_out_for_a_reason_is_not_missing_and_its_touches_count(good):
+    first, *others = good.markers.names
+    asked = replace(VerifySettings().protocol, repeats=3)
+    found = good.verified(VerifySettings(asked, left_out={first: "nothing reaches it"}))
+    assert found.missing == tuple(others)
+    assert any(f"{first} (nothing reaches it)" in note for note in found.verdict.notes)
+    assert found.settings["left_out"] == {first: "nothing reaches it"}
+    assert found.overall == good.verified().overall
+    assert "left_out" not in good.verified().settings
+    with pytest.raises(InputError, match="no markers Nowhere"):
+        good.verified(VerifySettings(left_out={"Nowhere": "why"}))
+    with pytest.raises(InputError, match="say why"):
+        VerifySettings(left_out={first: " "})
+
+
 def test_nothing_touched_is_wrong_input(good):
     free = good.recording.wrenches[:10].copy()
     part = replace(
@@ -252,6 +267,17 @@ def test_the_command_fails_with_1_and_refuses_with_2(files, tmp_path):
     assert "off the probe" in json.loads(refused.stdout)["error"]
     assert run.invoke(app, [*arguments(files), "--force", "9"]).exit_code == 2
     assert run.invoke(app, [*arguments(files), "--out", str(files / "markers.csv")]).exit_code == 2
+
+
+def test_the_command_leaves_markers_out(files, good, tmp_path):
+    run, out, first = CliRunner(), tmp_path / "v.json", good.markers.names[0]
+    given = [*arguments(files), "--repeats", "3", "--leave-out", f"{first}=nothing reaches it"]
+    assert run.invoke(app, [*given, "--out", str(out)]).exit_code == 1
+    said = json.loads(out.read_bytes())
+    assert said["missing"] == list(good.markers.names[1:])
+    assert f"{first} (nothing reaches it)" in " ".join(said["verdict"]["notes"])
+    assert run.invoke(app, [*arguments(files), "--leave-out", first]).exit_code == 2
+    assert run.invoke(app, [*arguments(files), "--leave-out", "Nowhere=why", "--json"]).exit_code == 2
 
 
 def test_markers_are_generated_and_snapped_by_command(files, tmp_path):

@@ -23,7 +23,7 @@ _NOISE = "filtered"
 
 def plots(rows: Sequence[Row]) -> dict[str, bytes]:
     """Return PNG images by file name: those that the rows have something for."""
-    made = {"rivals-location.png": _location(rows), "rivals-simplification.png": _simplification(rows)}
+    made = {"location.png": _location(rows), "simplification.png": _simplification(rows)}
     return {name: data for name, data in made.items() if data}
 
 

@@ -53,7 +53,7 @@ def test_the_page_is_made_from_the_file_alone(rows, tmp_path):
     assert "### Is anybody both faster and more accurate?" in text
     assert "| **contactbench** |" in text
     assert "Levenberg-Marquardt, SciPy" in text
-    assert (tmp_path / "rivals-location.png").read_bytes().startswith(b"\x89PNG")
+    assert (tmp_path / "location.png").read_bytes().startswith(b"\x89PNG")
     assert make_page(tmp_path) == text
 
 

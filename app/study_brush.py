@@ -54,7 +54,7 @@ def run(
         page.panel.regions.add_button.click()
         rest(1.0)
         progress(f"painting with {events} mouse events")
-        waits, frames = _stroke(window, events)
+        waits, frames, spent = _stroke(window, events)
         picks = _picks(window, 500)
         painted = page.work is not None and bool(page.work.model.labels.any())
     figures = (
@@ -67,6 +67,7 @@ def run(
             most=_FEEDBACK_MS,
         ),
         Figure.of(f"{facets} facets", "a frame", frames, "ms"),
+        Figure(f"{facets} facets", "work of the window itself for each frame", spent, "ms"),
         Figure.of(f"{facets} facets", "finding the facet under the pointer", picks, "ms"),
         Figure("picking", "99 of 100", float(np.percentile(picks, 99)), "ms", most=_PICK_MS),
         Figure("brush", "painted anything (1: yes)", float(painted), least=1),
@@ -87,8 +88,19 @@ def make_session(folder: Path, facets: int) -> None:
         compute(session, "probe", "probe.ply", newest_inputs(session.state, "probe"), {"facets": facets})
 
 
-def _stroke(window: MainWindow, events: int) -> tuple[list[float], list[float]]:
-    """Paint a spiral; return from each event to the end of the next frame, and how long frames took, ms."""
+def _stroke(window: MainWindow, events: int) -> tuple[list[float], list[float], float]:
+    """
+    Paint a spiral, and measure; all in ms.
+
+    Returns
+    -------
+    list of float
+        From each event to the end of the next frame.
+    list of float
+        How long frames took.
+    float
+        For how long the GUI thread worked for a frame, whatever else the processors did.
+    """
     scene = window.scene
     assert scene is not None  # noqa: S101 - a session is open
     view = scene.view
@@ -103,6 +115,7 @@ def _stroke(window: MainWindow, events: int) -> tuple[list[float], list[float]]:
     send_mouse(view, QEvent.Type.MouseButtonPress, middle)
     rest(0.1)
     frames.clear()
+    spent = time.thread_time()
     for number in range(events):
         angle = 0.12 * number
         away = reach * (0.3 + 0.7 * number / events)
@@ -110,12 +123,12 @@ def _stroke(window: MainWindow, events: int) -> tuple[list[float], list[float]]:
         send_mouse(view, QEvent.Type.MouseMove, middle + away * QPointF(np.cos(angle), np.sin(angle)))
         rest(max(0.0, _BETWEEN_S - (time.perf_counter() - sent[-1])))
     rest(0.2)
+    spent = time.thread_time() - spent
     send_mouse(view, QEvent.Type.MouseButtonRelease, middle)
     moments = np.array(ends)
     after = np.searchsorted(moments, sent)
-    return [
-        1e3 * float(moments[k] - at) for k, at in zip(after, sent, strict=True) if k < len(moments)
-    ], frames
+    waits = [1e3 * float(moments[k] - at) for k, at in zip(after, sent, strict=True) if k < len(moments)]
+    return waits, frames, 1e3 * spent / max(len(frames), 1)
 
 
 def send_mouse(view: QWidget, kind: QEvent.Type, place: QPointF) -> None:

@@ -40,8 +40,10 @@ if TYPE_CHECKING:
     Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 _CAREFUL = 1.2  # the step in which it touched may have begun in the air
-_UNSURE = 0.5  # share of the tool's inertia
+_UNSURE = 0.25  # share of the tool's inertia
 _PRESS_N = 0.8  # about what the small press may add to the force
+# N/m per kg of tool: on softer tissue its own inertia looks like more depth than the force loop bears at full speed.
+_STIFF_PER_KG = 2000.0
 _REMEMBERED_S = 2.0  # how long tissue counts as moving after it did
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -98,6 +100,7 @@ class Controller:
         self._q = np.array(q, dtype=np.float64)
         self._sent = self._pose(self._q)  # where that is
         self._first_axis = self._sent[0][:, 2].copy()
+        self._calm = 1.0  # share of the force loop's speed, by the tissue's stiffness
         self._felt = np.zeros(6)  # what speeds up the tool
         self._moves = 0.0  # m/s, of the tissue along the axis, the largest of late
         self._speeds = np.zeros_like(self._q)
@@ -283,7 +286,7 @@ class Controller:
         F = sensed.wrench[:3]
         # Tissue that is turned about +x pushes towards +y, about +y towards -x.
         leaning = (float(np.arctan2(F[1], -F[2])), float(np.arctan2(-F[0], -F[2])))
-        # What speeds up the tool is known no better than by half; else it would pass for friction, for a second.
+        # What speeds up the tool is known no better than to a quarter; else it would pass for friction, for a second.
         noise, left = self._intake.sigmas(sensed.count), _UNSURE * np.abs(self._felt)
         sigmas = math.hypot(noise[0], left[:2].max()), math.hypot(noise[1], left[3:5].max())
         self.surface.update(self._unseen, tip, R_BS, force, known, leaning, sigmas)
@@ -295,9 +298,19 @@ class Controller:
         self._probing.take(sensed.time, float(tip @ R_BS[:, 2]), force)
         if self._probing.over(now):
             found = self._probing.stiffness()
+            sunk = 0.0 if self._touching is None else float(tip @ R_BS[:, 2]) - self._touching[0]
             if found is not None:
-                self.surface.learn(force, found[0])
+                self._take(force, found[0])
+            elif (
+                sunk > 0
+            ):  # so soft that a small press shows nothing: then the way from the first touch on is long
+                self._take(force, force / sunk)
             self._probed = True
+
+    def _take(self, force: float, stiffness: float) -> None:
+        """Take a stiffness, N/m; the force loop is slower on what is soft for so heavy a tool."""
+        self._calm = min(1.0, math.sqrt(stiffness / (_STIFF_PER_KG * float(self._intake.gravity.mass))))
+        self.surface.learn(force, stiffness, self._calm)
 
     def _guess(self, force: float, where: float) -> None:
         """Guess the stiffness from how the force grew as it touched, rather too high: then it goes on gently."""
@@ -367,10 +380,10 @@ class Controller:
         stiffness = self.surface.press(force).stiffness
         # As Eq. 7, with the damping that gives the usual gain on what is touched.
         scale = self.settings.force_damping * self.settings.force_gain / stiffness
-        # Not while the force grows at first touch: the surface is known only from then on.
-        grown = self.state is State.TRACK or self.safety.elapsed > self.settings.ramp
-        led = self.surface.speed_along(inward, lead) if grown else 0.0
-        return led + self._force.step((wanted - force) * scale, dt)
+        # Before the stiffness is measured, or while the force grows, tissue that gives way would seem to flee.
+        known = self._probed and self.safety.elapsed > self.settings.ramp
+        led = self.surface.speed_along(inward, lead) if known or self.state is State.TRACK else 0.0
+        return led + self._force.step(self._calm * (wanted - force) * scale, dt)
 
     def _limited(self, twist: NDArray[np.float64]) -> NDArray[np.float64]:
         for part, most in ((slice(0, 3), self.settings.max_speed), (slice(3, 6), self.settings.max_turn)):

@@ -53,6 +53,7 @@ class Surface:
     ) -> None:
         self._foundation = foundation
         place, about_x, about_y = bandwidth
+        self._bandwidth = place
         self._place = Follower(np.full(3, place))
         # In the axes that the sensor had first: a turn about x moves a normal near z along y.
         self._normal = Follower([about_y, about_x, max(about_x, about_y)])
@@ -65,11 +66,12 @@ class Surface:
         """Return what is known of a press of that force, N."""
         return self._foundation.at(max(force, 0.1), self.modulus)
 
-    def learn(self, force: float, stiffness: float) -> None:
-        """Take a stiffness, N/m, that was measured at a force, N."""
+    def learn(self, force: float, stiffness: float, share: float = 1.0) -> None:
+        """Take a stiffness, N/m, that was measured at a force, N, and the share of the bandwidth to follow it with."""
         found = self._foundation.modulus_of(force, stiffness)
         self.modulus = min(max(found, _SOFTEST), _STIFFEST)
-        self._place.reset()  # with another depth the surface is elsewhere: it did not go there
+        # From anew: with another depth the surface is elsewhere, it did not go there.
+        self._place = Follower(np.full(3, share * self._bandwidth))
 
     def forget(self) -> None:
         """Begin anew: the tissue was left."""

@@ -42,10 +42,10 @@ def test_tissue_that_turns_in_two_seconds_is_followed(axis):
     assert run.controller.state is State.TRACK
 
 
-def test_tissue_that_heaves_from_the_first_touch_on_is_led_once_the_force_has_grown():
+def test_tissue_that_heaves_from_the_first_touch_on_is_tracked():
     heaving = PlatformMotion.along("z", 0.01, 3.0, start=1.2)
     run = loop("convex", settings_for("convex"), motion=heaving).until(State.TRACK)
-    assert max(run.forces) < 12.0
+    assert max(run.forces) < 15.0
     run.run(1.0)
     assert run.controller.state is State.TRACK
     assert np.abs(np.array(run.forces[-25:]) - 7.0).max() < 1.5

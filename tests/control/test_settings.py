@@ -50,7 +50,7 @@ def test_a_heavy_tool_is_turned_more_slowly_and_a_light_one_as_usual():
     assert for_tool(usual, 0.45, 0.08) == usual
     slow = for_tool(usual, 0.8, 0.12)
     share = usual.smoothing / slow.smoothing
-    assert 0.5 < share < 0.8
+    assert 0.6 < share < 0.95
     assert slow.angle_gains == pytest.approx((6.0 * share, 6.0 * share))
     assert slow.bandwidth == pytest.approx((20.0, 13.0 * share, 13.0 * share))
     assert slow.settling == pytest.approx(usual.settling / share)

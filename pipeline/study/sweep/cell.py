@@ -83,6 +83,12 @@ def _method(
     return make(name, mesh, believed(noise, way), gates), len(mesh.faces)
 
 
+def forget() -> None:
+    """Let go of methods and touches that are kept for the next cell: a million facets are hundreds of megabytes."""
+    _method.cache_clear()
+    _touches.cache_clear()
+
+
 def gates_for(angle: float) -> Gates:
     """
     Return the gates of somebody who knows that touches may be this steep, degrees.

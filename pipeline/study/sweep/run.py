@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pipeline.errors import InputError
 from pipeline.study.results import environment, write_results
 from pipeline.study.sweep.bodies import file_facets, packed_mesh
-from pipeline.study.sweep.cell import gates_for, run_cell
+from pipeline.study.sweep.cell import forget, gates_for, run_cell
 from pipeline.study.sweep.plan import identity, label
 from pipeline.study.sweep.store import Store
 
@@ -147,10 +147,13 @@ def _rows(
     if not cells:
         return
     if scheduler is None and workers == 1:
-        for cell in (cell for part in tasks_of(cells) for cell in part):
-            if cancelled():
-                return
-            yield run_cell(cell, timed=timed)
+        try:
+            for cell in (cell for part in tasks_of(cells) for cell in part):
+                if cancelled():
+                    return
+                yield run_cell(cell, timed=timed)
+        finally:
+            forget()
         return
     yield from _by_dask(tasks_of(cells), scheduler, workers, timed, cancelled)
 

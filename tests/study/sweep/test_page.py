@@ -12,6 +12,7 @@ from pipeline.errors import InputError
 from pipeline.study.pages import PAGE, TOGETHER, gather, make_page
 from pipeline.study.results import RESULTS, environment, read_results, write_results
 from pipeline.study.sweep.pictures import astray, draw
+from pipeline.study.sweep.presets import preset
 from pipeline.study.sweep.tables import tables
 
 
@@ -110,7 +111,11 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
     words = ("--preset", "quick", "--probe", "linear", "--touches", "100", "--workers", "1", "--out", out)
     done = _invoke("run", *words, "--json")
     assert done.exit_code == 0, done.stderr
-    assert json.loads(done.stdout)["cells"] == json.loads(done.stdout)["computed"] == 60
+    assert (
+        json.loads(done.stdout)["cells"]
+        == json.loads(done.stdout)["computed"]
+        == len(preset("quick", ("linear",)))
+    )
     assert read_results(out).command == "contactbench study run --preset quick --probe linear --touches 100"
     assert json.loads(_invoke("run", *words, "--json").stdout)["computed"] == 0
     same = _invoke("compare", out, out, "--json")
@@ -127,17 +132,17 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
 
 
 @pytest.mark.parametrize(
-    ("preset", "place", "name"),
+    ("kind", "place", "name"),
     [
         ("hard", "pipeline.study.stability_commands", "stability"),
         ("ablation", "pipeline.study.ablation.commands", "ablation"),
         ("rivals", "pipeline.study.rivals.commands", "rivals"),
     ],
 )
-def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, preset, place, name):
+def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, kind, place, name):
     asked = {}
     monkeypatch.setattr(f"{place}.{name}", lambda **values: asked.update(values))
-    done = _invoke("run", "--preset", preset, "--seed", "4", "--out", tmp_path / "it")
+    done = _invoke("run", "--preset", kind, "--seed", "4", "--out", tmp_path / "it")
     assert done.exit_code == 0, done.stderr
     assert (asked["seed"], asked["out"]) == (4, tmp_path / "it")
 

@@ -24,7 +24,7 @@ USUAL_GAIN = 6.0  # 1/s, of force and angle: the paper's figures follow from abo
 
 TOOL_KG, TO_TIP_M = 0.45, 0.08  # a usual tool, and how far its centre of mass is from its tip
 LEFT = 0.35  # share of its inertia that compensation leaves, measured in `PlatformScene`
-_HEAVY = 0.07  # kg·m, mass times lever: up to there the usual turns leave twice the gain
+_HEAVY = 0.05  # kg·m, mass times lever: up to there the usual turns leave twice the gain
 
 
 class Variant(StrEnum):

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
     QTabBar,
     QWidget,
 )
+from shiboken6 import isValid
 
 from pipeline.session import Session
 from pipeline.session.check import check
@@ -151,11 +152,21 @@ class Monkey(QObject):
                 index = model.index(pick.randrange(model.rowCount(QModelIndex())), 0)
                 at = widget.visualRect(index).center()
                 if widget.viewport().rect().contains(at):
-                    QTest.mouseClick(
-                        widget.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at
-                    )
+                    click(widget.viewport(), at)
         else:
-            QTest.mouseClick(widget, Qt.MouseButton.LeftButton)
+            click(widget, widget.rect().center())
+
+
+def click(widget, at):
+    """
+    Press and let go, if it is still there then: a press may open a menu, in whose event loop all goes on.
+
+    `QTest.mouseClick` would let go of a widget that is gone, and the process would die of it.
+    """
+    left, none = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    QTest.mousePress(widget, left, none, at)
+    if isValid(widget):
+        QTest.mouseRelease(widget, left, none, at)
 
 
 @pytest.fixture

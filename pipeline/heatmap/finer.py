@@ -48,7 +48,8 @@ def finer(probe: Probe, edge: float = EDGE) -> Probe:
         The same object when its edges are short enough.
     """
     limit = max(edge, float(np.sqrt(probe.areas.sum() / (_SHARE * _MOST))))
-    vertices, faces = probe.vertices, probe.faces
+    vertices: NDArray[np.float64] = probe.vertices
+    faces: NDArray[np.integer] = probe.faces
     origin = np.arange(len(faces))
     for _ in range(_ROUNDS):
         edges, of_face = _edges(faces)

@@ -27,7 +27,8 @@ def test_the_time_step_hardly_counts_and_the_arm_a_little(report: study.Report) 
     assert step.force < 0.05
     assert step.angle < 0.02
     assert 0.01 < arm.force < 0.7
-    assert 0.0 < arm.angle < 0.1  # the mount has the arm's servo: what is left is next to nothing, but not nothing
+    # The mount has the arm's servo: what is left is next to nothing, but not nothing.
+    assert 0.0 < arm.angle < 0.1
 
 
 def test_the_inertia_of_a_tool_that_swings_is_felt(report: study.Report) -> None:

@@ -183,8 +183,13 @@ def test_by_key_the_space_bar_takes_poses(window):
     w.press(w.page.panel.automatic)
     w.start()
     w.take(1)
-    w.until(lambda: w.page.panel.state.word == "still: SPACE", steps=50)
-    assert {row.state for row in w.page.panel.table.rows} == {PoseState.LEFT_OUT}
+
+    # The wrist may have been sent away from a moment that was nearly still: such a one is told as rejected.
+    def states():
+        return {row.state for row in w.page.panel.table.rows}
+
+    w.until(lambda: w.page.panel.state.word == "still: SPACE" and PoseState.LEFT_OUT in states(), steps=50)
+    assert PoseState.TAKEN not in states()
     w.widget.activateWindow()
     w.qtbot.waitUntil(w.widget.isActiveWindow, timeout=20_000)
     w.qtbot.keyClick(w.widget, Qt.Key.Key_Space)

@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QIcon
+from PySide6.QtGui import QIcon, QPixmapCache
 from PySide6.QtWidgets import QApplication
 
 from app.errors import Faults, LogFile
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 # Streams and workers share one interpreter with the window, which waits so long for each of them at most: Python's
 # 5 ms, a hundred times in a frame, are a window that hangs.
 _SWITCH_S = 0.0005
+_PIXMAPS_KB = 64 * 1024  # the axes of the charts are kept as pictures: 1 MB each on a large screen, and Qt keeps ten
 
 
 def run(session: Path | None = None, *, virtual: bool = False, language: str = "") -> int:
@@ -74,6 +75,7 @@ def prepared() -> QApplication:
     application.setApplicationName("contactbench")
     application.setDesktopFileName("contactbench")
     application.setStyle("Fusion")  # the same everywhere, and it keeps to the palette
+    QPixmapCache.setCacheLimit(_PIXMAPS_KB)
     from importlib.resources import as_file, files
 
     with as_file(files("assets") / "icon.svg") as file:

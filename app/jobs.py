@@ -6,7 +6,7 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QObject, QThreadPool, Signal
+from PySide6.QtCore import QObject, QThreadPool, QTimer, Signal
 from superqt.utils import WorkerBase
 
 if TYPE_CHECKING:
@@ -191,13 +191,20 @@ class _Ending(QObject):
         self._job, self._jobs, self._done, self._failed = job, jobs, done, failed
 
     def returned(self, result: object) -> None:
+        # In a turn of its own, as a page shows what came: a chart's picture and this one's in one breath are a stall.
+        QTimer.singleShot(0, self, lambda: self._take(result))
+
+    def errored(self, error: BaseException) -> None:
+        QTimer.singleShot(0, self, lambda: self._tell(error))
+
+    def _take(self, result: object) -> None:
         try:
             if self._done is not None:
                 self._done(result)
         finally:
             self._jobs._over(self._job)
 
-    def errored(self, error: BaseException) -> None:
+    def _tell(self, error: BaseException) -> None:
         try:
             if self._failed is not None:
                 self._failed(error)

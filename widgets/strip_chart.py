@@ -76,10 +76,10 @@ class StripChart(QWidget):
         self._view: tuple[float, float] | None = None  # s before the newest, while held
         self._chosen_panes = self._chosen_kind = False
         self.panes = (
-            Pane(Curves(self.tr("Force"), ("Fx", "Fy", "Fz"), "N", 2, 0.5)),
-            Pane(Curves(self.tr("Torque"), ("Mx", "My", "Mz"), "N·m", 3, 0.02, 3)),
-            Pane(Curves(self.tr("Size of the force"), ("|F|",), "N", 2, 0.5)),
-            Pane(Curves(self.tr("Contact point"), ("x", "y", "z"), "mm", 1, 5.0)),
+            Pane(Curves(self.tr("Force"), ("Fx", "Fy", "Fz"), "N", 2, 0.5), self),
+            Pane(Curves(self.tr("Torque"), ("Mx", "My", "Mz"), "N·m", 3, 0.02, 3), self),
+            Pane(Curves(self.tr("Size of the force"), ("|F|",), "N", 2, 0.5), self),
+            Pane(Curves(self.tr("Contact point"), ("x", "y", "z"), "mm", 1, 5.0), self),
         )
         self._grid = QGridLayout()
         self._grid.setSpacing(4)

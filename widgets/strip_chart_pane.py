@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QFont
-from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout, QWidget
 
+from widgets.plot_frame import PlotFrame
 from widgets.strip_chart_decimate import decimate, nearest, steady_range
+from widgets.strip_chart_legend import Entry, Legend
 from widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 _STROKES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 _SIGNS = ("—", "╌", "┈")  # as the strokes look
 _AXIS_PX, _AXIS_PT = 46, 9
+_GRID = 38  # of 255: seen, and behind the lines
 _LEAST_BINS = 50
 _NARROW_PX = 280
 
@@ -71,26 +73,31 @@ class Pane(QWidget):
         super().__init__(parent)
         self.curves = curves
         self.setAccessibleName(curves.title)
-        self._legend = QLabel()
-        self._legend.setTextFormat(Qt.TextFormat.RichText)
-        self._legend.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self._plot: Any = pg.PlotWidget()
+        self._legend = Legend()
+        self._plot: Any = PlotFrame()
         self._plot.setMinimumHeight(48)
+        # Left to itself, each plot has the whole window flushed for its change alone, and where a 3D view lies in the
+        # window a flush puts all of it together anew: four for four panes. See _repaint.
+        self._plot.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.NoViewportUpdate)
         self._unit = QLabel(self._plot)
         self._unit.setProperty("role", "muted")
         self._unit.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self._unit.move(_AXIS_PX + 4, 0)
-        self._view: Any = self._plot.getViewBox()
-        self._view.setMenuEnabled(False)
+        self._view: Any = self._plot.box
         self._view.setMouseEnabled(x=True, y=False)
-        self._view.setDefaultPadding(0.0)
-        self._view.disableAutoRange()
-        self._plot.hideButtons()
-        self._lines: list[Any] = [self._plot.plot([], [], connect="finite") for _ in curves.names]
+        self._plot.left.setWidth(_AXIS_PX)
+        for axis in (self._plot.left, self._plot.bottom):
+            axis.setGrid(_GRID)
+            # kept as a picture: drawing grid and numbers anew takes longer than the lines
+            axis.setCacheMode(QGraphicsItem.CacheMode.DeviceCoordinateCache)
+        self._lines: list[Any] = [_Line(connect="finite") for _ in curves.names]
+        for line in self._lines:
+            self._view.addItem(line, ignoreBounds=True)
         self._cursor: Any = pg.InfiniteLine(angle=90, movable=False)
         self._cursor.setVisible(False)
-        self._plot.addItem(self._cursor, ignoreBounds=True)
+        self._view.addItem(self._cursor, ignoreBounds=True)
         self._low_high: tuple[float, float] | None = None
+        self._range: tuple[float, float, float, float] | None = None
         self._times: NDArray[np.float64] = np.empty(0)
         self._values: NDArray[np.float64] = np.empty((0, len(curves.names)))
         self._moment: float | None = None
@@ -113,13 +120,10 @@ class Pane(QWidget):
         self._unit.setStyleSheet(f"background: {chosen.panel};")
         font = QFont(self.font())
         font.setPointSize(_AXIS_PT)
-        for name in ("left", "bottom"):
-            axis = self._plot.getAxis(name)
+        for axis in (self._plot.left, self._plot.bottom):
             axis.setPen(pg.mkPen(chosen.line))
             axis.setTextPen(pg.mkPen(chosen.muted))
             axis.setTickFont(font)
-        self._plot.getAxis("left").setWidth(_AXIS_PX)
-        self._plot.showGrid(x=True, y=True, alpha=0.15)
         for line, colour, stroke in zip(self._lines, self._colours(), _STROKES, strict=False):
             line.setPen(pg.mkPen(colour, width=1, style=stroke))
         self._cursor.setPen(pg.mkPen(QColor(chosen.muted), width=1))
@@ -150,7 +154,10 @@ class Pane(QWidget):
         for index, line in enumerate(self._lines):
             line.setData(drawn, points[:, index])
         self._low_high = steady_range(points, self.curves.least, self._low_high)
-        self._view.setRange(xRange=(begin, end), yRange=self._low_high, padding=0, disableAutoRange=False)
+        shown = (begin, end, *self._low_high)
+        if shown != self._range:  # asked for anew, both axes are laid out anew, also where nothing changed
+            self._range = shown
+            self._view.setRange(xRange=(begin, end), yRange=self._low_high, padding=0, disableAutoRange=False)
         self._write()
 
     def show_cursor(self, moment: float | None) -> None:
@@ -182,22 +189,27 @@ class Pane(QWidget):
         return [f"{value:z.{digits}f}" if np.isfinite(value) else "–" for value in self._values[row]]
 
     def _write(self) -> None:
-        thin, wide = ("\u2009", "&nbsp;") if self.width() < _NARROW_PX else ("&nbsp;", "&nbsp;&nbsp;")
-        parts = [
-            f'<span style="color:{colour}"><b>{sign}</b>{thin}{escape(name)}</span>{thin}{number}'
-            for name, number, colour, sign in zip(
-                self.curves.names, self._numbers(), self._colours(), _SIGNS, strict=False
-            )
+        entries = [
+            Entry(*parts)
+            for parts in zip(_SIGNS, self.curves.names, self._colours(), self._numbers(), strict=False)
         ]
-        self._legend.setText(f'<span style="font-size:10pt">{wide.join(parts)}</span>')
+        self._legend.show_entries(entries, tight=self.width() < _NARROW_PX)
         when = "" if self._moment is None else f"   {self._moment:+.2f} s"
-        self._unit.setText(f"{self.curves.unit}{when}")
-        self._unit.ensurePolished()
-        self._unit.adjustSize()
+        unit = f"{self.curves.unit}{when}"
+        if unit != self._unit.text():
+            self._unit.setText(unit)
+            self._unit.ensurePolished()
+            self._unit.adjustSize()
+        self._repaint()
+
+    def _repaint(self) -> None:
+        """Have the plot painted with whatever else of the window is."""
+        self._plot.viewport().update()
 
     # ---- the mouse ---------------------------------------------------------------------------------
 
     def _moved(self, *_: object) -> None:
+        self._range = None
         begin, end = self._view.viewRange()[0]
         self.taken.emit()
         self.stretched.emit(float(begin), float(end))
@@ -211,3 +223,11 @@ class Pane(QWidget):
         if event.type() == event.Type.Leave:
             self.pointed.emit(None)
         return bool(super().eventFilter(watched, event))
+
+
+class _Line(pg.PlotCurveItem):  # type: ignore[misc]
+    """A curve of which all that is in view is painted: asking 300 points for their bounds takes as long as painting."""
+
+    def boundingRect(self) -> Any:
+        """Return the view."""
+        return self.viewRect()

@@ -9,6 +9,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from widgets.plot_frame import PlotFrame
 from widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ class TradeoffChart(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._trade: Trade | None = None
+        self._dark: bool | None = None
         self._facets = 0
         self.across = QComboBox()
         self.across.addItems(
@@ -66,18 +68,15 @@ class TradeoffChart(QWidget):
         self._draw()
 
     def _make_plot(self) -> Any:
-        plot = pg.PlotWidget()
+        plot = PlotFrame()
         plot.setFixedHeight(210)
         plot.setMinimumWidth(180)
         plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        plot.setMouseEnabled(x=False, y=False)  # the wheel scrolls the page
-        plot.setMenuEnabled(False)
-        plot.hideButtons()
-        plot.setLogMode(x=True, y=True)
-        plot.disableAutoRange()  # or every item that moves measures all the others
+        plot.box.setMouseEnabled(x=False, y=False)  # the wheel scrolls the page
         plot.scene().sigMouseClicked.connect(self._clicked)
         # Made once and moved: making them takes longer than the eye forgives.
-        self._curve = plot.plot([1], [1], symbol="o", symbolSize=_POINT)
+        self._curve = pg.PlotCurveItem()
+        self._dots = pg.ScatterPlotItem(size=_POINT, symbol="o")
         self._allowed = pg.InfiniteLine(
             angle=0, label=" ", labelOpts={"position": 0.98, "anchors": [(1, 1), (1, 1)]}
         )
@@ -85,8 +84,16 @@ class TradeoffChart(QWidget):
         self._knee = pg.ScatterPlotItem(size=_KNEE, symbol="star")
         self._ring = pg.ScatterPlotItem(size=_KNEE + 5, symbol="o", brush=pg.mkBrush(None))
         self._word = pg.TextItem(self.tr("knee"), anchor=(0.5, -0.35))
-        for item in (self._allowed, self._between, self._knee, self._ring, self._word):
-            plot.addItem(item)
+        for item in (
+            self._curve,
+            self._dots,
+            self._allowed,
+            self._between,
+            self._knee,
+            self._ring,
+            self._word,
+        ):
+            plot.box.addItem(item, ignoreBounds=True)
         return plot
 
     # ---- what it shows ---------------------------------------------------------------------------
@@ -113,7 +120,7 @@ class TradeoffChart(QWidget):
     def where(self, facets: int) -> QPointF:
         """Return where the point of so many facets is drawn, in the coordinates of this widget."""
         point = next(each for each in self._points if each.facets == facets)
-        at = self._plot.getViewBox().mapViewToScene(QPointF(*self._at(point)))
+        at = self._plot.box.mapViewToScene(QPointF(*self._at(point)))
         inside = self._plot.mapFromScene(at)
         return QPointF(self._plot.viewport().mapTo(self, inside))
 
@@ -139,11 +146,12 @@ class TradeoffChart(QWidget):
         self._allowed.setVisible(self._trade is not None and self._trade.allowed_mm > 0)
         for item, point in ((self._knee, knee), (self._word, knee)):
             item.setVisible(point is not None)
-        self._curve.setVisible(bool(points))
+        for item in (self._curve, self._dots):
+            item.setVisible(bool(points))
         if self._trade is not None and points:
             at = [self._at(each) for each in points]
-            # On logarithmic axes curves are given as they are, and other items by their logarithms.
-            self._curve.setData([10**x for x, _ in at], [10**y for _, y in at])
+            for item in (self._curve, self._dots):
+                item.setData([x for x, _ in at], [y for _, y in at])
             limit = math.log10(max(self._trade.allowed_mm, _LEAST_MM))
             self._allowed.setValue(limit)
             self._allowed.label.setFormat(self.tr("allowed {:.2g} mm").format(self._trade.allowed_mm))
@@ -155,15 +163,15 @@ class TradeoffChart(QWidget):
         self._draw_choice()
 
     def _dress(self) -> None:
-        look = colours(is_dark())
+        self._dark = is_dark()
+        look = colours(self._dark)
         self._plot.setBackground(look.panel)
-        for name in ("bottom", "left"):
-            axis = self._plot.getAxis(name)
+        for axis in (self._plot.bottom, self._plot.left):
             axis.setPen(look.line)
             axis.setTextPen(look.text)
         self._curve.setPen(pg.mkPen(look.muted, width=1.5))
-        self._curve.setSymbolBrush(look.panel)
-        self._curve.setSymbolPen(pg.mkPen(look.accent, width=2))
+        self._dots.setBrush(pg.mkBrush(look.panel))
+        self._dots.setPen(pg.mkPen(look.accent, width=2))
         self._allowed.setPen(pg.mkPen(look.warning, width=1.5, style=Qt.PenStyle.DashLine))
         self._allowed.label.setColor(look.warning)
         self._between.setPen(pg.mkPen(look.text, width=1.5))
@@ -174,10 +182,9 @@ class TradeoffChart(QWidget):
 
     def _fit(self, xs: list[float], ys: list[float]) -> None:
         wide, high = max(max(xs) - min(xs), 0.3), max(max(ys) - min(ys), 0.3)
-        self._plot.getAxis("bottom").setTicks([_ticks(min(xs), max(xs))])
-        self._plot.getAxis("left").setTicks([_ticks(min(ys), max(ys))])
-        box = self._plot.getViewBox()
-        box.setRange(
+        self._plot.bottom.setTicks([_ticks(min(xs), max(xs))])
+        self._plot.left.setTicks([_ticks(min(ys), max(ys))])
+        self._plot.box.setRange(
             xRange=(min(xs) - 0.1 * wide, max(xs) + 0.1 * wide),
             yRange=(min(ys) - 0.1 * high, max(ys) + 0.18 * high),
             padding=0,
@@ -213,7 +220,7 @@ class TradeoffChart(QWidget):
 
     def _clicked(self, event: Any) -> None:
         self.setFocus(Qt.FocusReason.MouseFocusReason)
-        box = self._plot.getViewBox()
+        box = self._plot.box
         near = [
             (math.hypot(*(box.mapViewToScene(QPointF(*self._at(each))) - event.scenePos()).toTuple()), each)
             for each in self._points
@@ -245,7 +252,8 @@ class TradeoffChart(QWidget):
     def changeEvent(self, event: QEvent) -> None:
         """Take on another theme."""
         super().changeEvent(event)
-        if event.type() == QEvent.Type.PaletteChange:
+        # the palette also changes, to the same, when a panel is put into its place
+        if event.type() == QEvent.Type.PaletteChange and is_dark() != self._dark:
             self._draw()
 
 

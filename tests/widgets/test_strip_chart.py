@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
@@ -188,3 +188,26 @@ def test_nothing_at_all_can_be_shown(chart):
 def test_lines_differ_without_their_colours(chart):
     strokes = {line.opts["pen"].style() for line in chart.panes[0]._lines}
     assert len(strokes) == 3
+
+
+def test_all_panes_are_painted_in_one_go(qtbot, chart):
+    """Each flush of a window with a 3D view puts all of it together anew: four a tick are a window that hangs."""
+    chart.refresh(history())
+    qtbot.wait(50)
+    flushes = Updates()
+    chart.installEventFilter(flushes)
+    for tick in range(1, 6):
+        chart.refresh(history(bias=0.01 * tick))
+        qtbot.wait(30)
+    chart.removeEventFilter(flushes)
+    assert 5 <= flushes.count <= 6
+
+
+class Updates(QObject):
+    """Counts how often a window is put on the screen."""
+
+    count = 0
+
+    def eventFilter(self, _watched, event):
+        self.count += event.type() == QEvent.Type.UpdateRequest
+        return False

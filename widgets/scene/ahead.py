@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import threading
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -52,7 +52,8 @@ class Ahead(QObject):
         super().__init__(parent)
         self._take = take
         self._wanted: Probe | None = None
-        self._threads: list[threading.Thread] = []
+        # One that stays: to begin a thread is to wait until it runs, which on a busy machine takes long.
+        self._pool = ThreadPoolExecutor(1, "ahead")
         self._newest: Prepared | None = None
         self._came.connect(self._taken)
 
@@ -68,19 +69,17 @@ class Ahead(QObject):
             self._take(self._newest)
             return
         self._wanted = probe
-        self._threads = [thread for thread in self._threads if thread.is_alive()]
         if probe is not None:
-            thread = threading.Thread(target=self._work, args=(probe,), name="ahead", daemon=True)
-            self._threads.append(thread)
-            thread.start()
+            self._pool.submit(self._work, probe)
 
     def close(self) -> None:
         """End it; waits for all that was begun, for they tell an object that is gone soon."""
         self._wanted = self._newest = None
-        for thread in self._threads:
-            thread.join()
+        self._pool.shutdown(wait=True, cancel_futures=True)
 
     def _work(self, probe: Probe) -> None:
+        if probe is not self._wanted:
+            return  # another was shown meanwhile
         prepared = prepare(probe)
         with suppress(RuntimeError):  # the scene is gone
             self._came.emit(prepared)

@@ -61,10 +61,14 @@ class Pacing(QObject):
             return
         gap = max(0.0 if self.brisk else _FRAME_MS, 1.2 * self._cost)
         passed = (time.perf_counter() - self._began) * 1e3
-        if passed >= gap:
+        if passed < gap:
+            self._redraw.start(int(gap - passed) + 1)
+        elif self.brisk:
             self._view.update()
         else:
-            self._redraw.start(int(gap - passed) + 1)
+            # not in the same breath as what asked for it, such as a page that shows what came: keys and the mouse are
+            # heard before
+            self._redraw.start(0)
 
     def begin(self) -> None:
         """Say that a frame is begun."""
@@ -74,6 +78,11 @@ class Pacing(QObject):
         """Say that something moved."""
         if not self._closed:
             self._settle.start()
+
+    @property
+    def moving(self) -> bool:
+        """Whether something moved a moment ago."""
+        return self._settle.isActive()
 
     def later(self, actions: list[Callable[[], None]]) -> None:
         """Have something done after the next frame, instead of what waits."""

@@ -121,6 +121,8 @@ class Scene(QWidget):
             self.stage.size = probe.size
             self._poses.size()
             self._markers.dress()
+            if self.view.software and self._pacing.moving:
+                self.probe_layer.set_coarse(True, at_once=True)
             # what is not needed for the first frame is made after it
             self._pacing.later([self.probe_layer.build_picker])
             if not self._fitted:
@@ -338,8 +340,8 @@ class Scene(QWidget):
         self.scale_bar.set_scale(screen.metres_per_pixel * ratio)
         fresh = self.probe_layer.fresh.actor if self.probe_layer.take_fresh() else None
         key: object = (screen, self._eye.reach, self.stage.version)
-        if not self.view.software:
-            key = object()  # a graphics card draws all faster than a picture is copied
+        if not self.view.software or self.probe_layer.coarse:
+            key = None  # a graphics card draws all, and any a likeness, faster than a picture is copied
         still = [*(shape.actor for shape in self.probe_layer.shapes), *self._poses.still]
         self._still.prepare(key, still, fresh)
 

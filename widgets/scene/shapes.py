@@ -77,7 +77,7 @@ def cylinder(sides: int = 24) -> Any:
 
 
 def thinned(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], steps: int = 80
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], steps: int = 56
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]:
     """
     Return a coarse likeness: vertices of one cell of a grid fall together.

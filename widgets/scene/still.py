@@ -48,15 +48,15 @@ class StillPicture:
         Parameters
         ----------
         key : object
-            Equal as long as the kept picture is right.
+            Equal as long as the kept picture is right; None: no picture is kept, as while all moves.
         actors : list of vtkProp
             What stands still.
         fresh : vtkProp or None
             What is to be drawn into the kept picture.
         """
-        whole = key != self._key or self._kept is None
+        whole = key is None or key != self._key or self._kept is None
         self._key = key
-        self._copy_in, self._copy_out = not whole, whole or fresh is not None
+        self._copy_in, self._copy_out = not whole, key is not None and (whole or fresh is not None)
         self._renderer.SetPreserveColorBuffer(not whole)
         self._renderer.SetPreserveDepthBuffer(not whole)
         if not whole:

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 MODULE = "pipeline.mesh.engines.worker"
 
+_NICENESS = 10
+
 # Imported by name at run time: pymeshlab is GPL-3, and stays on this side of the process boundary, where
 # nothing but the messages of this package passes.
 _MODULES = {Library.FAST_SIMPLIFICATION: "fast_simplification", Library.MESHLAB: "pymeshlab"}
@@ -65,6 +67,7 @@ def main(library: str) -> int:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     calls, results = _private_pipes()
     _limit_resources()
+    _give_way()
     name = Library(library)
     try:
         module = importlib.import_module(_MODULES[name])
@@ -139,6 +142,12 @@ def _ended_with_the_parent(calls: int) -> Iterator[None]:
         yield
     finally:
         fcntl.fcntl(calls, fcntl.F_SETFL, flags)
+
+
+def _give_way() -> None:
+    """Leave the processors to whoever waits for a window or a sensor, where there are too few for all."""
+    if hasattr(os, "nice"):
+        os.nice(_NICENESS)
 
 
 def _limit_resources() -> None:

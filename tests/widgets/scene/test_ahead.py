@@ -59,19 +59,22 @@ def test_a_probe_that_is_shown_again_is_not_prepared_again(qtbot, monkeypatch):
     ahead.close()
 
 
-def test_the_end_waits_for_all_that_was_begun(qapp, monkeypatch):  # noqa: ARG001 - for what it does
-    going_on = threading.Event()
+def test_the_end_waits_for_what_is_under_way_and_drops_the_rest(qapp, monkeypatch):  # noqa: ARG001
+    begun, going_on = threading.Event(), threading.Event()
     done = []
 
     def slow(probe):
+        begun.set()
         going_on.wait(5)
         done.append(probe)
         return prepare(probe)
 
     monkeypatch.setattr("widgets.scene.ahead.prepare", slow)
     ahead, probes = Ahead(lambda _: None, None), (ball(500), ball(700))
-    for probe in probes:
-        ahead.begin(probe)
+    ahead.begin(probes[0])
+    assert begun.wait(5)
+    ahead.begin(probes[1])
     threading.Timer(0.1, going_on.set).start()
     ahead.close()
-    assert {id(probe) for probe in done} == {id(probe) for probe in probes}
+    assert [id(probe) for probe in done] == [id(probes[0])]
+    assert not any(thread.name.startswith("ahead") for thread in threading.enumerate())

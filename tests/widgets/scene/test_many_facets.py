@@ -34,10 +34,19 @@ def test_a_likeness_stands_in_while_the_camera_moves_and_no_longer(qtbot):
     if not scene.view.software:
         pytest.skip("a graphics card draws all facets at any time")
     scene.look("front")
-    assert layer._coarse.shown
+    assert layer.coarse
     assert not layer.surface.shown
+    copied: list[object] = []
+    copy = scene._still._copy
+    scene._still._copy = lambda *what: (copied.append(what), copy(*what))  # type: ignore[method-assign]
+    scene.view.repaint()
+    assert not copied, "no picture is kept of what the next frame shows from elsewhere"
+    scene.show_probe(ball(50_000))
+    assert layer.coarse, "another probe's likeness is not waited for while all moves"
     qtbot.waitUntil(lambda: layer.surface.shown, timeout=20_000)
-    assert not layer._coarse.shown
+    assert not layer.coarse
+    scene.view.repaint()
+    assert copied
     scene.close_scene()
     scene.close()
     scene.deleteLater()

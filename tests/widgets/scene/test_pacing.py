@@ -13,8 +13,23 @@ def test_what_the_window_draws_beside_the_scene_delays_no_frame_of_it(bench, qtb
         scene.view.frameSwapped.emit()  # as when a chart beside it is drawn
     assert frames == []
     scene.redraw()
-    assert not pacing._redraw.isActive(), (
-        "it is drawn at once, and not after a fifth of the time that nothing moved"
+    assert pacing._redraw.interval() == 0, (
+        "in the next turn, and not after a fifth of the time that nothing moved"
     )
     qtbot.waitUntil(lambda: len(frames) == 1, timeout=20_000)
     assert frames[0] < 10_000.0
+
+
+def test_a_frame_that_may_wait_lets_keys_come_first_and_paint_does_not_wait(bench, qtbot):
+    pacing = bench.scene._pacing
+    bench.settle()
+    pacing._began -= 10.0
+    pacing.redraw()
+    assert pacing._redraw.isActive()
+    qtbot.waitUntil(lambda: not pacing._redraw.isActive(), timeout=20_000)
+    bench.settle()
+    pacing.brisk = True
+    pacing._began -= 10.0
+    pacing.redraw()
+    assert not pacing._redraw.isActive(), "the stroke of a brush is seen at once"
+    pacing.brisk = False

@@ -1,0 +1,75 @@
+"""What is written above the lines of a strip chart: names in their colours and strokes, and newest values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from PySide6.QtCore import QPoint, QSize
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+_POINT_SIZE = 10
+
+
+class Entry(NamedTuple):
+    """One line's name and value; the sign looks like its stroke."""
+
+    sign: str
+    name: str
+    colour: str
+    value: str
+
+
+class Legend(QWidget):
+    """
+    Entries side by side.
+
+    Painted, not a label: a label whose text changes asks for its layout, and with it for that of the whole window, 30
+    times a second.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        font = self.font()
+        font.setPointSize(_POINT_SIZE)
+        self.setFont(font)
+        self._strong = QFont(font)
+        self._strong.setBold(True)
+        self._entries: tuple[Entry, ...] = ()
+        self._tight = False
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+
+    def show_entries(self, entries: Sequence[Entry], tight: bool) -> None:
+        """Show entries; `tight`: with little room between them."""
+        if (tuple(entries), tight) != (self._entries, self._tight):
+            self._entries, self._tight = tuple(entries), tight
+            self.update()
+
+    def sizeHint(self) -> QSize:
+        """Return the height of a line; any width will do."""
+        return QSize(0, QFontMetrics(self._strong).height())
+
+    minimumSizeHint = sizeHint
+
+    def paintEvent(self, _event: QPaintEvent) -> None:
+        """Write it."""
+        painter = QPainter(self)
+        strong, plain = QFontMetrics(self._strong), QFontMetrics(self.font())
+        space = plain.horizontalAdvance(" ")
+        gap = max(space // 2, 2) if self._tight else space
+        words = self.palette().windowText().color()
+        at = QPoint(0, strong.ascent())
+        for entry in self._entries:
+            for text, font, metrics, colour in (
+                (entry.sign, self._strong, strong, QColor(entry.colour)),
+                (entry.name, self.font(), plain, QColor(entry.colour)),
+                (entry.value, self.font(), plain, words),
+            ):
+                painter.setFont(font)
+                painter.setPen(colour)
+                painter.drawText(at, text)
+                at.setX(at.x() + metrics.horizontalAdvance(text) + gap)
+            at.setX(at.x() + (0 if self._tight else gap))

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 # Streams and workers share one interpreter with the window, which waits so long for each of them at most: Python's
 # 5 ms, a hundred times in a frame, are a window that hangs.
 _SWITCH_S = 0.0005
-_PIXMAPS_KB = 64 * 1024  # the axes of the charts are kept as pictures: 1 MB each on a large screen, and Qt keeps ten
+# The axes of the charts are kept as pictures: 1 MB each on a large screen, and Qt keeps ten.
+_PIXMAPS_KB = 64 * 1024
 
 
 def run(session: Path | None = None, *, virtual: bool = False, language: str = "") -> int:

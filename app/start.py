@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from app.opening import holds_session
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 from widgets.theme import accent
 
 if TYPE_CHECKING:
@@ -182,7 +183,7 @@ class Question(QFrame):
         """Show a sentence and one button for each answer, the first of them the accented one."""
         self.clear()
         self._icon.show_icon(icon(kind, "warning" if kind == "warning" else "accent"))
-        self._words.setText(sentence)
+        self._words.setText(said(sentence))
         for number, (words, action) in enumerate(answers):
             button = QPushButton(words)
             button.setProperty("primary", number == 0)

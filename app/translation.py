@@ -2,11 +2,13 @@
 Other languages: loading them, and keeping them complete.
 
 ``python -m app.translation update`` takes new strings of `app` and `widgets` into every language's .ts file and makes
-the .qm files that the window loads; ``check`` says which strings are not translated, with exit code 1 if any.
+the .qm files that the window loads, and new sentences of `pipeline` into its phrase book; ``check`` says what is not
+translated, with exit code 1 if anything.
 """
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -14,10 +16,14 @@ from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
+from app.sentences import templates
+from widgets import phrases
+
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 """Code to name, each in its own words."""
 _HERE = Path(__file__).parent
 _FOLDER = _HERE / "translations"
+_PIPELINE = _HERE.parent / "pipeline"
 _SOURCE = "en"
 _IN_USE = "language"
 
@@ -45,6 +51,7 @@ def load(application: QCoreApplication, language: str = "") -> str:
     # in a sentence would be read as another number.
     QLocale.setDefault(QLocale(QLocale.Language.English, QLocale.Country.UnitedStates))
     application.setProperty(_IN_USE, _SOURCE)
+    phrases.use(None)
     if code == _SOURCE:
         return code
     own = QTranslator(application)
@@ -54,8 +61,15 @@ def load(application: QCoreApplication, language: str = "") -> str:
     qt = QTranslator(application)
     if qt.load(f"qtbase_{code}", QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)):
         application.installTranslator(qt)
+    phrases.use(phrases.PhraseBook(sentences(code)))
     application.setProperty(_IN_USE, code)
     return code
+
+
+def sentences(language: str) -> dict[str, str]:
+    """Return the phrase book of a language: the templates of what `pipeline` says, and what they are in it."""
+    file = _book_file(language)
+    return dict(json.loads(file.read_text("utf-8"))) if file.is_file() else {}
 
 
 def in_use() -> str:
@@ -74,7 +88,8 @@ def unfinished(language: str) -> tuple[str, ...]:
             made = message.find("translation")
             if made is None or not (made.text or "").strip() or made.get("type") == "unfinished":
                 missing.append(f"{name}: {message.findtext('source', '')}")
-    return tuple(missing)
+    known = sentences(language)
+    return (*missing, *(f"pipeline: {each}" for each in templates(_PIPELINE) if not known.get(each)))
 
 
 def update(language: str) -> None:
@@ -85,6 +100,9 @@ def update(language: str) -> None:
     file = _file(language)
     _run("pyside6-lupdate", *sources, "-ts", str(file), "-no-obsolete", "-locations", "none")
     release(language)
+    known = sentences(language)
+    book = {each: known.get(each, "") for each in templates(_PIPELINE)}
+    _book_file(language).write_text(json.dumps(book, ensure_ascii=False, indent=1) + "\n", "utf-8")
 
 
 def release(language: str) -> None:
@@ -95,6 +113,10 @@ def release(language: str) -> None:
 
 def _file(language: str) -> Path:
     return _FOLDER / f"contactbench_{language}.ts"
+
+
+def _book_file(language: str) -> Path:
+    return _FOLDER / f"sentences_{language}.json"
 
 
 def _run(program: str, *arguments: str) -> None:

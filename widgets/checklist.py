@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -78,7 +79,7 @@ class Checklist(QFrame):
         sign.show_icon(icon(*_ICONS[item.state]))
         sign.setAccessibleName(self.word(item.state))
         self._grid.addWidget(sign, row, 0, Qt.AlignmentFlag.AlignTop)
-        words = QLabel(f"<b>{item.name}</b> · {self.word(item.state)}<br>{_plain(item.sentence)}")
+        words = QLabel(f"<b>{item.name}</b> · {self.word(item.state)}<br>{_plain(said(item.sentence))}")
         words.setTextFormat(Qt.TextFormat.RichText)
         words.setWordWrap(True)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)

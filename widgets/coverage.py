@@ -11,6 +11,7 @@ from PySide6.QtGui import QBrush, QColor, QHelpEvent, QPainter, QPainterPath, QP
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
 from pipeline.workbench.gravity_poses import PoseRow, PoseState
+from widgets.phrases import said
 from widgets.theme import Colours, colours, is_dark
 
 if TYPE_CHECKING:
@@ -210,7 +211,7 @@ class Coverage(QWidget):
         for row in self._rows:
             away = self.spot_of(row) - at
             if away.x() ** 2 + away.y() ** 2 < _NEAR**2:
-                return f"{row.name}: {row.words}. {row.reason}".strip()
+                return f"{said(row.name)}: {said(row.words)}. {said(row.reason)}".strip()
         return self.tr(
             "Where gravity pulled, seen from the sensor. Filled: taken; hollow: left out; cross: rejected; ring: the"
             " next pose; dark dot: now. Poses that are spread out tell most."

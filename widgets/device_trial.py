@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLay
 
 from pipeline.devices.drive import State
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 
 if TYPE_CHECKING:
     from pipeline.workbench.live_trial import Trial
@@ -53,7 +54,9 @@ class DeviceTrial(QFrame):
         self._rate.setText(self.tr("– Hz") if rate is None else self.tr("{rate:.0f} Hz").format(rate=rate))
         self._facts.setText("" if trial is None else self._counted(trial))
         self._facts.setVisible(trial is not None)
-        self._findings.setText("" if trial is None else "\n\n".join(trial.sentences))
+        self._findings.setText(
+            "" if trial is None else "\n\n".join(said(sentence) for sentence in trial.sentences)
+        )
         self._findings.setVisible(trial is not None and bool(trial.sentences))
 
     @property

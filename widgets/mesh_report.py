@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -85,7 +86,7 @@ class MeshReport(QWidget):
         mark.setToolTip(self._word(level))
         mark.setAccessibleName(self._word(level))
         line.addWidget(mark, 0, Qt.AlignmentFlag.AlignTop)
-        words = QLabel(text)
+        words = QLabel(said(text))
         words.setWordWrap(True)
         words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Minimum)

@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.theme import colours, is_dark
 
 _MOST = 500
@@ -116,7 +117,7 @@ class MessageList(QWidget):
 
     def add(self, weight: str, text: str, details: str = "", at: datetime | None = None) -> None:
         """Put a message on top; the same one again is counted instead."""
-        at = at or datetime.now().astimezone()
+        text, at = said(text), at or datetime.now().astimezone()
         if self._list.count():
             told: _Told = self._list.item(0).data(_ROW)
             if (told.weight, told.text) == (weight, text):

@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
 
 from pipeline.workbench.gravity_poses import PoseRow, PoseState
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.theme import colours, is_dark
 
 NAME, STANDS, SIGMAS, STATE = range(4)
@@ -83,7 +84,7 @@ class PoseModel(QAbstractTableModel):
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return (row.name.removeprefix("pose "), row.words, self._sigmas(row), self._state(row))[
+                return (row.name.removeprefix("pose "), said(row.words), self._sigmas(row), self._state(row))[
                     column
                 ]
             case Qt.ItemDataRole.DecorationRole if column == STATE:
@@ -92,14 +93,14 @@ class PoseModel(QAbstractTableModel):
                 return self._tip(row)
             case Qt.ItemDataRole.AccessibleTextRole:
                 return self.tr("{name}, {words}, residual {sigmas} sigma, {state}").format(
-                    name=row.name, words=row.words, sigmas=self._sigmas(row), state=self._state(row)
+                    name=row.name, words=said(row.words), sigmas=self._sigmas(row), state=self._state(row)
                 )
             case _ if role == _BAR:
                 return row.sigmas
         return None
 
     def _tip(self, row: PoseRow) -> str:
-        parts = [row.reason]
+        parts = [said(row.reason)]
         if not math.isnan(row.sigmas):
             parts.append(
                 self.tr("force {force:.1f} sigma, torque {torque:.1f} sigma").format(

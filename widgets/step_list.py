@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxL
 
 from pipeline.workbench.steps import Step, StepState, StepStatus
 from widgets.icons import state_colour, state_icon
+from widgets.phrases import said
 from widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -110,9 +111,10 @@ class _Row(QAbstractButton):
 
     def show_status(self, status: StepStatus, word: str) -> None:
         self._state, self._word = status.state, word
-        self.setToolTip(status.sentence)
+        sentence = said(status.sentence)
+        self.setToolTip(sentence)
         self.setAccessibleName(f"{self._number} {self.text()}: {word}")
-        self.setAccessibleDescription(status.sentence)
+        self.setAccessibleDescription(sentence)
         self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002 - Qt's signature

@@ -9,6 +9,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 from widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ class VerdictBox(QFrame):
         self.level = level
         self._icon.show_icon(icon(name, colour))
         self._word.setText(word or usual[level])
-        self._text.setText("\n".join(reasons))
+        self._text.setText("\n".join(said(reason) for reason in reasons))
         self.setAccessibleName(self.text)
 
 

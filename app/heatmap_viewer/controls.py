@@ -22,6 +22,7 @@ from PySide6.QtWidgets import (
 from app.heatmap_viewer.reading import ReadingBox
 from widgets.finish import finish
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.progress import show_value
 from widgets.range_slider import RangeSlider
 from widgets.scrolled import Scrolled
@@ -290,7 +291,7 @@ class Controls(QWidget):
         """Show a sentence."""
         self.message.setProperty("role", "bad" if bad else "")
         _dressed(self.message)
-        self.message.setText(text)
+        self.message.setText(said(text))
 
     def show_work(self, title: str | None, share: float = 0.0) -> None:
         """Show long work, how far it is, 0 to 1, and a way to stop it; None: there is none."""

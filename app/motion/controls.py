@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.scrolled import Scrolled
 from widgets.theme import accent
 
@@ -213,6 +214,7 @@ class Controls(QWidget):
 
     def say(self, text: str, bad: bool = False) -> None:
         """Show a sentence."""
+        text = said(text)
         if text == self.message.text():
             return
         self.message.setProperty("role", "bad" if bad else "")
@@ -236,7 +238,7 @@ class Controls(QWidget):
         names = {key: name for key, (name, _) in self._words().items()}
         lines = [
             self.tr("{time:.1f} s  {state}: {why}").format(
-                time=each.time_s, state=names.get(each.state, each.state), why=each.reason
+                time=each.time_s, state=names.get(each.state, each.state), why=said(each.reason)
             )
             for each in reversed(changes[-_SHOWN:])
         ]

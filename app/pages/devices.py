@@ -27,6 +27,7 @@ from pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from pipeline.workbench.live_trial import trial_of
 from pipeline.workbench.steps import Step
 from widgets.device_trial import DeviceChannels, DeviceTrial
+from widgets.phrases import said
 from widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
@@ -152,7 +153,9 @@ class DevicesPage(Page):
         free = not (recording or problem or self._opening)
         self.try_button.setEnabled(free)
         self.use_button.setEnabled(free)
-        note = "" if problem in (self.sensor.problem, self.poses.problem) else problem
+        note = said(problem)
+        if note in (self.sensor.problem, self.poses.problem):
+            note = ""
         if recording:
             note = self.tr("A recording is being made with the devices: finish it before you change them.")
         elif self._opening:
@@ -239,7 +242,7 @@ class DevicesPage(Page):
 
     def show_state(self, status: StepStatus) -> None:
         """Show how the step stands."""
-        self._status.setText(status.sentence)
+        self._status.setText(said(status.sentence))
         self._allow()
 
     def tick(self) -> None:

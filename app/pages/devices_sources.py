@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from assets import PROBE_NAMES
 from pipeline.devices.url import Carrier, DeviceAddress, Protocol
 from pipeline.workbench import live_devices as devices
+from widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -107,7 +108,7 @@ class Source(QGroupBox):
 
     def say(self, problem: str) -> None:
         """Show what is wrong; empty: nothing."""
-        self._problem.setText(problem)
+        self._problem.setText(said(problem))
         self._problem.setVisible(bool(problem))
 
     @property

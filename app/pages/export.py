@@ -31,6 +31,7 @@ from pipeline.workbench.export_checklist import newest
 from pipeline.workbench.steps import Step
 from widgets.checklist import Checklist, ShownCheck
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 from widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
@@ -222,14 +223,14 @@ class ExportPage(Page):
     def _problem(self, view: ExportView) -> str:
         """Return why there is no bundle; what is only missing, by the name of its field."""
         if view.lacks != "rate":
-            return view.problem
+            return said(view.problem)
         return self.tr(
             "How many readings a second the robot will get is not known: a verification would have told. Verify in"
             " step 5, or fill in Readings under Settings, as the sensor is set."
         )
 
     def _show_preview(self, preview: Preview) -> None:
-        self.figures.setText("\n".join(f"{what}: {value}" for what, value in preview.figures))
+        self.figures.setText("\n".join(f"{said(what)}: {said(value)}" for what, value in preview.figures))
         total = sum(size for _, size in preview.files)
         lines = [f"{name}  {_size(size)}" for name, size in preview.files]
         lines.append(
@@ -243,10 +244,10 @@ class ExportPage(Page):
             self.changes.setText(self.tr("Nothing was exported from this session before."))
         else:
             self.changes.setText(
-                self.tr("Against the last export:") + "\n" + "\n".join(f"• {each}" for each in changes)
+                self.tr("Against the last export:") + "\n" + "\n".join(f"• {said(each)}" for each in changes)
             )
         if preview.reasons:
-            why = " ".join(preview.reasons[:2])
+            why = " ".join(said(reason) for reason in preview.reasons[:2])
             self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
         elif self._setting("export.sha256") == preview.sha256:
             self._stand("done", "good", self.tr("Verified, and exported as it is."))
@@ -331,7 +332,7 @@ class ExportPage(Page):
             self._busy, self.exported = False, found
             if self._closed:
                 return
-            self.result.setText(found.sentence)
+            self.result.setText(said(found.sentence))
             self.result.setProperty("role", "" if found.verified else "bad")
             self.result.show()
             self.bench.tell(Weight.GOOD if found.verified else Weight.WARNING, found.sentence)
@@ -352,7 +353,7 @@ class ExportPage(Page):
             raise error
         if self._closed:
             return
-        self.result.setText(str(error))
+        self.result.setText(said(str(error)))
         self.result.show()
         self.bench.tell(Weight.ERROR, str(error))
 

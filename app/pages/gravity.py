@@ -20,6 +20,7 @@ from pipeline.workbench.gravity_poses import PoseState
 from pipeline.workbench.gravity_settings import TILT
 from pipeline.workbench.steps import Step, StepState
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.verdict_box import LOCKED, REFUSE
 
 if TYPE_CHECKING:
@@ -115,7 +116,7 @@ class GravityPage(Page):
             self._show_view(self.run.work.view(None if pair is None else pair.now()))
         elif self.run.check is not None:
             self.panel.state.show_state(self.run.check.state)
-            self.panel.sentence.setText(self.run.check.sentence)
+            self.panel.sentence.setText(said(self.run.check.sentence))
             self.panel.show_away(R_WS, self.run.check.proposal)
 
     def watch(self) -> None:
@@ -198,7 +199,7 @@ class GravityPage(Page):
             wanted=view.wanted,
         )
         asked = view.state is StillState.STILL and not (self.run.automatic or view.captured or view.wanted)
-        panel.sentence.setText("" if asked else view.sentence)  # what is averaged is not taken yet
+        panel.sentence.setText("" if asked else said(view.sentence))  # what is averaged is not taken yet
         goal = view.solved.proposal
         panel.show_away(self._now(), None if goal is None else goal.R_WS)
         if view.revision * 2 + view.busy == self._shown:

@@ -22,6 +22,7 @@ from pipeline.calibration.wording import plain
 from widgets.capture_state import CaptureState
 from widgets.coverage import Coverage
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.residual_table import ResidualTable
 from widgets.scrolled import Scrolled
 from widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
@@ -145,12 +146,13 @@ class Findings(QWidget):
         box.addWidget(words)
         if finding.remedy:
             button = big_button(self.tr("Do that"), "check")
-            button.setToolTip(finding.remedy)
-            button.setAccessibleName(finding.remedy)
+            remedy = said(finding.remedy)
+            button.setToolTip(remedy)
+            button.setAccessibleName(remedy)
             button.setProperty("primary", bool(finding.settings))
             button.clicked.connect(lambda: self.confirmed.emit(finding))
             what = wrapped("muted")
-            what.setText(f"{finding.remedy}.")
+            what.setText(f"{remedy}.")
             box.addWidget(what)
             box.addWidget(button)
             self.buttons.append(button)
@@ -252,7 +254,7 @@ class GravityPanel(Scrolled):
     def show_next(self, proposal: Proposal | None, *, virtual: bool, running: bool) -> None:
         """Show the pose to take next, and on a virtual bench the buttons that do it."""
         self.next.setText(
-            "" if proposal is None else self.tr("Next: {words}").format(words=proposal.sentence)
+            "" if proposal is None else self.tr("Next: {words}").format(words=said(proposal.sentence))
         )
         self.next.setVisible(proposal is not None)
         self.away.setVisible(proposal is not None)

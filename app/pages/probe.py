@@ -15,6 +15,7 @@ from app.pages.probe_placing import Placing
 from app.pages.probe_sections import FacetsSection, MeshSection, NextBar, PlaceSection, SurfaceSection
 from app.pages.probe_stages import TARGETS, ProbeStages, key_of
 from pipeline.workbench.steps import Step
+from widgets.phrases import said
 from widgets.scrolled import Scrolled
 from widgets.theme import accent
 
@@ -157,7 +158,9 @@ class ProbePage(Page):
         meaning = ""
         sentences: tuple[str, ...] = ()
         if preview is not None:
-            meaning = self.tr("{} from the outer surface.").format(preview.done.simplified.deviation.sentence)
+            meaning = self.tr("{} from the outer surface.").format(
+                said(preview.done.simplified.deviation.sentence)
+            )
             sentences = (
                 *preview.done.simplified.sentences,
                 *(each.sentence for each in preview.done.carried),
@@ -207,7 +210,7 @@ class ProbePage(Page):
 
     def show_state(self, status: StepStatus) -> None:
         """Show what changed in the session, unless it is this page's own doing."""
-        self.setAccessibleDescription(status.sentence)
+        self.setAccessibleDescription(said(status.sentence))
         known = self.stages.known == key_of(self.bench.desk.state)
         if not known and self._here and not self.stages.using and not self.stages.worker.busy:
             self.stages.reload()

@@ -23,6 +23,7 @@ from PySide6.QtWidgets import (
 from pipeline.mesh.units import NAMES
 from widgets.alignment_panel import AlignmentPanel
 from widgets.mesh_report import MeshReport
+from widgets.phrases import said
 from widgets.progress import show_value
 from widgets.tradeoff_chart import TradeoffChart
 
@@ -307,7 +308,7 @@ class NextBar(QWidget):
 
     def say(self, words: str, bad: bool = False) -> None:
         """Show a sentence."""
-        self.words.setText(words)
+        self.words.setText(said(words))
         self.words.setProperty("role", "bad" if bad else "")
         self.words.style().unpolish(self.words)
         self.words.style().polish(self.words)

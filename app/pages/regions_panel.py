@@ -21,6 +21,7 @@ from app.pages.regions_tools import ToolPanel
 from pipeline.workbench.regions_session import Standing
 from pipeline.workbench.steps import StepState
 from widgets.icons import Sign, icon, state_icon
+from widgets.phrases import said
 from widgets.progress import show_value
 from widgets.region_list import RegionListWidget
 from widgets.scrolled import Scrolled
@@ -157,7 +158,7 @@ class RegionsPanel(Scrolled):
         state, text = self._said(view)
         self.state_mark.show_icon(state_icon(state))
         self.state_mark.setAccessibleName(state.value)
-        self.state_text.setText(text)
+        self.state_text.setText(said(text))
         self.body.setVisible(ready)
         self.body.setEnabled(ready and not view.busy)
         self.tools.setEnabled(view.chosen)

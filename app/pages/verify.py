@@ -25,6 +25,7 @@ from pipeline.workbench.steps import Step, StepState
 from pipeline.workbench.verify import Tool, VerifyWork, tool_key, tool_of, why_locked
 from pipeline.workbench.verify_outcome import Outcome, outcome_of
 from pipeline.workbench.verify_settings import checked_parameters, parameters_of, plain_parameters
+from widgets.phrases import said
 from widgets.scrolled import Scrolled
 from widgets.sounds import Sounds
 
@@ -139,7 +140,7 @@ class VerifyPage(Page):
             return
         missing = why_locked(self.bench.desk.state)
         locked = bool(missing) or status.state is StepState.LOCKED
-        self.locked.setText(missing or status.sentence)
+        self.locked.setText(said(missing or status.sentence))
         self.locked.setVisible(locked)
         self.go.setVisible(bool(missing))
         self.tabs.setVisible(not locked)

@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject
 from app.bench import Weight
 from pipeline.verification.protocol import State
 from widgets.marker_table import ShownMarker
+from widgets.phrases import said
 
 if TYPE_CHECKING:
     from app.pages.verify import VerifyPage
@@ -161,8 +162,9 @@ class LiveShow(QObject):
 
     def _said(self, touch: TouchOf, free: bool) -> str:
         if touch.why:
+            why = said(touch.why)
             return self.tr("{why} ({force} N). Let go, and touch again.").format(
-                why=f"{touch.why[0].upper()}{touch.why[1:]}", force=f"{touch.force:.1f}"
+                why=f"{why[0].upper()}{why[1:]}", force=f"{touch.force:.1f}"
             )
         words = self.tr("{marker}: {size} mm off.") if free else self.tr("{marker}: {size} mm off. Let go.")
         return words.format(

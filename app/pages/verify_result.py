@@ -9,6 +9,7 @@ from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from widgets.icons import Sign, icon
+from widgets.phrases import said
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -106,7 +107,7 @@ class ResultPanel(QWidget):
     def _texts(self, *texts: str) -> None:
         labels = (self.number, self.range, self.figures, self.why, self.diagnosis, self.notes)
         for label, text in zip(labels, texts, strict=True):
-            label.setText(text)
+            label.setText(said(text))
             label.setVisible(bool(text))
 
     def _range(self, outcome: Outcome) -> str:

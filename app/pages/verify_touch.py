@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 from app.pages.verify_markers import narrow
 from widgets.error_view import ErrorView
 from widgets.icons import icon
+from widgets.phrases import said
 from widgets.touch_state import TouchState
 
 _TALL = 36
@@ -143,6 +144,7 @@ class TouchPanel(QWidget):
 
     def say(self, text: str) -> None:
         """Show what is in the way; empty: nothing."""
+        text = said(text)
         if text != self.notice.text():
             self.notice.setText(text)
         self.notice.setVisible(bool(text))

@@ -11,7 +11,9 @@ from PySide6.QtCore import QCoreApplication, QTranslator
 
 from app import translation
 from app.cli import app
+from app.sentences import templates
 from pipeline.workbench.steps import Step
+from widgets.phrases import PhraseBook, said
 
 from . import spoken as spoken_words
 from .spoken import Source, sources
@@ -36,6 +38,10 @@ def small(tmp_path, monkeypatch):
         "</context></TS>",
         encoding="utf-8",
     )
+    (tmp_path / "sentences_de.json").write_text(
+        '{"The arm moved.": "Der Arm bewegte sich.", "hold still": ""}', "utf-8"
+    )
+    monkeypatch.setattr(translation, "templates", lambda _: ("The arm moved.", "hold still"))
     translation.release("de")
     return tmp_path
 
@@ -48,12 +54,13 @@ def test_a_language_is_spoken_where_it_is_known(qapp, small, spoken):  # noqa: A
     try:
         assert steps.name_of(Step.GRAVITY) == "Schwerkraft"
         assert steps.name_of(Step.PROBE) == "Probe"
+        assert said("The arm moved.") == "Der Arm bewegte sich."
     finally:
         steps.deleteLater()
 
 
 def test_missing_strings_are_named(small, capsys):  # noqa: ARG001
-    assert translation.unfinished("de") == ("StepList: Probe",)
+    assert translation.unfinished("de") == ("StepList: Probe", "pipeline: hold still")
     assert translation.main(["check"]) == 1
     assert "de: StepList: Probe" in capsys.readouterr().out
     assert translation.main([]) == 2
@@ -67,18 +74,20 @@ def test_update_takes_strings_of_both_packages(tmp_path, monkeypatch):
     assert "<name>StepList</name>" in text
     assert "<name>MainWindow</name>" in text
     assert (tmp_path / "contactbench_de.qm").exists()
+    assert translation.sentences("de").keys() == set(templates(translation._PIPELINE))
+    assert not any(translation.sentences("de").values())
 
 
 # ---- what is said, and what is translated ----------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
-def said():
+def spoken_files():
     return sources()
 
 
-def test_every_word_goes_through_tr(said):
-    assert [wrong for each in said for wrong in each.wrong] == []
+def test_every_word_goes_through_tr(spoken_files):
+    assert [wrong for each in spoken_files for wrong in each.wrong] == []
 
 
 @pytest.mark.parametrize(
@@ -101,9 +110,9 @@ def test_words_that_would_stay_english_are_found(tmp_path, monkeypatch, line, co
 
 
 @pytest.mark.parametrize("language", OTHERS)
-def test_the_file_of_a_language_is_that_of_the_source(said, language):
+def test_the_file_of_a_language_is_that_of_the_source(spoken_files, language):
     """After a string has changed: ``python -m app.translation update``, then translate what is new."""
-    wanted = {(each.context, each.text) for source in said for each in source.strings}
+    wanted = {(each.context, each.text) for source in spoken_files for each in source.strings}
     assert {(context, text) for context, text, _ in _messages(language)} == wanted
 
 
@@ -119,6 +128,29 @@ def test_numbers_and_names_are_put_into_the_same_places(language):
         assert made[:1].isspace() == text[:1].isspace(), f"{context}: {text!r}"
         assert made.count("\n") == text.count("\n"), f"{context}: {text}"
         assert ("&" in made) == ("&" in text), f"{context}: {text}"
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_the_phrase_book_holds_what_pipeline_says(language):
+    """After a sentence has changed: ``python -m app.translation update``, then translate what is new."""
+    book = translation.sentences(language)
+    assert book.keys() == set(templates(translation._PIPELINE))
+    for text, made in book.items():
+        assert sorted(_PLACES.findall(made)) == sorted(_PLACES.findall(text)), text
+        assert (made[:1].isspace(), made[-1:].isspace()) == (text[:1].isspace(), text[-1:].isspace()), text
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_what_pipeline_says_is_found_again_with_anything_filled_in(language):
+    pairs = translation.sentences(language)
+    book = PhraseBook(pairs)
+    lost = [text for text, made in pairs.items() if book.say(_filled(text)) != _filled(made)]
+    # A few say nearly the same: the more particular one is found.
+    assert len(lost) <= 0.02 * len(pairs), lost
+
+
+def _filled(template):
+    return _PLACES.sub(lambda hole: f"<{hole[0][1:-1]}>", template)
 
 
 @pytest.mark.parametrize("language", OTHERS)

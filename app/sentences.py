@@ -1,0 +1,100 @@
+"""
+The sentences of `pipeline`, found in its source: what the phrase book of another language has to hold.
+
+`pipeline` speaks English, and knows of no other language: what it writes into files, journals and logs is the same
+everywhere. What it says is translated where a window shows it, by `widgets.phrases`, from the templates found here.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+_NOT_SHOWN = (
+    "commands",
+    "study",
+    "demo",
+    "report",
+    "kernel",
+)  # seen in a terminal or in a document, not in a window
+_HOLE = re.compile(r"\{[^{}]*\}")
+_WORD = re.compile(r"[A-Za-z][a-z]{2,}")
+_CODE = re.compile(r"[<>]\w|\w\(|__|\\|^\s*[-#]|\n\s|://|%[sd]|\w=\w")
+_LEAST_WORDS = 2
+
+
+def templates(pipeline: Path) -> tuple[str, ...]:
+    """
+    Return what a package says, sorted; what is filled in is {0}, {1}, ...
+
+    Parameters
+    ----------
+    pipeline : Path
+        Its folder.
+    """
+    found: set[str] = set()
+    for file in sorted(pipeline.rglob("*.py")):
+        if file.relative_to(pipeline).parts[0] not in _NOT_SHOWN:
+            found.update(_spoken(ast.parse(file.read_text("utf-8"))))
+    return tuple(sorted(found))
+
+
+def _spoken(tree: ast.Module) -> Iterator[str]:
+    silent = _silent(tree)
+    for node in ast.walk(tree):
+        if id(node) in silent:
+            continue
+        if isinstance(node, ast.JoinedStr):
+            text = _joined(node)
+            silent.update(id(part) for part in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            text = _numbered(node.value)
+        else:
+            continue
+        if _is_speech(text):
+            yield text
+
+
+def _silent(tree: ast.Module) -> set[int]:
+    """Return the strings that nobody reads: of documentation, of what cannot happen, and of formats."""
+    silent: set[int] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            silent.add(id(node.value))
+        elif isinstance(node, ast.FormattedValue) and node.format_spec is not None:
+            silent.update(id(part) for part in ast.walk(node.format_spec))
+        elif isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
+            raised = node.exc.func
+            if isinstance(raised, ast.Name) and raised.id in (
+                "AssertionError",
+                "NotImplementedError",
+                "TypeError",
+            ):
+                silent.update(id(part) for part in ast.walk(node.exc))
+    return silent
+
+
+def _joined(node: ast.JoinedStr) -> str:
+    text, holes = "", 0
+    for part in node.values:
+        if isinstance(part, ast.Constant):
+            text += str(part.value)
+        else:
+            text += f"{{{holes}}}"
+            holes += 1
+    return text
+
+
+def _numbered(text: str) -> str:
+    numbers = iter(range(len(text)))
+    return _HOLE.sub(lambda _: f"{{{next(numbers)}}}", text)
+
+
+def _is_speech(text: str) -> bool:
+    plain = _HOLE.sub("", text)
+    return " " in text.strip() and len(_WORD.findall(plain)) >= _LEAST_WORDS and not _CODE.search(plain)

@@ -1,0 +1,40 @@
+from pathlib import Path
+
+import pytest
+
+import pipeline
+from app.sentences import templates
+
+
+@pytest.fixture
+def package(tmp_path):
+    def made(source):
+        (tmp_path / "module.py").write_text(source, "utf-8")
+        return templates(tmp_path)
+
+    return made
+
+
+def test_what_is_filled_in_is_numbered(package):
+    assert package('say(f"The pose {name} is {angle:.1f} deg off.")') == ("The pose {0} is {1} deg off.",)
+    assert package('WORDS = "Give {count} poses, or {more}."') == ("Give {0} poses, or {1}.",)
+    assert package('say("The pose " f"is {angle:.1f} deg off.")') == ("The pose is {0} deg off.",)
+
+
+def test_what_nobody_reads_is_left_out(package):
+    assert package('"""Say what is said."""') == ()
+    assert package('raise AssertionError("this cannot be so")') == ()
+    assert package('f"{value:some long format}"') == ()
+    assert package('KEYS = ("mean_mm", "gravity", "--with-option", "<b>bold words</b>", "a = 3")') == ()
+
+
+def test_terminals_and_documents_are_not_windows(tmp_path):
+    (tmp_path / "commands").mkdir()
+    (tmp_path / "commands" / "verify.py").write_text('say("Verify the session first.")', "utf-8")
+    assert templates(tmp_path) == ()
+
+
+def test_what_a_page_says_is_among_them():
+    found = templates(Path(pipeline.__file__).parent)
+    assert len(found) > 1000
+    assert any("facets" in each for each in found)

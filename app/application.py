@@ -14,6 +14,7 @@ from app.errors import Faults, LogFile
 from app.settings import Settings
 from app.translation import load
 from app.window import MainWindow
+from widgets.software_gl import spare_cores
 from widgets.theme import follow_system, use_theme
 
 if TYPE_CHECKING:
@@ -73,6 +74,7 @@ def prepared() -> QApplication:
     if not isinstance(application, QApplication):
         application = QApplication(sys.argv[:1])
     sys.setswitchinterval(_SWITCH_S)
+    spare_cores()
     application.setApplicationName("contactbench")
     application.setDesktopFileName("contactbench")
     application.setStyle("Fusion")  # the same everywhere, and it keeps to the palette

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QUndoGroup
+from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
 from app.bench import Bench, Weight
@@ -82,6 +83,9 @@ class MainWindow(QMainWindow):
         self.setDockNestingEnabled(True)
         self.start, self._middle = StartPage(), QStackedWidget()
         self._middle.addWidget(self.start)
+        # Never shown: with it Qt makes the window for OpenGL at once. Else it makes it anew for the first 3D view,
+        # which blinks, stands still, and has crashed.
+        QOpenGLWidget(self._middle).hide()
         self.setCentralWidget(self._middle)
         self.docks, self.header = Docks(self), Header()
         self.addToolBar(self.header)

@@ -102,6 +102,7 @@ class Pages(QObject):
         if self.step is not None and self.step is not step:
             self._guarded(self._pages[self.step], "leave")
         page = self._page(step)
+        self._place(page)
         if self.step is not step:
             self.step = step
             self._broken.discard(step)
@@ -131,7 +132,11 @@ class Pages(QObject):
     @property
     def made(self) -> bool:
         """Whether all pages are there: none will be made ahead any more."""
-        return len(self._pages) == len(Step)
+        return (
+            len(self._pages)
+            == len(Step)
+            == sum(self._stack.indexOf(page) >= 0 for page in self._pages.values())
+        )
 
     # ---- how the steps stand -----------------------------------------------------------------------
 
@@ -174,11 +179,13 @@ class Pages(QObject):
 
     def _page(self, step: Step) -> Page:
         if step not in self._pages:
-            page = self._made(step)
-            self._pages[step] = page
+            self._pages[step] = self._made(step)
+        return self._pages[step]
+
+    def _place(self, page: Page) -> None:
+        if self._stack.indexOf(page) < 0:
             self._stack.addWidget(page)
             guard_wheels(page)
-        return self._pages[step]
 
     def _made(self, step: Step) -> Page:
         assert self._bench is not None  # noqa: S101 - only called while a session is open
@@ -190,11 +197,15 @@ class Pages(QObject):
         return page
 
     def _make_one_ahead(self) -> None:
+        # made in one turn, put into its place in the next: both at once are a window that hangs
+        unplaced = next((page for page in self._pages.values() if self._stack.indexOf(page) < 0), None)
         missing = [step for step in Step if step not in self._pages]
-        if missing and self._bench is not None:
+        if unplaced is not None:
+            self._place(unplaced)
+        elif missing and self._bench is not None:
             self._page(missing[0])
             self._tell_state(missing[0])
-        if len(missing) <= 1:
+        if self.made:
             self._ahead.stop()
             self.complete.emit()
 

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-_POINT_SIZE = 10
+_POINT_SIZE, _TIGHT_SIZE = 10, 9
 
 
 class Entry(NamedTuple):
@@ -33,17 +33,17 @@ class Legend(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        font = self.font()
-        font.setPointSize(_POINT_SIZE)
-        self.setFont(font)
-        self._strong = QFont(font)
+        self._strong = QFont(self.font())
         self._strong.setBold(True)
+        self._size(_POINT_SIZE)
         self._entries: tuple[Entry, ...] = ()
         self._tight = False
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
 
     def show_entries(self, entries: Sequence[Entry], tight: bool) -> None:
         """Show entries; `tight`: with little room between them."""
+        if tight != self._tight:
+            self._size(_TIGHT_SIZE if tight else _POINT_SIZE)
         if (tuple(entries), tight) != (self._entries, self._tight):
             self._entries, self._tight = tuple(entries), tight
             self.update()
@@ -58,8 +58,7 @@ class Legend(QWidget):
         """Write it."""
         painter = QPainter(self)
         strong, plain = QFontMetrics(self._strong), QFontMetrics(self.font())
-        space = plain.horizontalAdvance(" ")
-        gap = max(space // 2, 2) if self._tight else space
+        gap = plain.horizontalAdvance(" ")
         words = self.palette().windowText().color()
         at = QPoint(0, strong.ascent())
         for entry in self._entries:
@@ -72,4 +71,10 @@ class Legend(QWidget):
                 painter.setPen(colour)
                 painter.drawText(at, text)
                 at.setX(at.x() + metrics.horizontalAdvance(text) + gap)
-            at.setX(at.x() + (0 if self._tight else gap))
+            at.setX(at.x() + (1 if self._tight else gap))
+
+    def _size(self, points: int) -> None:
+        font = self.font()
+        for each in (font, self._strong):
+            each.setPointSize(points)
+        self.setFont(font)

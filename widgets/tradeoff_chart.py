@@ -49,7 +49,7 @@ class TradeoffChart(QWidget):
         self.across.setAccessibleName(self.tr("What the chart shows across"))
         self.across.setToolTip(self.tr("What the chart shows across: facets, or µs of one solve"))
         self.across.currentIndexChanged.connect(self._draw)
-        self._plot = self._make_plot()
+        self._plot: Any = None  # made for the first trade: it takes as long as all the rest of a panel
         self._words = QLabel()
         self._words.setWordWrap(True)
         layout = QVBoxLayout(self)
@@ -61,14 +61,13 @@ class TradeoffChart(QWidget):
         row.addWidget(label)
         row.addWidget(self.across, 1)
         layout.addLayout(row)
-        layout.addWidget(self._plot)
         layout.addWidget(self._words)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName(self.tr("Contact error against the number of facets"))
-        self._draw()
+        self._say()
 
-    def _make_plot(self) -> Any:
-        plot = PlotFrame()
+    def _make_plot(self) -> None:
+        self._plot = plot = PlotFrame(self)
         plot.setFixedHeight(210)
         plot.setMinimumWidth(180)
         plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
@@ -94,7 +93,9 @@ class TradeoffChart(QWidget):
             self._word,
         ):
             plot.box.addItem(item, ignoreBounds=True)
-        return plot
+        box = self.layout()
+        assert isinstance(box, QVBoxLayout)  # noqa: S101 - made above
+        box.insertWidget(1, plot)
 
     # ---- what it shows ---------------------------------------------------------------------------
 
@@ -115,7 +116,8 @@ class TradeoffChart(QWidget):
         """Show another choice; one that was not measured stands between the points."""
         if facets != self._facets:
             self._facets = facets
-            self._draw_choice()
+            if self._plot is not None:
+                self._draw_choice()
 
     def where(self, facets: int) -> QPointF:
         """Return where the point of so many facets is drawn, in the coordinates of this widget."""
@@ -140,6 +142,10 @@ class TradeoffChart(QWidget):
 
     def _draw(self) -> None:
         """Show it all anew: other points, another quantity across, another theme."""
+        if self._plot is None:
+            if self._trade is None:
+                return
+            self._make_plot()
         self._dress()
         points = self._points
         knee = next((each for each in points if each.advised), None)

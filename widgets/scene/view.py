@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import logging
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
 from pyvistaqt import QtInteractor
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+
+from widgets.software_gl import spare_cores
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent, QKeyEvent, QMouseEvent, QWheelEvent
@@ -36,16 +37,6 @@ def log_vtk() -> None:
 
         heard.CallDataType = "string0"  # type: ignore[attr-defined]
         window.AddObserver(event, heard)
-
-
-def spare_cores() -> None:
-    """
-    Leave two cores to the rest, where Mesa draws without a graphics card; before the first view.
-
-    Its threads and the one that draws wait for each other: where all cores are taken, as by streams and a worker on
-    two cores, a frame takes twice as long as one drawn by a single thread.
-    """
-    os.environ.setdefault("LP_NUM_THREADS", str(max(0, (os.cpu_count() or 1) - 2)))
 
 
 class View(QtInteractor):  # type: ignore[misc]

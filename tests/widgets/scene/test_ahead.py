@@ -61,7 +61,7 @@ def test_a_probe_that_is_shown_again_is_not_prepared_again(qtbot, monkeypatch):
 
 def test_the_end_waits_for_what_is_under_way_and_drops_the_rest(qapp, monkeypatch):  # noqa: ARG001
     begun, going_on = threading.Event(), threading.Event()
-    done = []
+    done, before = [], workers()
 
     def slow(probe):
         begun.set()
@@ -77,4 +77,8 @@ def test_the_end_waits_for_what_is_under_way_and_drops_the_rest(qapp, monkeypatc
     threading.Timer(0.1, going_on.set).start()
     ahead.close()
     assert [id(probe) for probe in done] == [id(probes[0])]
-    assert not any(thread.name.startswith("ahead") for thread in threading.enumerate())
+    assert workers() <= before
+
+
+def workers():
+    return {thread for thread in threading.enumerate() if thread.name.startswith("ahead")}

@@ -39,14 +39,16 @@ def test_a_likeness_stands_in_while_the_camera_moves_and_no_longer(qtbot):
     copied: list[object] = []
     copy = scene._still._copy
     scene._still._copy = lambda *what: (copied.append(what), copy(*what))  # type: ignore[method-assign]
-    scene.view.repaint()
+    frames: list[float] = []
+    scene.drawn.connect(frames.append)
+    qtbot.waitUntil(lambda: bool(frames), timeout=20_000)
+    assert layer.coarse
     assert not copied, "no picture is kept of what the next frame shows from elsewhere"
     scene.show_probe(ball(50_000))
     assert layer.coarse, "another probe's likeness is not waited for while all moves"
     qtbot.waitUntil(lambda: layer.surface.shown, timeout=20_000)
     assert not layer.coarse
-    scene.view.repaint()
-    assert copied
+    qtbot.waitUntil(lambda: bool(copied), timeout=20_000)
     scene.close_scene()
     scene.close()
     scene.deleteLater()

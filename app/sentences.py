@@ -23,9 +23,9 @@ _NOT_SHOWN = (
     "kernel",
 )  # seen in a terminal or in a document, not in a window
 _HOLE = re.compile(r"\{[^{}]*\}")
-_WORD = re.compile(r"[A-Za-z][a-z]{2,}")
+_WORD = re.compile(r"[A-Za-z]{2,}")
 _CODE = re.compile(r"[<>]\w|\w\(|__|\\|^\s*[-#]|\n\s|://|%[sd]|\w=\w")
-_LEAST_WORDS = 2
+_LEAST_WORDS = 2  # one is a key or a name, but for what begins and ends as a sentence does
 
 
 def templates(pipeline: Path) -> tuple[str, ...]:
@@ -97,4 +97,6 @@ def _numbered(text: str) -> str:
 
 def _is_speech(text: str) -> bool:
     plain = _HOLE.sub("", text)
-    return " " in text.strip() and len(_WORD.findall(plain)) >= _LEAST_WORDS and not _CODE.search(plain)
+    words, bare = len(_WORD.findall(plain)), text.strip()
+    whole = bare[:1].isupper() and bare[-1:] == "."
+    return " " in bare and (words >= _LEAST_WORDS or (words == 1 and whole)) and not _CODE.search(plain)

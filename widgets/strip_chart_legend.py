@@ -58,7 +58,7 @@ class Legend(QWidget):
         """Write it."""
         painter = QPainter(self)
         strong, plain = QFontMetrics(self._strong), QFontMetrics(self.font())
-        gap = plain.horizontalAdvance(" ")
+        gap = self._gap(strong, plain)
         words = self.palette().windowText().color()
         at = QPoint(0, strong.ascent())
         for entry in self._entries:
@@ -71,7 +71,18 @@ class Legend(QWidget):
                 painter.setPen(colour)
                 painter.drawText(at, text)
                 at.setX(at.x() + metrics.horizontalAdvance(text) + gap)
-            at.setX(at.x() + (1 if self._tight else gap))
+            at.setX(at.x() + gap)
+
+    def _gap(self, strong: QFontMetrics, plain: QFontMetrics) -> int:
+        """Return a space, or what is left of it where the pane is narrow: nothing may be cut."""
+        words = sum(
+            strong.horizontalAdvance(each.sign)
+            + plain.horizontalAdvance(each.name)
+            + plain.horizontalAdvance(each.value)
+            for each in self._entries
+        )
+        room = (self.width() - words) // max(4 * len(self._entries) - 2, 1)
+        return max(1, min(plain.horizontalAdvance(" "), room))
 
     def _size(self, points: int) -> None:
         font = self.font()

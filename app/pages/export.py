@@ -230,7 +230,9 @@ class ExportPage(Page):
         )
 
     def _show_preview(self, preview: Preview) -> None:
-        self.figures.setText("\n".join(f"{said(what)}: {said(value)}" for what, value in preview.figures))
+        self.figures.setText(
+            "\n".join(f"{self._figure(what)}: {said(value)}" for what, value in preview.figures)
+        )
         total = sum(size for _, size in preview.files)
         lines = [f"{name}  {_size(size)}" for name, size in preview.files]
         lines.append(
@@ -253,6 +255,18 @@ class ExportPage(Page):
             self._stand("done", "good", self.tr("Verified, and exported as it is."))
         else:
             self._stand("done", "good", self.tr("Verified: ready to be exported."))
+
+    def _figure(self, what: str) -> str:
+        return {
+            "Sensor": self.tr("Sensor"),
+            "Readings": self.tr("Readings"),
+            "Payload": self.tr("Payload"),
+            "Probe": self.tr("Probe"),
+            "Limits": self.tr("Limits"),
+            "Gains": self.tr("Gains"),
+            "Contact error": self.tr("Contact error"),
+            "Made by": self.tr("Made by"),
+        }.get(what, what)
 
     def _name(self, step: Step, name: str) -> str:
         return {

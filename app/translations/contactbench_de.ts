@@ -1155,6 +1155,30 @@
         <translation>Sensor</translation>
     </message>
     <message>
+        <source>Readings</source>
+        <translation>Messwerte</translation>
+    </message>
+    <message>
+        <source>Payload</source>
+        <translation>Nutzlast</translation>
+    </message>
+    <message>
+        <source>Limits</source>
+        <translation>Grenzen</translation>
+    </message>
+    <message>
+        <source>Gains</source>
+        <translation>Verstärkungen</translation>
+    </message>
+    <message>
+        <source>Contact error</source>
+        <translation>Kontaktfehler</translation>
+    </message>
+    <message>
+        <source>Made by</source>
+        <translation>Erstellt von</translation>
+    </message>
+    <message>
         <source>Calibration</source>
         <translation>Kalibrierung</translation>
     </message>

@@ -40,7 +40,7 @@ class Pacing(QObject):
         self._cost = self._began = 0.0
         self.waiting: list[Callable[[], None]] = []
         self._redraw = QTimer(self, singleShot=True)
-        self._redraw.timeout.connect(view.update)
+        self._redraw.timeout.connect(self._ask)
         self._settle = QTimer(self, singleShot=True, interval=_SETTLE_MS)
         self._settle.timeout.connect(self.settled)
         self._pulse = QTimer(self, interval=_PULSE_MS)
@@ -69,6 +69,13 @@ class Pacing(QObject):
             # not in the same breath as what asked for it, such as a page that shows what came: keys and the mouse are
             # heard before
             self._redraw.start(0)
+
+    def _ask(self) -> None:
+        if not self.brisk:
+            self._began = (
+                time.perf_counter()
+            )  # what is asked for until it begins is this frame, and not one more
+        self._view.update()
 
     def begin(self) -> None:
         """Say that a frame is begun."""

@@ -82,6 +82,8 @@ class Scene(QWidget):
         self._live.SetActiveCamera(still.GetActiveCamera())
         self._live.SetLightCollection(still.GetLights())
         self._live.AutomaticLightCreationOff()
+        # Not in the first frame, which makes ready all that draws: in two halves the window stands still for less.
+        self._live.DrawOff()
         window.AddRenderer(self._live)
         self._pacing = Pacing(self.view, self)
         self._pacing.drawn.connect(self.drawn)
@@ -348,6 +350,9 @@ class Scene(QWidget):
     def after(self) -> None:
         """Put back what was hidden for the frame."""
         self._still.finish(self.probe_layer.fresh.actor)
+        if not self._live.GetDraw():
+            self._live.DrawOn()
+            self.redraw()
 
     # ---- the rest ----------------------------------------------------------------------------------
 

@@ -33,7 +33,7 @@ class _Phrase:
         self.meaning, self.holes = meaning, tuple(pieces[1::2])
         self._own = pieces[0::2]
         self._anchor = max(self._own, key=len)
-        self.letters = sum(character.isalpha() for piece in self._own for character in piece)
+        self.letters = sum(_letters(piece) for piece in self._own)
 
     @cached_property
     def _pattern(
@@ -45,7 +45,7 @@ class _Phrase:
         """Return what was filled in to make a text, by hole; None: it was not made of this."""
         if self._anchor not in text:
             return None
-        if self.letters < _ENOUGH and self.letters < _SHARE * len(text):
+        if self.letters < _ENOUGH and self.letters < _SHARE * _letters(text):
             return None
         match = self._pattern.fullmatch(text)
         return None if match is None else dict(zip(self.holes, match.groups(), strict=True))
@@ -131,6 +131,10 @@ def said(text: str) -> str:
 
 def _fill(said: dict[str, str], hole: re.Match[str]) -> str:
     return said[hole[1]]
+
+
+def _letters(text: str) -> int:
+    return sum(character.isalpha() for character in text)
 
 
 def _first_word(text: str) -> str:

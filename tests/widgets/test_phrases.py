@@ -11,6 +11,7 @@ BOOK = PhraseBook(
         "the force is too small": "die Kraft ist zu klein",
         "{0} of the {1}": "{0} von: {1}",
         "{0} holds still for {1} s": "nach {1} s hält still: {0}",
+        "Made on {0}.": "Erstellt am {0}.",
         "The arm moved. Hold it still.": "Der Arm bewegte sich. Halten Sie ihn still.",
     }
 )
@@ -31,6 +32,10 @@ def test_what_was_filled_in_is_filled_in_again_and_said_too():
         "Pose 4 sieht angestoßen aus nach 3 s Ruhe und wurde weggelassen"
     )
     assert said("pose 4 looks bumped and was left out") == "Pose 4 sieht angestoßen aus und wurde weggelassen"
+
+
+def test_a_short_sentence_with_a_long_number_is_known():
+    assert said("Made on 2026-11-22 18:00 UTC.") == "Erstellt am 2026-11-22 18:00 UTC."
 
 
 def test_holes_may_stand_in_another_order():

@@ -132,11 +132,7 @@ class Pages(QObject):
     @property
     def made(self) -> bool:
         """Whether all pages are there: none will be made ahead any more."""
-        return (
-            len(self._pages)
-            == len(Step)
-            == sum(self._stack.indexOf(page) >= 0 for page in self._pages.values())
-        )
+        return len(self._pages) == len(Step) and not self._unplaced()
 
     # ---- how the steps stand -----------------------------------------------------------------------
 
@@ -182,6 +178,9 @@ class Pages(QObject):
             self._pages[step] = self._made(step)
         return self._pages[step]
 
+    def _unplaced(self) -> list[Page]:
+        return [page for page in self._pages.values() if self._stack.indexOf(page) < 0]
+
     def _place(self, page: Page) -> None:
         if self._stack.indexOf(page) < 0:
             self._stack.addWidget(page)
@@ -198,10 +197,10 @@ class Pages(QObject):
 
     def _make_one_ahead(self) -> None:
         # made in one turn, put into its place in the next: both at once are a window that hangs
-        unplaced = next((page for page in self._pages.values() if self._stack.indexOf(page) < 0), None)
+        unplaced = self._unplaced()
         missing = [step for step in Step if step not in self._pages]
-        if unplaced is not None:
-            self._place(unplaced)
+        if unplaced:
+            self._place(unplaced[0])
         elif missing and self._bench is not None:
             self._page(missing[0])
             self._tell_state(missing[0])

@@ -73,7 +73,7 @@ class Ahead(QObject):
             self._pool.submit(self._work, probe)
 
     def close(self) -> None:
-        """End it; waits for all that was begun, for they tell an object that is gone soon."""
+        """End it; waits for what is under way, for it tells an object that is gone soon, and drops the rest."""
         self._wanted = self._newest = None
         self._pool.shutdown(wait=True, cancel_futures=True)
 

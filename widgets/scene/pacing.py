@@ -72,9 +72,8 @@ class Pacing(QObject):
 
     def _ask(self) -> None:
         if not self.brisk:
-            self._began = (
-                time.perf_counter()
-            )  # what is asked for until it begins is this frame, and not one more
+            # what is asked for until it begins is this frame, and not one more
+            self._began = time.perf_counter()
         self._view.update()
 
     def begin(self) -> None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from widgets.scene.ahead import Prepared
     from widgets.scene.stage import Stage
 
-_NOT_TOO_MANY = 250_000
+_NOT_TOO_MANY = 250_000  # facets up to which the window may wait for a likeness
 PLAIN = 205  # grey of facets without a region, of 255
 
 

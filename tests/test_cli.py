@@ -19,8 +19,9 @@ import pipeline
 from pipeline import cli
 from pipeline.commands.locate import MethodName
 from pipeline.console import Bar
-from pipeline.contact import ContactSolver, Gates
+from pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from pipeline.contact.contact_csv import REASONS
+from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from pipeline.errors import InputError
 from pipeline.mesh import load_probe, save_probe
 from pipeline.mesh.sidecar import save_probe_file
@@ -87,6 +88,10 @@ def test_help_states_the_defaults_of_the_gates():
     assert f"degrees [{gates.friction_angle:g}]" in text
     assert f"mm [{1e3 * gates.ambiguity_distance:g}]" in text
     assert f"mm [{1e3 * gates.follow_distance:g}]" in text
+    model = TouchModel()
+    assert f"1 to 5 [{1e3 * model.torsion_arm:g}]" in text
+    assert f"N [{DEFAULT_FORCE_N:g}]" in text
+    assert f"mN·m [{1e3 * DEFAULT_TORQUE_NM:g}]" in text
 
 
 def test_method_names_are_those_of_the_methods():
@@ -175,6 +180,61 @@ def test_options_reach_the_solver(bench):
     facts = json.loads(locate(bench, *limits, *noise, "--region-only", "--json").stdout)
     assert facts["reasons"]["low_force"] == 0
     assert facts["reasons"]["saturated"] == 2
+
+
+def test_the_touch_model_reaches_the_solver(bench):
+    options = ("--torsion-arm", 3, "--model-force", 0.2, "--model-torque", 4, "--noise-force", 0.01)
+    assert locate(bench, *options).exit_code == 0
+    model = TouchModel(torsion_arm=0.003, model_error=WrenchNoise(0.2, 0.004))
+    solver = ContactSolver(load_probe(bench / "ball.stl", "mm"), WrenchNoise(0.01, 0.002), model=model)
+    row = (bench / "contacts.csv").read_text().splitlines()[1].split(",")
+    contact = solver.locate([0, 0, -5, 0, 0.01, 0])
+    assert [float(row[8]), float(row[9])] == [1e3 * contact.sigma_max, contact.misfit]
+
+
+def plausibility(result: Any) -> Any:
+    assert result.exit_code == 1, result.stderr
+    return json.loads(result.stdout)["plausibility"]
+
+
+def test_wrenches_that_no_touch_explains_end_with_the_likely_cause(bench):
+    touches = ball_touches(40)
+    write_wrenches(bench, touches * [1, 1, 1, 1e3, 1e3, 1e3])
+    result = locate(bench, "--json")
+    found = plausibility(result)
+    assert found["likely"] == ["torques_in_Nmm"]
+    assert found["trials"][0]["plausible"] == 40
+    assert found["plausible"] == 0
+    said = " ".join(result.stderr.split())
+    assert "warning: Most likely the torques are in N·mm: 40 of 40 rows (100 %) are then plausible." in said
+    assert "Divide mx, my and mz by 1000." in said
+    assert (bench / "contacts.csv").exists()
+    write_wrenches(bench, touches)
+    result = locate(bench, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["plausibility"] is None
+
+
+def test_a_raw_recording_is_refused_unless_it_is_said_to_be_compensated(bench):
+    header, *rows = WRENCHES.splitlines()
+    lines = [f"{header},qw,qx,qy,qz,status", *(f"{row},1,0,0,0,0" for row in rows)]
+    (bench / "wrenches.csv").write_text("\n".join(lines) + "\n")
+    refused(locate(bench), "wrenches.csv: line 1: columns qw, qx, qy, qz, status: this is a raw recording")
+    refused(locate(bench), "contactbench compensate calibration.json RECORDING --out WRENCHES")
+    assert not (bench / "contacts.csv").exists()
+    assert locate(bench, "--compensated").exit_code == 0
+
+
+def ball_touches(count: int) -> np.ndarray:
+    """Straight presses all over the ball of the fixture, about 8 N."""
+    outward = np.random.default_rng(1).normal(size=(count, 3))
+    outward /= np.linalg.norm(outward, axis=1, keepdims=True)
+    return np.hstack([-8 * outward, np.cross([0, 0, 0.12] + 0.039 * outward, -8 * outward)])
+
+
+def write_wrenches(bench: Path, wrenches: np.ndarray) -> None:
+    rows = (f"{0.01 * i}," + ",".join(map(repr, row)) for i, row in enumerate(wrenches.tolist()))
+    (bench / "wrenches.csv").write_text("\n".join(["t,fx,fy,fz,mx,my,mz", *rows]) + "\n")
 
 
 def test_units_and_mount_move_the_probe(bench):
@@ -296,6 +356,9 @@ def test_wrong_files(bench):
         (["--saturation", "1"], "--saturation needs 6 finite numbers"),
         (["--track", "--method", "scan"], "--track works with --method contactbench only, not with scan"),
         (["--min-force", "-1"], "error: Gates.min_force must be at least 0"),
+        (["--torsion-arm", "-1"], "error: TouchModel.torsion_arm must be between 0 and 1000 m"),
+        (["--model-torque", "-1"], "error: WrenchNoise.torque"),
+        (["--torque-ratio", "2"], "No such option"),
         (["--noise-force", "nan"], "error: WrenchNoise.force"),
         (["--mount", "99999,0,0,0,0,0"], "mount moves the mesh"),
         (["--json", "--out", "-"], "--json and --out - both want standard output"),

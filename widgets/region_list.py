@@ -1,4 +1,4 @@
-"""The list of regions: names, colours, areas, and their priority, which is their order."""
+"""The list of regions: names, colours, areas, what nothing can touch, and their priority, which is their order."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from PySide6.QtCore import QItemSelectionModel, QModelIndex, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QCheckBox,
     QHBoxLayout,
     QHeaderView,
     QPushButton,
@@ -32,7 +33,7 @@ _NARROWEST_PX = 56  # of a column: four digits and a point
 
 class RegionListWidget(QWidget):
     """
-    Regions that can be chosen, named, coloured, put in order, added and removed.
+    Regions that can be chosen, named, coloured, marked, put in order, added and removed.
 
     It changes nothing itself: it asks by signals, and shows what it is given by `show_rows`. Ranks count from 1.
     """
@@ -40,6 +41,7 @@ class RegionListWidget(QWidget):
     chosen = Signal(int)  # rank; 0: none
     renamed = Signal(int, str)
     recoloured = Signal(int, str)  # rank, #rrggbb
+    marked = Signal(int, bool)  # rank, whether nothing can touch it
     moved = Signal(int, int)  # rank, new rank
     add_asked = Signal()
     remove_asked = Signal(int)
@@ -53,6 +55,7 @@ class RegionListWidget(QWidget):
         layout.setSpacing(6)
         layout.addWidget(self.view)
         layout.addLayout(self._make_buttons())
+        layout.addWidget(self._make_mark())
         self.rows.renamed.connect(self.renamed)
         self.rows.moved.connect(self.moved)
         self.show_rows(())
@@ -144,6 +147,18 @@ class RegionListWidget(QWidget):
         self._act(self.tr("Lower the region's priority"), "Alt+Down", lambda: self._move(1))
         return row
 
+    def _make_mark(self) -> QCheckBox:
+        self.untouchable = QCheckBox(self.tr("Untouchable"))
+        self.untouchable.setToolTip(
+            self.tr(
+                "Nothing can touch these facets: a clamp or a drape hides them. Contacts there count as 1000 times"
+                " less likely."
+            )
+        )
+        self.untouchable.setMinimumHeight(36)
+        self.untouchable.clicked.connect(self._mark)
+        return self.untouchable
+
     def _tool(self, text: str, tip: str, action: Callable[[], None]) -> QToolButton:
         button = QToolButton()
         button.setText(text)
@@ -183,6 +198,10 @@ class RegionListWidget(QWidget):
         if rank and 1 <= rank + by <= len(self.rows.rows):
             self.moved.emit(rank, rank + by)
 
+    def _mark(self, on: bool) -> None:
+        if self.rank:
+            self.marked.emit(self.rank, on)
+
     def _remove(self) -> None:
         if self.rank:
             self.remove_asked.emit(self.rank)
@@ -197,6 +216,8 @@ class RegionListWidget(QWidget):
         self.down_button.setEnabled(0 < rank < len(self.rows.rows))
         self.colour_button.setEnabled(rank > 0)
         self.remove_button.setEnabled(rank > 0)
+        self.untouchable.setEnabled(rank > 0)
+        self.untouchable.setChecked(rank > 0 and self.rows.rows[rank - 1].untouchable)
 
     def _fit_height(self) -> None:
         count = min(max(len(self.rows.rows), _SHORTEST), _TALLEST)

@@ -29,8 +29,8 @@ _MIME = "application/x-contactbench-region"
 _SWATCH, _HIGH = 20, 32  # px
 
 
-def swatch(colour: str, dark: bool) -> QIcon:
-    """Return a patch of a colour with a border that shows on any ground."""
+def swatch(colour: str, dark: bool, crossed: bool = False) -> QIcon:
+    """Return a patch of a colour with a border that shows on any ground; crossed out like the facets in the scene."""
     image = QPixmap(QSize(2 * _SWATCH, 2 * _SWATCH))
     image.setDevicePixelRatio(2)
     image.fill(Qt.GlobalColor.transparent)
@@ -39,6 +39,11 @@ def swatch(colour: str, dark: bool) -> QIcon:
     painter.setPen(QPen(QColor(colours(dark).muted), 1))
     painter.setBrush(QColor(colour))
     painter.drawRoundedRect(1, 1, _SWATCH - 2, _SWATCH - 2, 4, 4)
+    if crossed:
+        painter.setPen(QPen(QColor("#2b2f33"), 1.5))
+        low, high = 4, _SWATCH - 4
+        painter.drawLine(low, low, high, high)
+        painter.drawLine(low, high, high, low)
     painter.end()
     icon = QIcon()
     # A chosen row must not tint the colour that the patch is there to show.
@@ -93,11 +98,12 @@ class RegionRows(QAbstractTableModel):
         """Qt's."""
         row, column = self.rows[index.row()], index.column()
         if role == Qt.ItemDataRole.DisplayRole:
-            return (str(index.row() + 1), row.name, f"{1e4 * row.area:.2f}", f"{row.facets:,}")[column]
+            name = self.tr("✕ {0} (untouchable)").format(row.name) if row.untouchable else row.name
+            return (str(index.row() + 1), name, f"{1e4 * row.area:.2f}", f"{row.facets:,}")[column]
         if role == Qt.ItemDataRole.EditRole and column == NAME:
             return row.name
         if role == Qt.ItemDataRole.DecorationRole and column == PRIORITY:
-            return swatch(row.colour, is_dark())
+            return swatch(row.colour, is_dark(), row.untouchable)
         if role == Qt.ItemDataRole.TextAlignmentRole and column >= AREA:
             return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         if role == Qt.ItemDataRole.SizeHintRole:
@@ -105,7 +111,12 @@ class RegionRows(QAbstractTableModel):
         if role == Qt.ItemDataRole.ToolTipRole:
             return self._tip(index.row(), column)
         if role == Qt.ItemDataRole.AccessibleTextRole:
-            return self.tr("{0}, priority {1}, {2:.2f} cm²").format(row.name, index.row() + 1, 1e4 * row.area)
+            words = (
+                self.tr("{0}, untouchable, priority {1}, {2:.2f} cm²")
+                if row.untouchable
+                else self.tr("{0}, priority {1}, {2:.2f} cm²")
+            )
+            return words.format(row.name, index.row() + 1, 1e4 * row.area)
         return None
 
     def _tip(self, row: int, column: int) -> str:

@@ -1,4 +1,4 @@
-"""Where a touch is, large enough to be read from a metre away: icon, word, colour, and the force against its window."""
+"""How a touch goes, to be read from a metre away: icon, word, colour, force against its window, and how sure it is."""
 
 from __future__ import annotations
 
@@ -25,22 +25,24 @@ _LOOKS = {
     "rejected": ("failed", "bad"),
 }
 _GAUGE = 74
+_CONTACT = 84  # px below, for how sure the contact is
 
 
 class TouchState(QWidget):
-    """The state of a touch, and |F| as a vertical gauge beside it."""
+    """The state of a touch, |F| as a vertical gauge beside it, and below how sure the contact is."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.state, self.detail = "idle", ""
         self.force, self.window_N = math.nan, (8.0, 10.0)
-        self.setMinimumHeight(150)
+        self.contact, self.sure = "", True
+        self.setMinimumHeight(150 + _CONTACT)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._name()
 
     def sizeHint(self) -> QSize:
         """Return the size that it likes."""
-        return QSize(340, 160)
+        return QSize(340, 160 + _CONTACT)
 
     @property
     def word(self) -> str:
@@ -80,10 +82,16 @@ class TouchState(QWidget):
             self._name()
         self.update()
 
+    def show_contact(self, text: str, sure: bool = True) -> None:
+        """Say in a sentence how sure the contact is; empty: there is none."""
+        if (text, sure) != (self.contact, self.sure):
+            self.contact, self.sure = text, sure
+            self._name()
+            self.update()
+
     def _name(self) -> None:
-        self.setAccessibleName(
-            self.tr("Touch state: {word}. {detail}").format(word=self.word, detail=self.detail)
-        )
+        name = self.tr("Touch state: {word}. {detail}").format(word=self.word, detail=self.detail)
+        self.setAccessibleName(f"{name} {self.contact}".strip())
 
     # ---- drawing -----------------------------------------------------------------------------
 
@@ -101,6 +109,8 @@ class TouchState(QWidget):
         painter.setPen(QPen(colour, 3))
         painter.setBrush(QColor(theme.panel))
         painter.drawRoundedRect(box, 8, 8)
+        self._contact(painter, QRectF(box.left(), box.bottom() - _CONTACT, box.width(), _CONTACT))
+        box.setBottom(box.bottom() - _CONTACT)
         text = box.adjusted(14, 12, -_GAUGE, -10)
         size = 40
         icon(name, role).paint(painter, int(text.left()), int(text.top()), size, size)
@@ -113,6 +123,28 @@ class TouchState(QWidget):
         below = QRectF(text.left(), text.top() + size + 8, text.width(), text.height() - size - 8)
         painter.drawText(below, Qt.TextFlag.TextWordWrap, self.detail)
         self._gauge(painter, QRectF(box.right() - _GAUGE + 8, box.top() + 12, _GAUGE - 18, box.height() - 24))
+
+    def _contact(self, painter: QPainter, box: QRectF) -> None:
+        """Draw how sure the contact is, as large as it fits; a doubt has a sign."""
+        theme, left, sign = colours(is_dark()), 14.0, 22
+        painter.setPen(QPen(QColor(theme.line), 1))
+        painter.drawLine(box.topLeft(), box.topRight())
+        text = box.adjusted(left, 8, -12, -8)
+        if not self.contact:
+            return
+        icon(*(("done", "good") if self.sure else ("warning", "warning"))).paint(
+            painter, int(text.left()), int(text.top()), sign, sign
+        )
+        text.setLeft(text.left() + sign + 8)
+        wrapped = Qt.TextFlag.TextWordWrap
+        points = 14.0
+        while points > 8.5:
+            painter.setFont(self._font(points, bold=points > 12))
+            if painter.boundingRect(text, wrapped, self.contact).height() <= text.height():
+                break
+            points -= 0.5
+        painter.setPen(QColor(theme.text))
+        painter.drawText(text, wrapped, self.contact)
 
     def _font(self, points: float, bold: bool = False) -> QFont:
         font = QFont(self.font())

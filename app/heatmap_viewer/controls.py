@@ -52,10 +52,12 @@ class Controls(QWidget):
         self.quantity, self.per = QComboBox(self), QComboBox(self)
         self.bandwidth, self.fine = QDoubleSpinBox(self), QSlider(Qt.Orientation.Horizontal, self)
         self.force, self.force_words = RangeSlider(self), QLabel(self)
+        self.by_confidence = QCheckBox(self.tr("Weigh by confidence"), self)
         self.compare = QCheckBox(self.tr("Compare two side by side"), self)
         self.message = QLabel(self)
         self.bar, self.stop = QProgressBar(self), QPushButton(self.tr("Cancel"), self)
         self.reading = ReadingBox(self)
+        self._confidences = False
         self._saving: list[QPushButton] = []
         self._opening: list[QPushButton] = []
         self._patience = QTimer(self, interval=_PATIENCE, singleShot=True)
@@ -63,6 +65,7 @@ class Controls(QWidget):
         self._lay_out()
         self._connect()
         finish(self)
+        self.set_confidences(False)
         self.show_force()
         self.show_work(None)
 
@@ -110,6 +113,8 @@ class Controls(QWidget):
         self.fine.setToolTip(tip)
         self.force.setToolTip(self.tr("Only contacts with a force in this range count, N."))
         self.compare.setToolTip(self.tr("A second heatmap with the same view and the same colours."))
+        self.by_confidence.setToolTip(self.tr("Let each contact count as much as its place is sure."))
+        self.by_confidence.setMinimumHeight(36)
         self.compare.setMinimumHeight(36)
         self.message.setWordWrap(True)
         self.message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -150,6 +155,7 @@ class Controls(QWidget):
         self._per_label = form.labelForField(self.per)
         column.addLayout(form)
         column.addWidget(self.force_words)
+        column.addWidget(self.by_confidence)
         column.addWidget(self.compare)
         column.addWidget(_titled(self.tr("Save")))
         column.addLayout(
@@ -209,6 +215,7 @@ class Controls(QWidget):
         self.per.currentIndexChanged.connect(lambda _index: self.changed.emit())
         self.force.changed.connect(lambda _low, _high: self.show_force())
         self.force.changed.connect(lambda _low, _high: self.changed.emit())
+        self.by_confidence.toggled.connect(lambda _on: self.changed.emit())
         self.fine.valueChanged.connect(lambda value: self.bandwidth.setValue(value / 10))
         self.bandwidth.valueChanged.connect(self._bandwidth_changed)
         self._patience.timeout.connect(lambda: self.widened.emit(self.bandwidth_m()))
@@ -233,7 +240,14 @@ class Controls(QWidget):
             least = low if low > limits[0] else None
             most = high if high < limits[1] else None
         return Selection(
-            self.quantity.currentData(), self.per.currentData(), self.bandwidth_m(), start, end, least, most
+            self.quantity.currentData(),
+            self.per.currentData(),
+            self.bandwidth_m(),
+            start,
+            end,
+            least,
+            most,
+            by_confidence=self.by_confidence.isEnabled() and self.by_confidence.isChecked(),
         )
 
     def set_bandwidth(self, metres: float) -> None:
@@ -252,6 +266,15 @@ class Controls(QWidget):
             self.force.set_values(*before)
         self.show_force()
 
+    def set_confidences(self, known: bool) -> None:
+        """Offer to weigh by confidence where it is known."""
+        self._confidences = known
+        self._allow_weight()
+
+    def _allow_weight(self) -> None:
+        # A peak is the largest force: nothing is weighed in it.
+        self.by_confidence.setEnabled(self._confidences and self.quantity.currentData() != "peak")
+
     def show_force(self) -> None:
         """Say the range of force."""
         if not self.force.isEnabled():
@@ -264,6 +287,7 @@ class Controls(QWidget):
         density = self.quantity.currentData() == "density"
         self.per.setVisible(density)
         self._per_label.setVisible(density)
+        self._allow_weight()
         self.changed.emit()
 
     def _bandwidth_changed(self, value: float) -> None:
@@ -284,6 +308,7 @@ class Controls(QWidget):
         first.setIcon(icon("folder", "text" if ready else "panel"))
         _dressed(first)
         if not ready:
+            self.set_confidences(False)
             self.force.setEnabled(False)
             self.force_words.setText("")
 

@@ -225,6 +225,7 @@ class HeatmapViewer(QWidget):
         forces = [s.contacts.forces for s in seen if s.contacts.forces is not None]
         largest = float(np.ceil(10 * max(f.max() for f in forces))) / 10 if forces else None
         self.controls.set_forces(largest, None if largest is None else _counted(forces, largest))
+        self.controls.set_confidences(all(s.contacts.confidences is not None for s in seen))
         self._make_all()
 
     def _choose(self, number: int, source: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
+import numpy as np
 from PySide6.QtCore import QEvent
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QVBoxLayout, QWidget
@@ -52,6 +53,7 @@ class RegionsPage(Page):
         super().__init__(bench, parent)
         self.work: RegionsWork | None = None
         self._key: object = None
+        self._crossed = np.empty(0, dtype=np.int32)
         self._loading: Job | None = None
         self.shown = self._listed = False
         self._failure = self._unkept = ""
@@ -79,6 +81,7 @@ class RegionsPage(Page):
         listed.chosen.connect(self._choose)
         listed.renamed.connect(lambda rank, name: self.edit(lambda model: model.rename(rank, name)))
         listed.recoloured.connect(lambda rank, colour: self.edit(lambda model: model.recolour(rank, colour)))
+        listed.marked.connect(lambda rank, on: self.edit(lambda model: model.set_untouchable(rank, on)))
         listed.moved.connect(lambda rank, to: self.edit(lambda model: model.move(rank, to), to))
         listed.add_asked.connect(self.add_region)
         listed.remove_asked.connect(lambda rank: self.edit(lambda model: model.remove(rank)))
@@ -238,6 +241,8 @@ class RegionsPage(Page):
         if self.work is not None:
             self.bench.scene.show_field(None)
             self.bench.scene.show_probe(self.work.probe, self.work.colours)
+            self._crossed = self.work.untouchable()
+            self.bench.scene.show_untouchable(self._crossed)
             self.use_tool()
 
     # ---- changes -----------------------------------------------------------------------------
@@ -252,10 +257,21 @@ class RegionsPage(Page):
                 self.bench.scene.paint(None, work.colours)
             elif len(change.faces):
                 self.bench.scene.paint(change.faces, work.colours[change.faces])
+            if not drawing:
+                self._cross()
         if not drawing:
             self.keeper.changed()
             self._show_list()
             self.show_all()
+
+    def _cross(self) -> None:
+        """Cross out what nothing can touch, if that is not what is crossed out already."""
+        if self.work is None:
+            return
+        hidden = self.work.untouchable()
+        if not np.array_equal(hidden, self._crossed):
+            self._crossed = hidden
+            self.bench.scene.show_untouchable(hidden)
 
     def _show_list(self, rank: int | None = None) -> None:
         self._listed = False

@@ -9,16 +9,20 @@ import numpy as np
 from PySide6.QtCore import QObject
 
 from app.bench import Weight
+from app.pages.verify_scene import firm_contact
+from pipeline.kernel import Reason
 from pipeline.verification.protocol import State
 from widgets.marker_table import ShownMarker
 from widgets.phrases import said
 
 if TYPE_CHECKING:
     from app.pages.verify import VerifyPage
+    from pipeline.kernel import Contact
     from pipeline.workbench.verify_touches import TouchOf, TouchView
 
 _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks
 _SAID = (State.ACCEPTED, State.REJECTED)
+_SURE = (Reason.OK, Reason.VERTEX, Reason.BY_REGION)
 
 
 class LiveShow(QObject):
@@ -36,7 +40,10 @@ class LiveShow(QObject):
         """Show the newest moment."""
         page = self._page
         reading = page.bench.live.reading()
-        page.scene_view.show_reading(reading)
+        contact = firm_contact(reading)
+        page.scene_view.show_reading(reading, self._captions(contact))
+        sure = contact is None or contact.reason in _SURE
+        page.panel_touch.state.show_contact(self._contact(contact), sure)
         page.scene_view.tick()
         self.watch()
         touches = page.work.touches
@@ -171,6 +178,47 @@ class LiveShow(QObject):
             marker=touch.marker, size="–" if touch.size_mm is None else f"{touch.size_mm:.2f}"
         )
 
+    def _captions(self, contact: Contact | None) -> tuple[str, str]:
+        """Return what is written beside the second place: in sight, and behind the probe."""
+        if contact is None:
+            return "", ""
+        if contact.reason is Reason.TWO_TOUCHES:
+            return self.tr("second touch"), self.tr("second touch, behind")
+        return self.tr("could also be here"), self.tr("could also be here, behind")
+
+    def _contact(self, contact: Contact | None) -> str:
+        """Say how sure the contact is, or why there is none."""
+        if contact is None:
+            return ""
+        sure = self.tr("Confidence {percent} %").format(percent=_percent(contact.confidence))
+        match contact.reason:
+            case Reason.OK | Reason.VERTEX:
+                return sure
+            case Reason.BY_REGION:
+                return self.tr(
+                    "{sure}, because of the declared regions: the wrench fits another place, too."
+                ).format(sure=sure)
+            case Reason.AMBIGUOUS:
+                return self.tr(
+                    "{sure}: the wrench fits another place, too. Press in another direction."
+                ).format(sure=sure)
+            case Reason.TWO_TOUCHES:
+                return self.tr("A second touch joined: both are shown.")
+            case Reason.IMPLAUSIBLE:
+                return self.tr(
+                    "No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm."
+                    " Two touches at once, or wrong units, mount or compensation?"
+                ).format(sigmas=f"{math.sqrt(contact.misfit):.1f}", arm=f"{1e3 * abs(contact.arm):.0f}")
+            case Reason.TANGENTIAL:
+                return self.tr("The force is almost parallel to the surface: press more steeply.")
+            case Reason.OUTSIDE_REGION:
+                return self.tr("The contact is outside every region.")
+            case Reason.SATURATED:
+                return self.tr("The sensor is at the end of its range: press less hard.")
+        return self.tr(
+            "No part of the probe faces this force: check that it is the force on the probe, and the mount."
+        )
+
     def _next(self, view: TouchView) -> str:
         if view.next_one is None:
             return self.tr(
@@ -186,3 +234,8 @@ class LiveShow(QObject):
         return self.tr("largest {largest} mm; the last was {ratio} times what noise explains").format(
             largest=f"{view.max_mm:.2f}", ratio=f"{view.last.ratio:.1f}"
         )
+
+
+def _percent(confidence: float) -> str:
+    """Return a share of one in per cent; what is not certain is never said to be 100."""
+    return f"{min(100 * confidence, 99.9):.1f}" if confidence > 0.99 else f"{100 * confidence:.0f}"

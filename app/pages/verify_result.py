@@ -45,7 +45,8 @@ class ResultPanel(QWidget):
         self.why = self._label("")
         self.diagnosis = self._label("")
         self.notes = self._label("muted")
-        for label in (self.number, self.range, self.figures, self.why, self.diagnosis, self.notes):
+        self.model_error = self._label("")
+        for label in self._labels():
             column.addWidget(label)
         buttons = QHBoxLayout()
         self.open = QPushButton(icon("folder"), self.tr("Open the report"))
@@ -83,7 +84,7 @@ class ResultPanel(QWidget):
         self.go_on.setVisible(outcome is not None and outcome.passed and not outcome.stale)
         if outcome is None:
             self._put(self.tr("Not verified yet"), "ready", "muted")
-            self._texts("", "", "", "", "", "")
+            self._texts("", "", "", "", "", "", "")
             return
         if outcome.stale:
             self._put(self.tr("Stale: verify again"), "stale", "stale")
@@ -97,16 +98,18 @@ class ResultPanel(QWidget):
         )
         self._texts(
             number, self._range(outcome), self._figures(outcome), self._why(outcome), outcome.diagnosis,
-            "\n".join((*outcome.notes, *outcome.warnings)),
+            "\n".join((*outcome.notes, *outcome.warnings)), outcome.model_error,
         )  # fmt: skip
 
     def _put(self, words: str, name: str, colour: str) -> None:
         self.verdict.setText(words)
         self.sign.show_icon(icon(name, colour))
 
+    def _labels(self) -> tuple[QLabel, ...]:
+        return self.number, self.range, self.figures, self.why, self.diagnosis, self.notes, self.model_error
+
     def _texts(self, *texts: str) -> None:
-        labels = (self.number, self.range, self.figures, self.why, self.diagnosis, self.notes)
-        for label, text in zip(labels, texts, strict=True):
+        for label, text in zip(self._labels(), texts, strict=True):
             label.setText(said(text))
             label.setVisible(bool(text))
 

@@ -10,9 +10,11 @@ import numpy as np
 from pipeline.errors import InputError
 from pipeline.heatmap.finer import drawing_of
 from pipeline.heatmap.heatmap import default_bandwidth, heatmap
+from pipeline.kernel import Reason
 
 if TYPE_CHECKING:
     from app.bench import Bench
+    from pipeline.kernel import Contact
     from pipeline.mesh import Probe
     from pipeline.workbench.live import Reading
     from pipeline.workbench.markers import Markers
@@ -22,6 +24,13 @@ _EVERY_S = 0.5
 _MOST = 4_000
 _LEAST_N = 1.0
 _SHOWN = {"skipped": "open"}  # the scene knows open, done and failed
+
+
+def firm_contact(reading: Reading | None) -> Contact | None:
+    """Return the contact of a press that is firm enough to be shown; None: there is none."""
+    # A hand that lets go: the ellipse of so little force is larger than the probe, and says nothing.
+    light = reading is None or not float(np.linalg.norm(reading.compensated[:3])) >= _LEAST_N
+    return None if reading is None or light else reading.contact
 
 
 class TouchScene:
@@ -84,22 +93,28 @@ class TouchScene:
 
     # ---- the contact -------------------------------------------------------------------------
 
-    def show_reading(self, reading: Reading | None) -> None:
-        """Show the contact and the force now."""
-        contact = None if reading is None else reading.contact
-        # A hand that lets go: the ellipse of so little force is larger than the probe, and says nothing.
-        light = reading is None or float(np.linalg.norm(reading.compensated[:3])) < _LEAST_N
-        if contact is None or contact.point is None or reading is None or light:
+    def show_reading(self, reading: Reading | None, captions: tuple[str, str] = ("", "")) -> None:
+        """
+        Show the contact and the force now.
+
+        Parameters
+        ----------
+        reading : Reading or None
+        captions : (str, str)
+            What is written beside the second place, if there is one: in sight, and behind the probe.
+        """
+        contact = firm_contact(reading)
+        if contact is None or contact.point is None or reading is None:
             if self._contact is not None:
                 self._contact = None
                 self._scene.show_contact(None)
                 self._scene.show_force(None)
             return
         self._contact = contact
-        lost = [np.asarray(each.point) for each in contact.candidates[1:]]
-        others = np.array(lost).reshape(-1, 3) if lost else None
-        self._scene.show_contact(contact.point, contact.covariance, contact.normal, others)
-        self._scene.show_force(reading.compensated[:3], contact.point)
+        two = contact.reason is Reason.TWO_TOUCHES  # the force is that of both: it acts at neither
+        covariance = None if two else contact.covariance
+        self._scene.show_contact(contact.point, covariance, contact.normal, _others(contact), captions)
+        self._scene.show_force(None if two else reading.compensated[:3], contact.point)
         if contact.accepted and len(self._points) < _MOST:
             self._points.append(np.asarray(contact.point))
             self._sigmas.append(float(contact.sigma_max))
@@ -144,3 +159,12 @@ class TouchScene:
     def _not_drawn(self, error: BaseException) -> None:
         self._busy = self.heat = False
         self._bench.jobs.failed.emit(None, error)
+
+
+def _others(contact: Contact) -> np.ndarray[Any, Any] | None:
+    """Return where it could be as well, the likeliest first, or where the second touch is; (k, 3), S, m."""
+    if contact.reason is Reason.TWO_TOUCHES and contact.second is not None:
+        return np.asarray(contact.second).reshape(1, 3)
+    if contact.reason not in (Reason.AMBIGUOUS, Reason.BY_REGION) or not contact.candidates:
+        return None
+    return np.array([each.point for each in contact.candidates])

@@ -84,7 +84,7 @@ class TouchPanel(QWidget):
     def _other_buttons(self) -> QGridLayout:
         grid = QGridLayout()
         grid.setSpacing(6)
-        self.repeat = self._button(self.tr("Touch once more"), "redo", self.repeat_wanted)
+        self.repeat = self._button(self.tr("Touch again"), "redo", self.repeat_wanted)
         self.repeat.setToolTip(
             self.tr("The marker that is selected in the table, or else the last one; all its touches count")
         )

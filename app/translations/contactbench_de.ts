@@ -433,6 +433,10 @@
 <context>
     <name>Controls</name>
     <message>
+        <source>Weigh by confidence</source>
+        <translation>Nach Sicherheit gewichten</translation>
+    </message>
+    <message>
         <source>Compare two side by side</source>
         <translation>Zwei nebeneinander vergleichen</translation>
     </message>
@@ -507,6 +511,10 @@
     <message>
         <source>A second heatmap with the same view and the same colours.</source>
         <translation>Eine zweite Heatmap mit derselben Ansicht und denselben Farben.</translation>
+    </message>
+    <message>
+        <source>Let each contact count as much as its place is sure.</source>
+        <translation>Jeder Kontakt zählt so viel, wie seine Stelle sicher ist.</translation>
     </message>
     <message>
         <source>Heatmap</source>
@@ -1922,6 +1930,58 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>{marker}: {size} mm daneben. Loslassen.</translation>
     </message>
     <message>
+        <source>second touch</source>
+        <translation>zweite Berührung</translation>
+    </message>
+    <message>
+        <source>second touch, behind</source>
+        <translation>zweite Berührung, dahinter</translation>
+    </message>
+    <message>
+        <source>could also be here</source>
+        <translation>könnte auch hier sein</translation>
+    </message>
+    <message>
+        <source>could also be here, behind</source>
+        <translation>könnte auch hier sein, dahinter</translation>
+    </message>
+    <message>
+        <source>Confidence {percent} %</source>
+        <translation>Sicherheit {percent} %</translation>
+    </message>
+    <message>
+        <source>{sure}, because of the declared regions: the wrench fits another place, too.</source>
+        <translation>{sure}, wegen der festgelegten Regionen: Der Messwert passt auch zu einer anderen Stelle.</translation>
+    </message>
+    <message>
+        <source>{sure}: the wrench fits another place, too. Press in another direction.</source>
+        <translation>{sure}: Der Messwert passt auch zu einer anderen Stelle. Drücken Sie in eine andere Richtung.</translation>
+    </message>
+    <message>
+        <source>A second touch joined: both are shown.</source>
+        <translation>Eine zweite Berührung kam dazu: Beide sind gezeigt.</translation>
+    </message>
+    <message>
+        <source>No single touch explains this wrench: {sigmas} sigma left over, torque arm {arm} mm. Two touches at once, or wrong units, mount or compensation?</source>
+        <translation>Keine einzelne Berührung erklärt diesen Messwert: {sigmas} Sigma bleiben übrig, Hebelarm des Moments {arm} mm. Zwei Berührungen zugleich, oder falsche Einheiten, Einbaulage oder Kompensation?</translation>
+    </message>
+    <message>
+        <source>The force is almost parallel to the surface: press more steeply.</source>
+        <translation>Die Kraft ist fast parallel zur Oberfläche: Drücken Sie steiler.</translation>
+    </message>
+    <message>
+        <source>The contact is outside every region.</source>
+        <translation>Der Kontakt liegt außerhalb aller Regionen.</translation>
+    </message>
+    <message>
+        <source>The sensor is at the end of its range: press less hard.</source>
+        <translation>Der Sensor ist am Ende seines Messbereichs: Drücken Sie weniger fest.</translation>
+    </message>
+    <message>
+        <source>No part of the probe faces this force: check that it is the force on the probe, and the mount.</source>
+        <translation>Kein Teil der Sonde ist dieser Kraft zugewandt: Prüfen Sie, ob es die Kraft auf die Sonde ist, und die Einbaulage.</translation>
+    </message>
+    <message>
         <source>All markers are touched; touches: {done}. Finish, or touch some once more.</source>
         <translation>Alle Marker sind berührt; Berührungen: {done}. Beenden Sie, oder berühren Sie einige noch einmal.</translation>
     </message>
@@ -2957,6 +3017,14 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <source>Lower the region&apos;s priority</source>
         <translation>Priorität der Region senken</translation>
     </message>
+    <message>
+        <source>Untouchable</source>
+        <translation>Nicht berührbar</translation>
+    </message>
+    <message>
+        <source>Nothing can touch these facets: a clamp or a drape hides them. Contacts there count as 1000 times less likely.</source>
+        <translation>Nichts kann diese Facetten berühren: Eine Klemme oder ein Tuch verdeckt sie. Kontakte dort gelten als 1000-mal weniger wahrscheinlich.</translation>
+    </message>
 </context>
 <context>
     <name>RegionRows</name>
@@ -2975,6 +3043,14 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Facets</source>
         <translation>Facetten</translation>
+    </message>
+    <message>
+        <source>✕ {0} (untouchable)</source>
+        <translation>✕ {0} (nicht berührbar)</translation>
+    </message>
+    <message>
+        <source>{0}, untouchable, priority {1}, {2:.2f} cm²</source>
+        <translation>{0}, nicht berührbar, Priorität {1}, {2:.2f} cm²</translation>
     </message>
     <message>
         <source>{0}, priority {1}, {2:.2f} cm²</source>
@@ -4170,7 +4246,7 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Ohne Urteil beenden; die Berührungen werden nicht behalten</translation>
     </message>
     <message>
-        <source>Touch once more</source>
+        <source>Touch again</source>
         <translation>Wiederholen</translation>
     </message>
     <message>

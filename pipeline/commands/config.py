@@ -73,6 +73,17 @@ def export(
         bool | None,
         typer.Option("--region-only/--anywhere", help="Refuse contacts outside every region [anywhere]."),
     ] = None,
+    accept_by_region: Annotated[
+        bool | None,
+        typer.Option(
+            "--accept-by-region/--not-by-region",
+            help="Accept contacts that are sure only because of the regions [accept].",
+        ),
+    ] = None,
+    torsion_arm_mm: Annotated[
+        float | None,
+        typer.Option(help="Usual local torque over the force, mm: hard tip 0.3, soft tissue 1 to 5 [1]."),
+    ] = None,
     max_force: Annotated[
         float | None, typer.Option(help="What a controller must never exceed, N [30].")
     ] = None,
@@ -99,7 +110,8 @@ def export(
         raise typer.BadParameter("--cutoff: give --rate too.")
     given = {
         "sensor": sensor, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
-        "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only, "max_force": max_force,
+        "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only,
+        "accept_by_region": accept_by_region, "torsion_arm_mm": torsion_arm_mm, "max_force": max_force,
         "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame, "operator": operator,
         "mount": None if mount is None else numbers(mount, 3, "--mount"),
         "saturation": None if saturation is None else numbers(saturation, 6, "--saturation"),
@@ -252,13 +264,25 @@ def _say_doubts(config: RuntimeConfig) -> None:
         )
     if model.frames.quaternion_ES is None:
         say("No mounting: the orientations must be the sensor's own, as the calibration's were.", "yellow")
+    if not model.touch.model_error.measured:
+        say("The model error is the default: verify on markers to measure it.", "yellow")
     if model.verification is not None:
         say(model.verification.diagnosis)
 
 
 def _facts(config: RuntimeConfig) -> dict[str, Any]:
     model = config.model.to_json()
-    kept = ("schema", "version", "sensor", "probe", "regions", "verified", "verification", "provenance")
+    kept = (
+        "schema",
+        "version",
+        "sensor",
+        "touch",
+        "probe",
+        "regions",
+        "verified",
+        "verification",
+        "provenance",
+    )
     return {name: model[name] for name in kept}
 
 

@@ -112,6 +112,10 @@ def heatmap(
     most_force: Annotated[
         float | None, typer.Option("--force-to", help="Only contacts with this force or less, N.")
     ] = None,
+    by_confidence: Annotated[
+        bool,
+        typer.Option("--by-confidence", help="Let each contact count as much as its place is sure, 0 to 1."),
+    ] = False,
     speed: Annotated[
         float, typer.Option(help="Of a film: seconds of contacts in each second of it, 0.1 to 50.")
     ] = 1.0,
@@ -136,10 +140,13 @@ def heatmap(
     from pipeline.heatmap.windowing import Selection, windowed
 
     metres = None if bandwidth is None else bandwidth / 1000
-    selection = Selection(quantity.value, normalisation.value, metres, start, end, least_force, most_force)
+    selection = Selection(
+        quantity.value, normalisation.value, metres, start, end, least_force, most_force, by_confidence
+    )
     with chosen(contacts, probe, calibration, judged=judged) as files:
         content = probe_in_sensor_frame(files.probe)
         found = found_contacts(files, content, wrenches, mount, delay, min_force)
+        _check_weight(files.contacts, found, selection)
         part = windowed(found, selection)
         made, left_out, notes = _made(part, content, selection, markers, marker_distance)
     for sentence in notes:
@@ -152,6 +159,17 @@ def heatmap(
     if as_json:
         facts = {"out": str(out), **made.facts(), "left_out": left_out, "warnings": notes}
         print_json({**facts, "noise": _noise(found)})
+
+
+def _check_weight(file: Path, found: Contacts, selection: Selection) -> None:
+    """Refuse, with the file's name, a weight that the contacts do not have."""
+    from pipeline.heatmap import HeatmapError
+    from pipeline.heatmap.windowing import weights_of
+
+    try:
+        weights_of(found, selection)
+    except HeatmapError as error:
+        raise HeatmapError(f"{file}: {error}") from error
 
 
 def _noise(found: Contacts) -> dict[str, list[float]] | None:

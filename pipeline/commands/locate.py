@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from pipeline.contact import Gates, WrenchNoise
+    from pipeline.contact import Gates, TouchModel, WrenchNoise
     from pipeline.contact.stream import LocateSummary, Locator
     from pipeline.mesh import Probe
 
@@ -51,8 +51,10 @@ _UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch:
     help=(
         "Locate the contact of each wrench in a CSV file.\n\n"
         "WRENCHES has the columns t,fx,fy,fz,mx,my,mz (s, N, N·m about the sensor origin, sensor frame S) in"
-        " any order; - is standard input. The output has t,x,y,z,k,face,reason,candidates,sigma_max_mm (m,"
-        " N·m, frame S) and is written as a whole or not at all."
+        " any order, compensated for weight and offset; - is standard input. The output has"
+        " t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence (m, N·m, frame S; misfit in standard"
+        " deviations squared) and is written as a whole or not at all.\n\n"
+        "Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named."
     ),
     epilog=(
         "Example: contactbench locate --probe probe.stl --units mm --mount 0,0,45,0,0,90 wrenches.csv"
@@ -81,15 +83,27 @@ def locate(
     track: Annotated[bool, typer.Option("--track", help="Follow the contact from row to row.")] = False,
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a force, N.")] = 0.05,
     noise_torque: Annotated[float, typer.Option(help="Standard deviation of a torque, N·m.")] = 0.002,
+    torsion_arm: Annotated[
+        float | None,
+        typer.Option(
+            help="Torsion that a touch may have, 1 sigma: local torque over force, mm. A hard tip has 0.3, soft"
+            " tissue 1 to 5 [1]."
+        ),
+    ] = None,
+    model_force: Annotated[
+        float | None,
+        typer.Option(help="What drift, cable and hysteresis leave in a force, 1 sigma, N [0.05]."),
+    ] = None,
+    model_torque: Annotated[float | None, typer.Option(help="The same of a torque, mN·m [1].")] = None,
     min_force: Annotated[float | None, typer.Option(help="low_force under this, N [0.5].")] = None,
     friction_angle: Annotated[
         float | None, typer.Option(help="tangential beyond this angle to the normal, degrees [75].")
     ] = None,
     ambiguity_distance: Annotated[
-        float | None, typer.Option(help="ambiguous when a rival is this far, mm [5].")
+        float | None, typer.Option(help="ambiguous when another likely place is this far, mm [5].")
     ] = None,
     follow_distance: Annotated[
-        float | None, typer.Option(help="With --track: prefer candidates this near, mm [10].")
+        float | None, typer.Option(help="With --track: prefer places this near the last contact, mm [10].")
     ] = None,
     saturation: Annotated[
         str | None,
@@ -99,6 +113,19 @@ def locate(
     ] = None,
     region_only: Annotated[
         bool, typer.Option("--region-only", help="Refuse contacts outside every region of the mesh.")
+    ] = False,
+    accept_by_region: Annotated[
+        bool,
+        typer.Option(
+            "--accept-by-region/--no-accept-by-region",
+            help="With --track: follow contacts that are sure only because of the regions of the mesh.",
+        ),
+    ] = True,
+    compensated: Annotated[
+        bool,
+        typer.Option(
+            "--compensated", help="Take a file with the columns of a raw recording: it is compensated."
+        ),
     ] = False,
     allow_nan: Annotated[
         bool, typer.Option("--allow-nan", help="Answer NaN, infinity and empty cells with not_finite.")
@@ -121,13 +148,15 @@ def locate(
         "follow_distance": None if follow_distance is None else follow_distance / 1000,
         "saturation": limits,
         "region_only": region_only,
+        "accept_by_region": accept_by_region,
     }
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     gates, noise = Gates(**chosen), WrenchNoise(noise_force, noise_torque)
+    model = _model(torsion_arm, model_force, model_torque)
     surface, warnings = _load(probe, units, T_SP)
     for sentence in warnings:
         say(f"warning: {sentence}", "yellow")
-    locator = _locator(method, surface, noise, gates)
+    locator = _locator(method, surface, noise, gates, model)
     dash = Path("-")
     with Bar("locating") as bar:
         summary = locate_file(
@@ -136,7 +165,8 @@ def locate(
             sys.stdout.buffer if out == dash else out,
             track=track,
             allow_nan=allow_nan,
-            invented=surface.invented,
+            compensated=compensated,
+            probe=surface,
             progress=bar,
         )
     for sentence in summary.warnings:
@@ -144,6 +174,8 @@ def locate(
     _show(summary)
     if as_json:
         print_json({"out": str(out), **summary.facts(), "warnings": [*warnings, *summary.warnings]})
+    if summary.plausibility is not None:
+        raise typer.Exit(1)
 
 
 def _check_usage(out: Path, method: MethodName, track: bool, as_json: bool) -> None:
@@ -194,14 +226,29 @@ def _load(path: Path, units: Units, T_SP: npt.NDArray[np.float64] | None) -> tup
     return probe, [f"{path}: {sentence}" for sentence in sentences]
 
 
-def _locator(method: MethodName, probe: Probe, noise: WrenchNoise, gates: Gates) -> Locator:
-    if method is MethodName.contactbench:
+def _model(torsion_arm: float | None, force: float | None, torque: float | None) -> TouchModel:
+    """Return what is known of a touch: mm, N and mN·m; None: the default."""
+    from pipeline.contact import TouchModel, WrenchNoise
+    from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+
+    error = WrenchNoise(
+        DEFAULT_FORCE_N if force is None else force, DEFAULT_TORQUE_NM if torque is None else torque / 1000
+    )
+    if torsion_arm is None:
+        return TouchModel(model_error=error)
+    return TouchModel(torsion_arm / 1000, error)
+
+
+def _locator(
+    method: MethodName, probe: Probe, noise: WrenchNoise, gates: Gates, model: TouchModel
+) -> Locator:
+    if method is MethodName.contactbench:  # the others need more to be imported
         from pipeline.contact import ContactSolver
 
-        return ContactSolver(probe, noise, gates)
+        return ContactSolver(probe, noise, gates, model)
     from pipeline.contact import methods
 
-    return methods.METHODS[method.value](probe, noise, gates)
+    return methods.make(method.value, probe, noise, gates, model)
 
 
 def _show(summary: LocateSummary) -> None:

@@ -19,7 +19,8 @@ region_app = typer.Typer(
     name="region",
     help=(
         "Mark the parts of a probe that are meant to be touched, in order of priority.\n\n"
-        "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names and colours)."
+        "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names, colours, and which of"
+        " them nothing can touch)."
         " Each command changes both in one step. Lengths are in mm, in the sensor frame S."
     ),
     epilog="Example: contactbench region add probe.ply Lens",
@@ -32,7 +33,7 @@ ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the 
 
 @region_app.command(
     "list",
-    help="Show the regions of a probe: priority, name, colour, facets and area.",
+    help="Show the regions of a probe: priority, name, colour, facets, area, and whether nothing can touch it.",
     epilog="Example: contactbench region list probe.ply",
 )
 def list_regions(mesh: MeshArgument, as_json: JsonOption = False) -> None:
@@ -103,6 +104,27 @@ def colour(
 
 
 @region_app.command(
+    help=(
+        "Say whether nothing can touch a region, such as one that a clamp or a drape hides.\n\n"
+        "A contact there counts as 1000 times less likely, and the places that remain are told apart better."
+    ),
+    epilog="Example: contactbench region mark probe.ply Clamp --untouchable",
+)
+def mark(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    untouchable: Annotated[
+        bool, typer.Option("--untouchable/--touchable", help="Whether nothing can touch it.")
+    ],
+    as_json: JsonOption = False,
+) -> None:
+    """Say whether nothing can touch a region."""
+    session = Session(mesh)
+    session.model.set_untouchable(session.rank(region), untouchable)
+    session.finish(None, as_json)
+
+
+@region_app.command(
     help="Change the priorities: name all regions, the first priority first.",
     epilog="Example: contactbench region reorder probe.ply Lens Neck Handle",
 )
@@ -122,7 +144,7 @@ def reorder(
 
 @region_app.command(
     help=(
-        "Write the regions to a file of their own: .json (names, colours, facets; fits this mesh only) or .csv"
+        "Write the regions to a file of their own: .json (names, colours, marks, facets; fits this mesh only) or .csv"
         " (face,region)."
     ),
     epilog="Example: contactbench region export probe.ply --out regions.json",
@@ -148,8 +170,8 @@ def export(
     "import",
     help=(
         "Replace all regions of a probe by those of a file, .json or .csv.\n\n"
-        "A .json file fits the mesh that it was made for; for another one use transfer. From .csv names and"
-        " colours stay, as far as there are any."
+        "A .json file fits the mesh that it was made for; for another one use transfer. From .csv names, colours and"
+        " marks stay, as far as there are any."
     ),
     epilog="Example: contactbench region import probe.ply regions.json",
 )

@@ -117,6 +117,7 @@ def show(mesh: Path, probe: Probe, model: RegionModel, as_json: bool, **facts: A
                 "priority": rank,
                 "name": region.name,
                 "colour": region.colour,
+                "untouchable": region.untouchable,
                 "facets": count,
                 "area_mm2": float(area),
             }
@@ -133,10 +134,12 @@ def show(mesh: Path, probe: Probe, model: RegionModel, as_json: bool, **facts: A
     table.add_column("facets", justify="right")
     table.add_column("mm²", justify="right")
     table.add_column("%", justify="right")
+    table.add_column("")
     whole = 1e6 * float(probe.areas.sum())
     for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1):
         share = f"{100 * area / whole:.1f}"
-        table.add_row(str(rank), region.name, region.colour, f"{count:,}", f"{area:.1f}", share)
+        mark = "untouchable" if region.untouchable else ""
+        table.add_row(str(rank), region.name, region.colour, f"{count:,}", f"{area:.1f}", share, mark)
     Console(markup=False).print(table)
 
 

@@ -35,7 +35,8 @@ _SETTLED_S = 2.0  # a rate is known after that
     help=(
         "Load a bundle and say at every sample where the probe is touched, until Ctrl-C, for some seconds, or to the"
         " end of a replay.\n\n"
-        "Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given. A sample takes the"
+        "Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on those whose"
+        " accepted is true. A sample takes the"
         " newest pose that is not later than itself, live as in a replay; without one younger than the bundle's"
         " max_age_s its reason is stale. A typed pose (still://) never gets old. An output that is too slow loses"
         " contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came, a stream failed,"

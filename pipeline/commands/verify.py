@@ -224,6 +224,8 @@ def _write(out: Path, data: bytes) -> None:
 
 
 def _show(found: Verification) -> None:
+    from pipeline.verification.model_error import model_error_words
+
     for sentence in found.warnings:
         say(f"warning: {sentence}", "yellow")
     tables = [_table("Errors per marker", found.per_marker), _table("Errors", _groups(found))]
@@ -251,6 +253,7 @@ def _show(found: Verification) -> None:
         )
     if found.diagnosis is not None:
         say(found.diagnosis.text)
+    say(model_error_words(found.model_error))
     for note in found.verdict.notes:
         say(note, "yellow")
     if found.verdict.passed:

@@ -3,6 +3,7 @@
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
 from pipeline.contact.solver import ContactSolver
+from pipeline.contact.touch_model import TouchModel
 from pipeline.kernel import Batch, Candidate, Contact, Reason
 
-__all__ = ["Batch", "Candidate", "Contact", "ContactSolver", "Gates", "Reason", "WrenchNoise"]
+__all__ = ["Batch", "Candidate", "Contact", "ContactSolver", "Gates", "Reason", "TouchModel", "WrenchNoise"]

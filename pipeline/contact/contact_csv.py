@@ -12,7 +12,7 @@ from pipeline.kernel import Reason
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm\n"
+HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence\n"
 
 REASONS: tuple[str, ...] = tuple(reason.name.lower() for reason in Reason)
 _REASON_TEXTS = np.array(REASONS, dtype=np.bytes_)
@@ -44,6 +44,14 @@ class Answers(Protocol):
     @property
     def sigma_max(self) -> npt.NDArray[np.float64]:
         """(n,) largest standard deviation of the point, m; NaN where there is no point."""
+
+    @property
+    def misfits(self) -> npt.NDArray[np.float64]:
+        """(n,) d2 of the best touch, also where it was no contact; NaN where none was looked for."""
+
+    @property
+    def confidences(self) -> npt.NDArray[np.float64]:
+        """(n,) 0 to 1; 0 where there is no point."""
 
 
 class ContactRows:
@@ -79,6 +87,8 @@ class ContactRows:
             _REASON_TEXTS.take(answers.reasons),
             self._integer_texts(answers.candidates),
             sigma_mm,
+            answers.misfits,
+            answers.confidences,
         ]
         widths = [WIDTH if column.dtype.kind == "f" else column.itemsize for column in columns]
         rows = np.empty((len(times), sum(widths) + len(widths)), dtype=np.uint8)

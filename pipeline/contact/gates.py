@@ -1,19 +1,27 @@
 """When an answer is given, and when it is not."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import cos, inf, isfinite, isnan, radians
+from math import cos, exp, inf, isnan, log, radians
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pipeline.errors import InputError
 
+LARGEST_ODDS = 1e9
+BEHIND_M = 0.003  # along the force: nearer surfaces are one, seen through the noise
 _UNLIMITED = (inf, inf, inf, inf, inf, inf)
 
 
 @dataclass(frozen=True)
 class Gates:
-    """Limits that decide between the reason codes; every length in metres, force in newtons.
+    """Limits and odds behind the reason codes; lengths in metres, force in newtons, odds as "so many to one".
+
+    A touch is judged by d2, how badly it explains the wrench, in standard deviations squared. Odds are in the same
+    unit: odds of o to 1 are worth 2 ln(o).
 
     Parameters
     ----------
@@ -23,24 +31,28 @@ class Gates:
     friction_angle : float
         Largest angle between -F and the outward normal, degrees, under 90. Default 75: friction would
         have to exceed 3.7, and the noise bound is already four times that of a perpendicular touch.
-        Candidates beyond it lose; if there are no others the reason is ``tangential``.
+        Where only a touch beyond it explains the wrench, the reason is ``tangential``.
+    implausible_probability : float
+        ``implausible`` where a touch would leave as much unexplained by chance this rarely (chi-square, one degree
+        of freedom). Default 0.001: d2 over 10.8.
+    rival_odds : float
+        ``ambiguous`` unless the likeliest place is this much likelier than any other. Default 100.
     ambiguity_distance : float
-        ``ambiguous`` when another candidate this far from the likeliest one cannot be ruled out, m.
-        Default 5 mm: less is within the spread of a light touch and does no harm to a controller. A near miss
-        (`rival_sigmas`) counts from twice this distance and the noise of the axis on.
-    torque_ratio : float
-        A candidate counts against the likeliest one only while its local torque is at most this many times
-        larger, at least 1. Default 1.5: for one wrench the torque grows as 1/cos(friction angle), so the true
-        contact can lose unnoticed only where friction exceeds 48 degrees. A steeper world needs more. For
-        near misses the ratio of those cosines is taken.
-    rival_sigmas : float
-        A facet that would accept the wrench were it this many standard deviations different counts as
-        such a candidate; finite. Default 3. On the rim of a T-shape noise can hide the true contact
-        altogether. Where so many of them turn the force by half a radian, every answer on a probe that is
-        not convex is ``ambiguous``.
+        Places nearer to each other than this, or than 4.5 standard deviations, are the same touch, m. Default 5 mm:
+        less is within the spread of a light touch and does no harm to a controller.
+    region_odds : float
+        How much likelier a touch in the first region of priority is than elsewhere; each further region a tenth of
+        it, at least 10. Default 1000.
+    untouchable_odds : float
+        How much less likely a touch of an untouchable facet is than of any other. Default 1000.
+    first_odds : float
+        How much likelier the surface that the line of force meets first is touched than one behind it. Default
+        e squared, about 7: enough to decide between equals, too little to hide a doubt.
+    follow_odds : float
+        How much likelier a touch stays near the previous one than jumps. Default 1000.
     follow_distance : float
-        Candidates this near to the previous accepted contact are preferred to all others, m. Default
-        10 mm: at 200 Hz a probe that slides at 1 m/s moves 5 mm, and a light touch scatters by 5 mm.
+        What is near, m. Default 10 mm: at 200 Hz a probe that slides at 1 m/s moves 5 mm, and a light touch scatters
+        by 5 mm.
     recent_samples : int
         The previous contact is forgotten after this many samples in a row without an accepted one.
         Default 20: 0.1 s at 200 Hz, shorter than any deliberate lift and touch.
@@ -52,6 +64,10 @@ class Gates:
     region_only : bool
         ``outside_region`` for a contact outside every declared region. Default off: regions are a
         preference among candidates, not a fence.
+    accept_by_region : bool
+        Whether ``by_region``, sure only because of the declared regions, counts as accepted. Default on: whoever
+        declares a region says that touches are there. A press along the probe's axis is hardly ever sure without,
+        because the line of force also meets the shoulder of the flange.
 
     Raises
     ------
@@ -61,28 +77,37 @@ class Gates:
 
     min_force: float = 0.5
     friction_angle: float = 75.0
+    implausible_probability: float = 0.001
+    rival_odds: float = 100.0
     ambiguity_distance: float = 0.005
-    torque_ratio: float = 1.5
-    rival_sigmas: float = 3.0
+    region_odds: float = 1000.0
+    untouchable_odds: float = 1000.0
+    first_odds: float = exp(2.0)
+    follow_odds: float = 1000.0
     follow_distance: float = 0.010
     recent_samples: int = 20
     max_age: float = 0.1
     saturation: tuple[float, float, float, float, float, float] = field(default=_UNLIMITED)
     region_only: bool = False
+    accept_by_region: bool = True
 
     def __post_init__(self) -> None:
-        for name in ("min_force", "ambiguity_distance", "rival_sigmas", "follow_distance", "max_age"):
+        for name in ("min_force", "ambiguity_distance", "follow_distance", "max_age"):
             value = getattr(self, name)
             if isnan(value) or value < 0:
                 raise InputError(f"Gates.{name} must be at least 0, not {value}")
+        for name in ("rival_odds", "region_odds", "untouchable_odds", "first_odds", "follow_odds"):
+            value = getattr(self, name)
+            if not 1 <= value <= LARGEST_ODDS:
+                raise InputError(f"Gates.{name} must be between 1 and {LARGEST_ODDS:g} to one, not {value}")
+        if not 1e-9 <= self.implausible_probability <= 0.5:
+            raise InputError(
+                f"Gates.implausible_probability must be between 1e-9 and 0.5, not {self.implausible_probability}"
+            )
         if not 0 < self.friction_angle < 90:
             raise InputError(
                 f"Gates.friction_angle must be between 0 and 90 degrees, not {self.friction_angle}"
             )
-        if not self.torque_ratio >= 1:
-            raise InputError(f"Gates.torque_ratio must be at least 1, not {self.torque_ratio}")
-        if not isfinite(self.rival_sigmas):
-            raise InputError(f"Gates.rival_sigmas must be finite, not {self.rival_sigmas}")
         if not isinstance(self.recent_samples, int) or not 0 <= self.recent_samples < 2**63:
             raise InputError(
                 f"Gates.recent_samples must be a whole number of at least 0, not {self.recent_samples}"
@@ -90,17 +115,52 @@ class Gates:
         if len(self.saturation) != 6 or any(isnan(v) or v <= 0 for v in self.saturation):
             raise InputError(f"Gates.saturation needs six positive limits (N, N·m), not {self.saturation}")
 
+    @property
+    def implausible_misfit(self) -> float:
+        """d2 that chance exceeds with `implausible_probability`: a normal variable's quantile, squared."""
+        return NormalDist().inv_cdf(1 - self.implausible_probability / 2) ** 2
+
+    def bonus(self, region: NDArray[np.int32], untouchable: Iterable[int] = ()) -> NDArray[np.float64]:
+        """
+        Return 2 ln(odds) of a touch on each facet.
+
+        Parameters
+        ----------
+        region : (m,) int32
+            Number of each facet's region, 0 for none.
+        untouchable : iterable of int
+            Numbers of the regions that nothing can touch.
+        """
+        count = int(region.max(initial=0))
+        return np.array([0.0, *(2 * log(odds) for odds in self.odds(count, untouchable))])[region]
+
+    def odds(self, count: int, untouchable: Iterable[int] = ()) -> list[float]:
+        """Return the odds of a touch in each of so many regions, numbered from 1, against one elsewhere."""
+        hidden = set(untouchable)
+        odds, listed = self.region_odds, []
+        for number in range(1, count + 1):
+            if number in hidden:
+                listed.append(1 / self.untouchable_odds)
+            else:
+                listed.append(odds)
+                odds = max(odds / 10, min(odds, 10.0))
+        return listed
+
     def kernel_arguments(self) -> dict[str, Any]:
-        """Return the keyword arguments of :class:`pipeline.kernel.Solver`."""
+        """Return the keyword arguments of :class:`pipeline.kernel.Solver` that are limits and odds."""
         return {
             "min_force": self.min_force,
             "cos_friction": cos(radians(self.friction_angle)),
+            "implausible_misfit": self.implausible_misfit,
+            "rival_cost": 2 * log(self.rival_odds),
             "ambiguity_distance": self.ambiguity_distance,
-            "torque_ratio": self.torque_ratio,
-            "rival_sigmas": self.rival_sigmas,
+            "behind_cost": 2 * log(self.first_odds),
+            "behind_distance": BEHIND_M,
+            "follow_cost": 2 * log(self.follow_odds),
             "follow_distance": self.follow_distance,
             "recent_samples": self.recent_samples,
             "max_age": self.max_age,
             "saturation": np.array(self.saturation, dtype=np.float64),
             "region_only": self.region_only,
+            "accept_by_region": self.accept_by_region,
         }

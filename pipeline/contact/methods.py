@@ -1,15 +1,16 @@
 """The methods that every speed-against-error report compares, behind one signature.
 
-Each takes a probe, the noise and the gates, and gives a :class:`Method`. Rivals answer with one contact
-or none and no doubt: only the complete solver says ``ambiguous``.
+Each takes a probe, the noise, the gates and the touch model, and gives a :class:`Method`. Rivals answer with one
+contact or none and no doubt: only contactbench weighs touches against each other, says ``ambiguous``, ``by_region`` and
+``implausible``, and uses regions, noise and model for more than the uncertainty of the point.
 
 =============  ========================================================================================
 algorithm1     the paper's loop taken literally: one 4x4 solve a plane, priority planes first, first accepted
                wins; compiled
 wrench_axis    k = 0: the wrench axis as a ray against the mesh, by Embree (extra ``embree``)
 iterative      Levenberg-Marquardt on a paraboloid fitted to the contact face; compiled, or by SciPy
-scan           closed form over every facet and vertex, chosen among like contactbench; compiled
-contactbench   the pruned, complete solver
+scan           the closed form for any k over every facet, the smallest local torque wins; compiled
+contactbench   the likeliest touch, with every other one that explains the wrench about as well
 =============  ========================================================================================
 """
 
@@ -25,6 +26,7 @@ from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
 from pipeline.contact.paraboloid import fit_contact_face, locate_with_scipy
 from pipeline.contact.solver import ContactSolver
+from pipeline.contact.touch_model import TouchModel
 from pipeline.contact.wrench_axis import EmbreeAxis
 from pipeline.errors import InputError
 from pipeline.kernel import Batch, Contact
@@ -59,22 +61,42 @@ def _compiled(name: str, engine: Any) -> Method:
     return Method(name, engine.locate, engine.locate_batch, engine)
 
 
-def contactbench(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
-    """Return the pruned, complete solver: every candidate, with reasons and uncertainty."""
-    return _compiled("contactbench", ContactSolver(probe, noise, gates))
+def contactbench(
+    probe: Probe,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    model: TouchModel | None = None,
+) -> Method:
+    """Return the solver: the likeliest touch and its rivals, with reason, confidence and uncertainty."""
+    return _compiled("contactbench", ContactSolver(probe, noise, gates, model))
 
 
-def scan(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
-    """Return the exhaustive scan: same candidates as contactbench, no pruning, no look at near misses."""
-    return _compiled("scan", kernel.Scan(ContactSolver(probe, noise, gates)))
+def scan(
+    probe: Probe,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    model: TouchModel | None = None,
+) -> Method:
+    """Return the closed form over every facet: the limit of an infinite torsion arm and no noise."""
+    return _compiled("scan", kernel.Scan(ContactSolver(probe, noise, gates, model)))
 
 
-def algorithm1(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+def algorithm1(
+    probe: Probe,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    model: TouchModel | None = None,
+) -> Method:
     """Return Algorithm 1 of Cao et al. (2023), literally."""
-    return _compiled("algorithm1", kernel.Algorithm1(ContactSolver(probe, noise, gates)))
+    return _compiled("algorithm1", kernel.Algorithm1(ContactSolver(probe, noise, gates, model)))
 
 
-def wrench_axis(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+def wrench_axis(
+    probe: Probe,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    model: TouchModel | None = None,
+) -> Method:
     """Return the wrench-axis method: no local torque, the first facet that the axis enters.
 
     Raises
@@ -82,7 +104,7 @@ def wrench_axis(probe: Probe, noise: WrenchNoise | None = None, gates: Gates | N
     InputError
         Embree's bindings are not installed.
     """
-    axis = EmbreeAxis(ContactSolver(probe, noise, gates))
+    axis = EmbreeAxis(ContactSolver(probe, noise, gates, model))
     return Method("wrench_axis", axis.locate, axis.locate_batch, axis)
 
 
@@ -90,6 +112,7 @@ def iterative(
     probe: Probe,
     noise: WrenchNoise | None = None,
     gates: Gates | None = None,
+    model: TouchModel | None = None,
     *,
     library: Literal["compiled", "scipy"] = "compiled",
 ) -> Method:
@@ -106,7 +129,7 @@ def iterative(
     InputError
         There is no contact face to fit.
     """
-    solver = ContactSolver(probe, noise, gates)
+    solver = ContactSolver(probe, noise, gates, model)
     surface = fit_contact_face(probe)
     if library == "scipy":
         by_scipy = locate_with_scipy(solver, surface)
@@ -115,7 +138,7 @@ def iterative(
     return _compiled("iterative", engine)
 
 
-METHODS: dict[str, Callable[[Probe, WrenchNoise | None, Gates | None], Method]] = {
+METHODS: dict[str, Callable[..., Method]] = {
     "contactbench": contactbench,
     "scan": scan,
     "algorithm1": algorithm1,
@@ -124,7 +147,13 @@ METHODS: dict[str, Callable[[Probe, WrenchNoise | None, Gates | None], Method]] 
 }
 
 
-def make(name: str, probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> Method:
+def make(
+    name: str,
+    probe: Probe,
+    noise: WrenchNoise | None = None,
+    gates: Gates | None = None,
+    model: TouchModel | None = None,
+) -> Method:
     """Build a method by name.
 
     Raises
@@ -134,4 +163,4 @@ def make(name: str, probe: Probe, noise: WrenchNoise | None = None, gates: Gates
     """
     if name not in METHODS:
         raise InputError(f"there is no method {name!r}; choose one of {', '.join(METHODS)}")
-    return METHODS[name](probe, noise, gates)
+    return METHODS[name](probe, noise, gates, model)

@@ -1,49 +1,70 @@
-"""The solver: from a wrench to a contact point, complete and honest about how sure it is."""
+"""The solver: from a wrench to a contact point, and how sure that is."""
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pipeline import kernel
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
+from pipeline.contact.touch_model import TouchModel
 from pipeline.mesh import Probe
 
 
 class ContactSolver(kernel.Solver):
     """Locate contacts on one probe.
 
-    Solves ``p x F + k n = M`` with p on the surface, n its outward normal and ``F . n < 0`` (Cao et al.
-    2023, Eq. 4-6) for every facet and vertex that can answer, prefers among them as :class:`Gates` says,
-    and states a reason. The solution of a facet needs no 4x4 system: a wrench meets a triangle exactly
-    when its moments about the three edges are negative, and those moments are the barycentric weights of p.
+    A touch at p with outward normal n and local torque k obeys ``M - p x F = k n`` (Cao et al. 2023, Eq. 4). What is
+    left of that, against what noise, calibration, model and mesh allow, is d2, in standard deviations squared; the
+    contact is the place of least d2 less the prior odds, among those with ``F . n < 0`` inside the friction cone.
+    With no limit on k it would be the closed form of the paper, with k = 0 the wrench axis.
 
     Parameters
     ----------
     probe : Probe
         The surface in the sensor frame S, metres.
     noise : WrenchNoise, optional
-        Uncertainty of the wrenches to come; decides the covariance and what counts as ambiguous.
+        Uncertainty of the wrenches to come, the model's error apart.
     gates : Gates, optional
-        Limits behind the reason codes.
+        Limits and odds behind the reason codes.
+    model : TouchModel, optional
+        Torsion, mesh, and what the wrench's model leaves out.
+
+    Attributes
+    ----------
+    covariance : (6, 6) float64
+        Of a wrench with everything: noise and model error; N², N²·m, N²·m².
 
     Notes
     -----
     ``locate(wrench)`` and ``locate(wrench, previous)`` are pure: the same arguments give the same bits.
     ``locate_batch(wrenches)`` takes (n, 6) and releases the interpreter's lock.
-    ``track(wrench)`` follows one stream and equals ``locate`` with the last accepted contact; ``reset()``
-    begins another; calls from several threads wait for each other.
+    ``track(wrench)`` follows one stream and equals ``locate`` with the last accepted contact, except where a second
+    touch joins it; ``reset()`` begins another; calls from several threads wait for each other.
     Wrenches are (6,) ``Fx Fy Fz Mx My Mz`` in S, N and N·m about the sensor origin, float64; they describe
     what the tissue does to the probe. A wrench that is not finite is answered with
     ``Reason.NOT_FINITE``; one of another shape or type raises TypeError.
     """
 
-    def __init__(self, probe: Probe, noise: WrenchNoise | None = None, gates: Gates | None = None) -> None:
+    def __init__(
+        self,
+        probe: Probe,
+        noise: WrenchNoise | None = None,
+        gates: Gates | None = None,
+        model: TouchModel | None = None,
+    ) -> None:
         self.probe = probe
         self.noise = noise or WrenchNoise()
         self.gates = gates or Gates()
+        self.model = model or TouchModel()
+        self.covariance: NDArray[np.float64] = self.noise.covariance + self.model.model_error.covariance
         super().__init__(
             probe.vertices,
             probe.faces,
             probe.region,
-            np.array(self.noise.covariance),
+            self.covariance,
+            bonus=self.gates.bonus(probe.region, probe.untouchable),
+            torsion_arm=self.model.torsion_arm,
+            mesh_deviation=self.model.mesh_deviation,
+            mesh_curved=self.model.mesh_curved,
             **self.gates.kernel_arguments(),
         )

@@ -14,16 +14,18 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 import numpy as np
 
 from pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
+from pipeline.contact.plausibility import Plausibility, Sample, unexplained
 from pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
 from pipeline.durable import scratch_beside, sync_folder
 from pipeline.errors import InputError
-from pipeline.kernel import Reason
 from pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import numpy.typing as npt
+
+    from pipeline.mesh import Probe
 
 __all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting", "whole_output"]
 
@@ -58,6 +60,8 @@ class LocateSummary:
         From the first byte read to the last one written.
     warnings : tuple of str
         What should make one doubt the answers: sentences with a remedy.
+    plausibility : Plausibility or None
+        What may be wrong, where no touch explains more than half of the rows with force.
     """
 
     rows: int
@@ -67,6 +71,7 @@ class LocateSummary:
     on_invented: int
     seconds: float
     warnings: tuple[str, ...] = ()
+    plausibility: Plausibility | None = None
 
     @property
     def rows_per_second(self) -> float:
@@ -75,7 +80,12 @@ class LocateSummary:
 
     def facts(self) -> dict[str, Any]:
         """Return everything as values that JSON knows."""
-        return {**asdict(self), "rows_per_second": self.rows_per_second, "warnings": list(self.warnings)}
+        return {
+            **asdict(self),
+            "rows_per_second": self.rows_per_second,
+            "warnings": list(self.warnings),
+            "plausibility": None if self.plausibility is None else self.plausibility.facts(),
+        }
 
 
 def locate_file(
@@ -85,7 +95,8 @@ def locate_file(
     *,
     track: bool = False,
     allow_nan: bool = False,
-    invented: npt.NDArray[np.bool_] | None = None,
+    compensated: bool = False,
+    probe: Probe | None = None,
     progress: Progress | None = None,
     block_bytes: int = BLOCK_BYTES,
 ) -> LocateSummary:
@@ -101,18 +112,22 @@ def locate_file(
         Whose ``locate_batch`` answers.
     source : path or binary file
         Columns t, fx, fy, fz, mx, my, mz in any order, others are ignored; s, N and N·m about the sensor
-        origin, in S.
+        origin, in S. Columns that only a raw recording has are refused.
     out : path or binary file
-        Gets columns t, x, y, z (S, m), k (N·m), face, reason, candidates, sigma_max_mm; cells are empty where
-        there is no point, t is the text of the input, numbers are as ``repr`` writes them.
+        Gets columns t, x, y, z (S, m), k (N·m), face, reason, candidates, sigma_max_mm, misfit (sigma squared),
+        confidence; cells are empty where there is no such number, t is the text of the input, numbers are as
+        ``repr`` writes them.
     track : bool
         Take the rows as one stream in which each contact follows the one before (``track_batch`` of a
         ContactSolver, which is reset first). A row whose t is not later than every t before it is answered
         with ``stale``.
     allow_nan : bool
         Answer rows with NaN, infinity or empty cells with ``not_finite`` instead of refusing the file.
-    invented : (m,) bool, optional
-        Facets that were made up (``Probe.invented``): contacts on them are counted.
+    compensated : bool
+        Take a file with the columns of a raw recording: somebody compensated it and left them in.
+    probe : Probe, optional
+        What is touched. Then contacts on invented facets are counted, and where no touch explains more than half
+        of the rows with force, the usual mistakes are tried.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
     block_bytes : int
@@ -125,24 +140,31 @@ def locate_file(
     Raises
     ------
     WrenchFileError
-        The source cannot be used or the output not written; the message names file, line and column.
+        The source cannot be used, is a raw recording, or the output cannot be written; the message names file,
+        line and column.
     InputError
         `track` with a method that cannot.
     """
     answer = _tracked(solver_or_method) if track else _Untracked(solver_or_method)
     refuse_overwriting(out, source)
     begin = time.perf_counter()
-    tally = _Tally(invented)
+    tally, sample = _Tally(None if probe is None else probe.invented), Sample()
     with open_table(source, WrenchFileError) as (stream, name, size), whole_output(out, "contacts") as write:
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
+        if not compensated:
+            reader.refuse_raw()
         write(HEADER)
         text = ContactRows()
         for rows, answers in _ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
             write(text.encode(rows.times, answers, sigma_mm))
             tally.add(answers.reasons, sigma_mm, answers.faces)
+            sample.add(rows.wrenches, answers.reasons)
             if progress is not None:
                 progress(reader.bytes_read, size)
+    judged = None
+    if probe is not None and unexplained(tally.reasons):
+        judged = sample.judge(solver_or_method, probe)
     return LocateSummary(
         rows=sum(tally.reasons.values()),
         reasons=tally.reasons,
@@ -150,7 +172,8 @@ def locate_file(
         median_sigma_max_mm=tally.median(),
         on_invented=tally.on_invented,
         seconds=time.perf_counter() - begin,
-        warnings=(*answer.warnings(), *tally.warnings()),
+        warnings=(*answer.warnings(), *tally.warnings(), *(() if judged is None else judged.sentences())),
+        plausibility=judged,
     )
 
 
@@ -270,21 +293,11 @@ class _Tally:
         return float(f"{value:.4g}")
 
     def warnings(self) -> tuple[str, ...]:
-        points = sum(
-            self.reasons[reason.name.lower()] for reason in (Reason.OK, Reason.VERTEX, Reason.AMBIGUOUS)
-        )
-        missed = self.reasons["off_surface"] + self.reasons["tangential"]
-        if self.on_invented:
-            guessed = (
-                f"Contacts on invented facets: {self.on_invented} of {points}. Where the mesh file had an opening,"
-                " the surface is a guess, and so are they."
-            )
-            return (guessed,)
-        if points or not missed:
+        if not self.on_invented:
             return ()
         sentences = (
-            "Not one wrench meets the probe. Check the units and the mount of the probe, that torques are in"
-            " N·m about the sensor origin, and that the forces are those of the tissue on the probe."
+            f"Contacts on invented facets: {self.on_invented} of {self._bins.sum()}. Where the mesh file had an"
+            " opening, the surface is a guess, and so are they."
         )
         return (sentences,)
 

@@ -16,6 +16,14 @@ if TYPE_CHECKING:
 
 CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
 COLUMNS = ("t", *CHANNELS)
+RAW_COLUMNS = (
+    "qw",
+    "qx",
+    "qy",
+    "qz",
+    "status",
+    "sequence",
+)  # a recording has them, compensated wrenches do not
 
 
 class WrenchFileError(TableError):
@@ -91,6 +99,24 @@ class WrenchReader:
         wanted = COLUMNS if timed else CHANNELS
         self._table.select(wanted, text="t", allow_nan=wanted if allow_nan else ())
         self._timed = timed
+
+    def refuse_raw(self) -> None:
+        """
+        Refuse a recording that nobody compensated, told by columns that `contactbench compensate` does not write.
+
+        Raises
+        ------
+        WrenchFileError
+            It looks like one.
+        """
+        raw = [name for name in self._table.names if name in RAW_COLUMNS]
+        if raw:
+            what = (
+                f"column{'s' * (len(raw) > 1)} {', '.join(raw)}: this is a raw recording, with the tool's weight and"
+                " the sensor's offset in it. Compensate it first: contactbench compensate calibration.json RECORDING"
+                " --out WRENCHES; or pass --compensated if that is done."
+            )
+            raise self._table.error(what, 1)
 
     @property
     def bytes_read(self) -> int:

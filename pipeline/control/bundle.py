@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.config.runtime.values import gates_of
+from pipeline.config.runtime.values import gates_of, touch_model_of
 from pipeline.contact.noise import WrenchNoise
 from pipeline.control.command import Mount
 from pipeline.control.sensing import Intake
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
 def intake_of(config: RuntimeConfig, settings: ControlSettings, method: str = "contactbench") -> Intake:
     """
-    Return what a bundle says of its sensor: gravity and bias, noise of a reading, gates.
+    Return what a bundle says of its sensor: gravity and bias, noise of a reading, gates, touch model.
 
     The bundle's filters are left out: a controller takes the mean of the readings of a period, and what a slow filter
     holds back is lost to its loops.
@@ -33,8 +34,16 @@ def intake_of(config: RuntimeConfig, settings: ControlSettings, method: str = "c
         There is no such method.
     """
     noise = WrenchNoise(config.model.noise.force_N, config.model.noise.torque_Nm)
+    model = touch_model_of(config.model.touch)
     gates = gates_of(config.model.gates)
-    return Intake(config.probe, config.gravity, noise, gates, method=method, stale=settings.stale)
+    # Odds stand with the regions: of the first of either kind all others follow.
+    odds = {region.untouchable: region.odds for region in reversed(config.model.regions)}
+    gates = replace(
+        gates,
+        region_odds=odds.get(False, gates.region_odds),
+        untouchable_odds=1 / odds[True] if True in odds else gates.untouchable_odds,
+    )
+    return Intake(config.probe, config.gravity, noise, gates, model, method=method, stale=settings.stale)
 
 
 def mount_of(config: RuntimeConfig, p_ES_E: ArrayLike, quaternion_ES: ArrayLike | None = None) -> Mount:

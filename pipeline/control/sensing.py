@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pipeline.calibration import GravityModel
+    from pipeline.contact.touch_model import TouchModel
     from pipeline.devices.sample import WrenchSample
     from pipeline.kernel import Contact
     from pipeline.mesh import Probe
@@ -87,6 +88,8 @@ class Intake:
     noise : WrenchNoise, optional
         Of one reading.
     gates : Gates, optional
+    model : TouchModel, optional
+        What is known of a touch beside the noise.
     method : str
         A name of `pipeline.contact.methods.METHODS`.
     located_from : float
@@ -106,13 +109,14 @@ class Intake:
         gravity: GravityModel,
         noise: WrenchNoise | None = None,
         gates: Gates | None = None,
+        model: TouchModel | None = None,
         *,
         method: str = "contactbench",
         located_from: float = 1.0,
         stale: float = 0.06,
     ) -> None:
         noise, gates = noise or WrenchNoise(), gates or Gates()
-        self._method = make(method, probe, noise, gates)
+        self._method = make(method, probe, noise, gates, model)
         variances = np.diag(noise.covariance)
         self._noise = float(np.sqrt(variances[:3].mean())), float(np.sqrt(variances[3:].mean()))
         self._ends = np.array(gates.saturation)

@@ -46,7 +46,6 @@ _SAMPLES = 50
 _OPERATOR = "contactbench demo"
 _UNTURNED = (1.0, 0.0, 0.0, 0.0)  # the virtual sensor sits on the flange as it is
 _AT_ONCE = 1_000
-_SURE = ("ok", "vertex")
 # The runtime's point is of filtered readings, the verification's of averaged ones: they differ by less than either
 # may be off, and another frame, sign or mesh by many times that.
 _APART = 1.0
@@ -262,7 +261,7 @@ def _through(config: RuntimeConfig, folder: Path, found: Verification, judged: C
     """Run the touches through the bundle, and compare its contacts with those that were verified."""
     answers = _answers(config, folder / "touches.mcap")
     write_bytes(folder / "contacts.jsonl", b"".join(answer.line for answer in answers))
-    sure = [answer for answer in answers if answer.reason in _SURE]
+    sure = [answer for answer in answers if answer.contact is not None and answer.contact.accepted]
     judged = replace(judged, samples=len(answers), located=len(sure))
     at = {round(answer.time * RATE_HZ): answer for answer in sure}
     apart, sigmas = [], []

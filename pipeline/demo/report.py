@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.demo.compare import ALL
+from pipeline.demo.compare import ALL, OURS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +25,6 @@ LIMIT = 1.3
 TOUCHED_LIMIT = 1.5
 
 MARKERS, DRAWN = "markers", "drawn"
-_OURS = "contactbench"
 _HEADINGS = ("mean", "p95", "max", "× bound", "answered", "ambiguous", "µs")
 
 
@@ -139,7 +138,7 @@ class DemoReport:
             rows = [row for row in result.shown if row.where == ALL]
             for row in rows:
                 first = result.probe if row is rows[0] else ""
-                style = "bold" if row.method == _OURS else ""
+                style = "bold" if row.method == OURS else ""
                 table.add_row(first, row.method, *_cells(row), style=style, end_section=row is rows[-1])
         return table
 
@@ -195,7 +194,7 @@ class DemoReport:
 
 def ours(errors: Sequence[MethodErrors]) -> MethodErrors:
     """Return how contactbench did over all touches."""
-    return next(row for row in errors if (row.method, row.where) == (_OURS, ALL))
+    return next(row for row in errors if (row.method, row.where) == (OURS, ALL))
 
 
 def within(row: MethodErrors, limit: float) -> bool:
@@ -205,7 +204,7 @@ def within(row: MethodErrors, limit: float) -> bool:
 
 _CAPTION = (
     "mean, p95 and max are errors in mm, of touches answered without doubt. × bound is their root mean square"
-    " over what noise and calibration would give. Only contactbench and scan ever say ambiguous; iterative"
+    " over what noise and calibration would give. Only contactbench ever says ambiguous; iterative"
     " knows the contact face only. µs is the median time of one compiled solve."
 )
 

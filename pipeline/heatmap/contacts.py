@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     from pipeline.mesh import Probe
     from pipeline.recording.tracks import FlangeTrack, WrenchTrack
 
-# At these the point is where the wrench says, if not always surely the only one.
-USED = ("ok", "vertex", "ambiguous", "outside_region")
+# At these the point is surely where the wrench says.
+USED = ("ok", "vertex", "by_region")
+_WORTH_SAYING = 0.1  # of the contacts: a larger share that could be elsewhere is told
 _LONGEST_STEPS = 5.0  # medians: a contact does not last through a gap in the recording
 _BLOCK_ROWS = 65_536
 
@@ -70,6 +71,8 @@ class Contacts:
         Where the force was steady; None: not known.
     times : (n,) or None
         s since the recording's first sample, or the start of the first touch; None: not known.
+    confidences : (n,) or None
+        How sure each place is, 0 to 1; None: not known.
     noise : WrenchNoise or None
         Of a sample, with what the calibration leaves uncertain; None: the contacts came with theirs.
     """
@@ -86,6 +89,7 @@ class Contacts:
     settled: NDArray[np.bool_] | None = None
     noise: WrenchNoise | None = None
     times: NDArray[np.float64] | None = None
+    confidences: NDArray[np.float64] | None = None
 
     @property
     def moments(self) -> NDArray[np.float64]:
@@ -120,7 +124,9 @@ def read_contacts(file: Path, wrenches: Path | None = None) -> Contacts:
     try:
         with file.open("rb") as stream:
             table = TableReader(stream, str(file), _CONTACTS)
-            table.select(columns, text="reason", allow_nan=columns[1:])
+            table.select(
+                columns, optional=("confidence",), text="reason", allow_nan=(*columns[1:], "confidence")
+            )
             blocks = [(rows.numbers, rows.text) for rows in table]
     except (OSError, ValueError) as error:
         raise _unread(file, error) from error
@@ -134,7 +140,21 @@ def read_contacts(file: Path, wrenches: Path | None = None) -> Contacts:
             " locate` wrote."
         )
     forces = None if wrenches is None else _forces(wrenches, len(numbers), file)
-    return _contacts(numbers[:, 0], numbers[:, 1:4], reasons, 1e-3 * numbers[:, 4], forces, ())
+    # Files from before contacts had a confidence have no such column.
+    confidences = numbers[:, 5] if table.columns[5:] else None
+    if confidences is not None:
+        _check_confidences(file, confidences, _used(reasons, numbers[:, 1:4]))
+    return _contacts(numbers[:, 0], numbers[:, 1:4], reasons, 1e-3 * numbers[:, 4], forces, confidences, ())
+
+
+def _check_confidences(file: Path, confidences: NDArray[np.float64], used: NDArray[np.bool_]) -> None:
+    bad = used & ~((confidences >= 0) & (confidences <= 1))
+    if bad.any():
+        row = int(np.argmax(bad))
+        raise HeatmapError(
+            f"{file}: row {row + 1}: the confidence is {confidences[row]:g}, not between 0 and 1: locate the contacts"
+            " again."
+        )
 
 
 def read_points(file: Path) -> NDArray[np.float64]:
@@ -207,13 +227,11 @@ def locate_recording(
     found = [
         solver.locate_batch(wrenches[row : row + _BLOCK_ROWS]) for row in range(0, len(times), _BLOCK_ROWS)
     ]
-    points, reasons, sigmas = (
-        np.concatenate(column)
-        for column in zip(*((each.points, each.reasons, each.sigma_max) for each in found), strict=True)
-    )
+    columns = ((each.points, each.reasons, each.sigma_max, each.confidences) for each in found)
+    points, reasons, sigmas, confidences = (np.concatenate(column) for column in zip(*columns, strict=True))
     names = np.array(REASONS, dtype=np.bytes_)[reasons]
     forces = np.linalg.norm(wrenches[:, :3], axis=1)
-    return replace(_contacts(times, points, names, sigmas, forces, tuple(said)), noise=total)
+    return replace(_contacts(times, points, names, sigmas, forces, confidences, tuple(said)), noise=total)
 
 
 def _compensated(
@@ -245,10 +263,18 @@ def _contacts(
     reasons: NDArray[np.bytes_],
     sigmas: NDArray[np.float64],
     forces: NDArray[np.float64] | None,
+    confidences: NDArray[np.float64] | None,
     notes: tuple[str, ...],
 ) -> Contacts:
-    used = np.isin(reasons, np.array(USED, dtype=np.bytes_)) & np.isfinite(points).all(axis=1)
+    used = _used(reasons, points)
     names, counts = np.unique(reasons[~used], return_counts=True)
+    doubtful = int(counts[names == b"ambiguous"].sum())
+    if doubtful > _WORTH_SAYING * (doubtful + used.sum()):
+        said = (
+            f"{doubtful:,} of {doubtful + used.sum():,} contacts could be at another place as well and are not in the"
+            " map: mark the region that is touched, and locate them again."
+        )
+        notes = (*notes, said)
     usual = usual_step(times)
     seconds = np.clip(np.append(np.diff(times), usual), 0.0, _LONGEST_STEPS * usual)
     return Contacts(
@@ -261,7 +287,12 @@ def _contacts(
         notes,
         settled=None if forces is None else settled(times, forces)[used],
         times=times[used] - times[0],
+        confidences=None if confidences is None else confidences[used],
     )
+
+
+def _used(reasons: NDArray[np.bytes_], points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    return np.isin(reasons, np.array(USED, dtype=np.bytes_)) & np.isfinite(points).all(axis=1)
 
 
 def _forces(file: Path, count: int, contacts: Path) -> NDArray[np.float64]:

@@ -64,6 +64,8 @@ class Heatmap:
         What limits it, in sentences.
     counted : str
         What went into it, for people: contacts, samples or touches.
+    by_confidence : bool
+        Each of them counts as much as its place is sure: of a density, the integral is the sum of that.
     """
 
     probe: Probe
@@ -76,11 +78,12 @@ class Heatmap:
     total: float
     notes: tuple[str, ...] = ()
     counted: str = "contacts"
+    by_confidence: bool = False
 
     @property
     def title(self) -> str:
         """The quantity in words."""
-        return _WORDS[self.quantity]
+        return _WORDS[self.quantity] + (", weighed by confidence" if self.by_confidence else "")
 
     @property
     def known(self) -> NDArray[np.bool_]:
@@ -114,6 +117,7 @@ class Heatmap:
             "normalisation": self.normalisation if self.quantity == "density" else None,
             "contacts": self.contacts,
             "counted": self.counted,
+            "by_confidence": self.by_confidence,
             "total": self.total,
             "largest": self.largest,
             "colours_to": self.top,

@@ -25,7 +25,7 @@ from pipeline.heatmap.heatmap import (
     _check_bandwidth,
     default_bandwidth,
 )
-from pipeline.heatmap.windowing import Selection, force_mask, shown
+from pipeline.heatmap.windowing import Selection, force_mask, shown, weights_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -139,9 +139,10 @@ class Playback:
         elif values is None:
             result = nothing
         elif selection.quantity == "peak":
+            weights_of(self.contacts, selection)  # refuses what cannot be weighed
             result = self._peaks.of(self._bells._source_of[rows], values[rows])
         else:
-            result = scale * self._mean(rows, values[rows])
+            result = scale * self._mean(rows, values[rows], self._counts(rows, selection))
         return Frame(result, self.unit(selection), len(rows))
 
     def heatmap(self, selection: Selection) -> Heatmap:
@@ -158,6 +159,7 @@ class Playback:
             float("nan"),
             (),
             self.contacts.counted,
+            selection.by_confidence,
         )
 
     def top(self, selection: Selection, window: float | None = None) -> float:
@@ -209,24 +211,29 @@ class Playback:
         return first + np.flatnonzero(self._masks[key][first:last]), values
 
     def _weights(self, rows: NDArray[np.intp], selection: Selection) -> NDArray[np.float64]:
-        if selection.normalisation == "seconds":
-            return self.contacts.seconds[rows]
-        weights = np.ones(len(rows))
+        weights = self._counts(rows, selection)
         if selection.normalisation == "rate":
             start, end = selection.start or 0.0, selection.end
             length = min(np.inf if end is None else end, self.contacts.duration) - max(start, 0.0)
-            weights /= max(length if selection.timed else self.contacts.duration, 1e-9)
+            return weights / max(length if selection.timed else self.contacts.duration, 1e-9)
         return weights
+
+    def _counts(self, rows: NDArray[np.intp], selection: Selection) -> NDArray[np.float64]:
+        """Return what each of these contacts counts."""
+        weights = weights_of(self.contacts, selection)
+        return np.ones(len(rows)) if weights is None else weights[rows]
 
     def _spread(self, rows: NDArray[np.intp], weights: NDArray[np.float64]) -> NDArray[np.float64]:
         sums = np.bincount(self._bells._source_of[rows], weights, minlength=self._matrix.shape[1])
         spread: NDArray[np.float64] = self._matrix @ sums
         return spread
 
-    def _mean(self, rows: NDArray[np.intp], values: NDArray[np.float64]) -> NDArray[np.float64]:
-        total = self._spread(rows, np.ones(len(rows)))
+    def _mean(
+        self, rows: NDArray[np.intp], values: NDArray[np.float64], weights: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        total = self._spread(rows, weights)
         with np.errstate(invalid="ignore", divide="ignore"):
-            mean = self._spread(rows, values) / total
+            mean = self._spread(rows, weights * values) / total
         # as the heatmap has it: a mean lies among its values, whatever rounding says far out in the bells
         return np.where(total > 0, np.clip(mean, values.min(initial=0), values.max(initial=0)), np.nan)
 
@@ -261,6 +268,7 @@ class Playback:
             # samples of one touch say the same thing: what counts is how many touches there were
             each = np.bincount(self._touch_of[rows], bell * self._weights(rows, selection))
             return scale * float(np.sqrt(each @ each))
+        bell *= self._counts(rows, selection)
         if values is None or not bell.sum() > 0:
             return float("nan")
         mean = float(np.average(values[rows], weights=bell))

@@ -40,6 +40,8 @@ class Selection:
         Window of time, s, both ends in it; None: no limit.
     least_force, most_force : float or None
         Range of |F|, N, both ends in it; None: no limit.
+    by_confidence : bool
+        Each contact counts as much as its place is sure.
     """
 
     quantity: Quantity = "density"
@@ -49,6 +51,7 @@ class Selection:
     end: float | None = None
     least_force: float | None = None
     most_force: float | None = None
+    by_confidence: bool = False
 
     @property
     def timed(self) -> bool:
@@ -86,6 +89,7 @@ def _of(contacts: Contacts, which: NDArray[Any]) -> Contacts:
         known_errors=part(contacts.known_errors),
         settled=part(contacts.settled),
         times=part(contacts.times),
+        confidences=part(contacts.confidences),
     )
 
 
@@ -195,6 +199,31 @@ def shown(
     return contacts.forces, everyone
 
 
+def weights_of(contacts: Contacts, selection: Selection) -> NDArray[np.float64] | None:
+    """
+    Return what each contact (n,) counts for a selection, a rate's duration apart; None: each counts 1.
+
+    Raises
+    ------
+    HeatmapError
+        It should be weighed by confidence, and that is not known, or makes no sense for the quantity.
+    """
+    per_second = selection.quantity == "density" and selection.normalisation == "seconds"
+    if not selection.by_confidence:
+        return contacts.seconds if per_second else None
+    if selection.quantity == "peak":
+        raise HeatmapError(
+            "a peak is the largest force, so its contacts cannot be weighed: choose another quantity, or do not weigh"
+            " by confidence."
+        )
+    if contacts.confidences is None:
+        raise HeatmapError(
+            "these contacts do not say how sure they are: locate them again for a column `confidence`, or do not weigh"
+            " by confidence."
+        )
+    return contacts.confidences * contacts.seconds if per_second else contacts.confidences
+
+
 def drawn(
     probe: Probe,
     contacts: Contacts,
@@ -212,11 +241,13 @@ def drawn(
     use : (n,) bool
         Which of them count.
     """
-    per_second = selection.quantity == "density" and selection.normalisation == "seconds"
-    return heatmap(
+    weights = weights_of(contacts, selection)
+    if weights is not None and not weights[use].any():
+        raise HeatmapError("none of these contacts is sure at all: do not weigh by confidence.")
+    made = heatmap(
         drawing_of(probe),
         contacts.points[use],
-        contacts.seconds[use] if per_second else None,
+        None if weights is None else weights[use],
         selection.quantity,
         default_bandwidth(contacts.sigmas) if selection.bandwidth is None else selection.bandwidth,
         values=None if values is None else values[use],
@@ -224,6 +255,7 @@ def drawn(
         duration=contacts.duration,
         counted=contacts.counted,
     )
+    return replace(made, by_confidence=selection.by_confidence)
 
 
 def selected_heatmap(probe: Probe, contacts: Contacts, selection: Selection) -> Heatmap:

@@ -105,7 +105,8 @@ def load_probe(
     Returns
     -------
     Probe
-        In metres and S. A PLY face property `region` of integers becomes ``probe.region``.
+        In metres and S. A PLY face property `region` of integers becomes ``probe.region``; `untouchable` is kept
+        by files that `save_probe` wrote.
 
     Raises
     ------
@@ -286,7 +287,7 @@ def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> P
     _refuse_many(dropped, len(faces))
     if dropped:
         faces, region, invented = faces[~flat], region[~flat], invented[~flat]
-    return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped, invented)
+    return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped, invented, raw.untouchable)
 
 
 def _refuse_many(dropped: int, total: int) -> None:

@@ -49,6 +49,8 @@ class RawMesh:
         1 for facets that the original did not hold, where the file says so.
     stated : {"mm", "m", "cm", "in"} or None
         The unit of the numbers, of a format that must state it.
+    untouchable : tuple of int
+        Regions that nothing can touch, where the file says so.
     """
 
     vertices: npt.NDArray[np.float64]
@@ -57,6 +59,7 @@ class RawMesh:
     settled: bool = False
     invented: npt.NDArray[np.int64] | None = None
     stated: Units | None = None
+    untouchable: tuple[int, ...] = ()
 
 
 class Triangles:

@@ -14,7 +14,7 @@ import numpy as np
 
 from pipeline.mesh.parse import RawMesh
 from pipeline.mesh.ply_body import read_binary, read_text
-from pipeline.mesh.ply_header import SETTLED, read_header
+from pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, read_header
 
 if TYPE_CHECKING:
     import os
@@ -49,6 +49,7 @@ def read_ply(data: bytes) -> RawMesh:
         body.labels.get("region"),
         settled=header.settled,
         invented=body.labels.get("invented"),
+        untouchable=header.untouchable,
     )
 
 
@@ -58,6 +59,7 @@ def encode_ply(
     region: npt.NDArray[np.int32],
     invented: npt.NDArray[np.bool_],
     colours: npt.NDArray[np.uint8],
+    untouchable: tuple[int, ...] = (),
 ) -> bytes:
     """
     Encode a mesh as binary little-endian PLY.
@@ -74,6 +76,8 @@ def encode_ply(
         Facets that the original did not hold, written as the property `invented`, 0 or 1.
     colours : (m, 3) uint8
         Red, green, blue per facet: for viewers, ignored when the file is read.
+    untouchable : tuple of int
+        Regions that nothing can touch, written as a comment of the header.
 
     Returns
     -------
@@ -84,8 +88,9 @@ def encode_ply(
     rows = np.empty(len(faces), dtype=[*fields, ("colour", "u1", (3,))])
     rows["count"], rows["vertex_indices"], rows["region"] = 3, faces, region
     rows["invented"], rows["colour"] = invented, colours
+    hidden = " ".join([f"comment {UNTOUCHABLE}", *map(str, untouchable)]) + "\n" if untouchable else ""
     header = (
-        f"ply\nformat binary_little_endian 1.0\ncomment {SETTLED}\ncomment metres\n"
+        f"ply\nformat binary_little_endian 1.0\ncomment {SETTLED}\ncomment metres\n{hidden}"
         f"element vertex {len(vertices)}\nproperty double x\nproperty double y\nproperty double z\n"
         f"element face {len(faces)}\nproperty list uchar int vertex_indices\nproperty int region\n"
         "property uchar invented\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"

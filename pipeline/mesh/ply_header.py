@@ -10,6 +10,9 @@ from pipeline.mesh.errors import MeshError
 # `save_probe` writes it; merging or cleaning such a mesh again could renumber what a session refers to.
 SETTLED = "contactbench probe 1"
 
+# Numbers of regions follow it.
+UNTOUCHABLE = "untouchable regions"
+
 INDICES = "vertex_indices"
 
 INTEGERS = {
@@ -73,12 +76,15 @@ class Header:
         Written by `save_probe`.
     length : int
         Bytes of the header; the body follows.
+    untouchable : tuple of int
+        Regions that nothing can touch; only of a file that `save_probe` wrote.
     """
 
     order: str
     elements: tuple[Element, ...]
     settled: bool
     length: int
+    untouchable: tuple[int, ...] = ()
 
     @property
     def contents(self) -> str:
@@ -114,6 +120,7 @@ def read_header(data: bytes) -> Header:
         raise MeshError("the PLY header has no 'end_header' line: the file is cut short, export it again.")
     lines = data[: end.start()].decode("latin-1").split("\n")[1:]
     order, settled = None, False
+    untouchable: set[int] = set()
     elements: list[tuple[str, int, list[Property]]] = []
     for number, line in enumerate(lines, start=2):
         match line.split():
@@ -123,7 +130,9 @@ def read_header(data: bytes) -> Header:
                 elements.append((name, int(count), []))
             case ["property", *rest] if elements and (found := _property(rest, elements[-1][0])):
                 elements[-1][2].append(found)
-            case ["comment" | "obj_info", *words]:
+            case ["comment", "untouchable", "regions", *ranks] if settled and _are_ranks(ranks):
+                untouchable.update(map(int, ranks))
+            case ["comment" | "obj_info", *words] if not (settled and words[:2] == UNTOUCHABLE.split()):
                 settled = settled or " ".join(words) == SETTLED
             case []:
                 pass
@@ -136,7 +145,11 @@ def read_header(data: bytes) -> Header:
     # Elements without rows take no bytes.
     rows = tuple(Element(name, count, tuple(columns)) for name, count, columns in elements if count)
     _check(rows)
-    return Header(order, rows, settled, end.end())
+    return Header(order, rows, settled, end.end(), tuple(sorted(untouchable)))
+
+
+def _are_ranks(words: list[str]) -> bool:
+    return bool(words) and all(re.fullmatch("[1-9][0-9]{0,8}", word) for word in words)
 
 
 def _property(words: list[str], element: str) -> Property | None:

@@ -54,6 +54,8 @@ class Probe:
         For people.
     health : MeshHealth
         Defects of the mesh.
+    untouchable : tuple of int
+        Numbers of the regions that nothing can touch: hidden by a clamp or a drape.
     """
 
     vertices: npt.NDArray[np.float64]
@@ -62,6 +64,7 @@ class Probe:
     invented: npt.NDArray[np.bool_]
     name: str
     health: MeshHealth
+    untouchable: tuple[int, ...] = ()
 
     @classmethod
     def from_arrays(
@@ -73,6 +76,7 @@ class Probe:
         invented: npt.ArrayLike | None = None,
         name: str = "probe",
         check_size: bool = True,
+        untouchable: tuple[int, ...] = (),
     ) -> Probe:
         """
         Check arrays and make a probe of copies of them.
@@ -91,6 +95,8 @@ class Probe:
             For people.
         check_size : bool
             Refuse a largest extent under 5 mm or over 2 m, which is nearly always a wrong unit.
+        untouchable : tuple of int
+            Numbers of the regions that nothing can touch.
 
         Returns
         -------
@@ -110,9 +116,9 @@ class Probe:
         _refuse_degenerate(vertices, triangles)
         if check_size:
             refuse_size(extent(vertices, triangles), _array_remedy)
-        return build_probe(vertices, triangles, priorities, name, invented=guessed)
+        return build_probe(vertices, triangles, priorities, name, invented=guessed, untouchable=untouchable)
 
-    def with_region(self, region: npt.ArrayLike) -> Probe:
+    def with_region(self, region: npt.ArrayLike, untouchable: tuple[int, ...] = ()) -> Probe:
         """
         Give the same surface other regions; vertices and faces are shared, not copied.
 
@@ -120,6 +126,8 @@ class Probe:
         ----------
         region : (m,) array_like of integers
             Priority per facet, 0 for none.
+        untouchable : tuple of int, optional
+            Numbers of the regions that nothing can touch.
 
         Returns
         -------
@@ -130,7 +138,8 @@ class Probe:
         MeshError
             Wrong length or dtype, or a negative region.
         """
-        return replace(self, region=_frozen(check_region(region, len(self.faces))))
+        labels = _frozen(check_region(region, len(self.faces)))
+        return replace(self, region=labels, untouchable=untouchable)
 
     def with_invented(self, invented: npt.ArrayLike) -> Probe:
         """
@@ -158,6 +167,11 @@ class Probe:
         return _frozen(cross / np.linalg.norm(cross, axis=1, keepdims=True))
 
     @cached_property
+    def preferred(self) -> npt.NDArray[np.bool_]:
+        """Facets of a region that is there to be touched, (m,), read-only."""
+        return _frozen((self.region > 0) & ~np.isin(self.region, self.untouchable))
+
+    @cached_property
     def areas(self) -> npt.NDArray[np.float64]:
         """Area per facet in m², (m,), read-only."""
         cross, scale = _cross(self.vertices, self.faces)
@@ -181,12 +195,15 @@ def build_probe(
     name: str,
     dropped_facets: int = 0,
     invented: npt.NDArray[np.bool_] | None = None,
+    untouchable: tuple[int, ...] = (),
 ) -> Probe:
     """Make a probe of arrays that have passed every check and belong to nobody else: they are frozen here."""
     health = measure_health(vertices, faces, dropped_facets)
     if invented is None:
         invented = np.zeros(len(faces), dtype=bool)
-    return Probe(_frozen(vertices), _frozen(faces), _frozen(region), _frozen(invented), name, health)
+    return Probe(
+        _frozen(vertices), _frozen(faces), _frozen(region), _frozen(invented), name, health, untouchable
+    )
 
 
 def check_vertices(values: npt.ArrayLike) -> npt.NDArray[np.float64]:

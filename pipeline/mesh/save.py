@@ -21,8 +21,8 @@ def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:
     """
     Write a probe as binary PLY: metres in S, double coordinates, and the face properties `region` and `invented`.
 
-    ``load_probe(path, units="m")`` gives the same vertices, faces, region and invented, bit for bit. Facets are
-    coloured by region, and invented ones apart, so that any viewer shows them.
+    ``load_probe(path, units="m")`` gives the same vertices, faces, region, invented and untouchable, bit for bit.
+    Facets are coloured by region, and invented ones apart, so that any viewer shows them.
 
     Parameters
     ----------
@@ -59,4 +59,4 @@ def encode_probe(probe: Probe, colours: Sequence[str] = ()) -> bytes:
         ``#rrggbb`` per priority; the palette's where they are left out.
     """
     shown = facet_colours(probe.region, probe.invented, colours)
-    return encode_ply(probe.vertices, probe.faces, probe.region, probe.invented, shown)
+    return encode_ply(probe.vertices, probe.faces, probe.region, probe.invented, shown, probe.untouchable)

@@ -19,7 +19,14 @@ from pipeline.durable import write_durably
 from pipeline.mesh.errors import MeshError, MeshWarning
 from pipeline.mesh.load import load_probe
 from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.exchange import SIZE_LIMIT, mesh_hash, parse_json, read_limited, read_region
+from pipeline.mesh.regions.exchange import (
+    SIZE_LIMIT,
+    mesh_hash,
+    parse_json,
+    read_limited,
+    read_region,
+    write_region,
+)
 from pipeline.mesh.regions.region import RegionSet, check_list
 from pipeline.mesh.save import encode_probe
 
@@ -43,9 +50,9 @@ class ProbeFile:
     Attributes
     ----------
     probe : Probe
-        In the frame `frame`, metres.
+        In the frame `frame`, metres; its `untouchable` is what `regions` says.
     regions : RegionSet
-        Names and colours of its regions; their ranks are ``probe.region``.
+        Names, colours and marks of its regions; their ranks are ``probe.region``.
     frame : {"P", "S"}
         P: as the file has it. S: aligned with the sensor.
     history : tuple of mapping
@@ -59,6 +66,11 @@ class ProbeFile:
     frame: Frame = "P"
     history: tuple[Mapping[str, Any], ...] = ()
     notes: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        untouchable = self.regions.untouchable
+        if self.probe.untouchable != untouchable:
+            object.__setattr__(self, "probe", replace(self.probe, untouchable=untouchable))
 
     def after(
         self,
@@ -98,7 +110,7 @@ class ProbeFile:
             regions = RegionSet.from_labels(probe.region, self.regions.regions)
         return replace(
             self,
-            probe=probe.with_region(regions.labels),
+            probe=probe.with_region(regions.labels, regions.untouchable),
             regions=regions,
             frame=self.frame if frame is None else frame,
             history=(*self.history, entry),
@@ -135,7 +147,7 @@ def load_probe_file(path: str | os.PathLike[str]) -> ProbeFile:
     file = sidecar_of(mesh)
     try:
         document = read_document(file)
-        regions = RegionSet.from_labels(probe.region, read_list(document))
+        regions = RegionSet.from_labels(probe.region, read_list(document), probe.untouchable)
         return ProbeFile(probe, regions, _frame(document), _history(document), _notes(document, mesh))
     except RegionError as error:
         raise RegionError(f"{file}: {error}") from error
@@ -156,8 +168,9 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
     mesh = Path(path)
     file = sidecar_of(mesh)
     document = check_target(mesh)
-    colours = [region.colour for region in content.regions.regions]
-    surface = encode_probe(content.probe.with_region(content.regions.labels), colours)
+    regions = content.regions
+    colours = [region.colour for region in regions.regions]
+    surface = encode_probe(content.probe.with_region(regions.labels, regions.untouchable), colours)
     document |= {
         "schema": SCHEMA,
         "version": VERSION,
@@ -167,7 +180,7 @@ def save_probe_file(content: ProbeFile, path: str | os.PathLike[str]) -> None:
             "unit": "m",
             "frame": content.frame,
         },
-        "regions": [{"name": region.name, "colour": region.colour} for region in content.regions.regions],
+        "regions": [write_region(region) for region in regions.regions],
         "history": [dict(step) for step in content.history],
     }
     data = (json.dumps(document, ensure_ascii=False, allow_nan=False, indent=2) + "\n").encode()

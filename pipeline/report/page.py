@@ -26,6 +26,7 @@ from pipeline.report.facts import (
 )
 from pipeline.report.text import printable
 from pipeline.report.touches import MOST_SHOWN, error_map, marker_views
+from pipeline.verification.model_error import model_error_words
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -105,6 +106,7 @@ def _context(content: ReportContent) -> dict[str, Any]:
         "total": len(verification.touches),
         "summaries": summaries(verification),
         "bias": vector_words(verification),
+        "left": model_error_words(verification.model_error),
         "touches": touch_rows(verification),
         "calibration": None if content.calibration is None else calibration_facts(content.calibration),
         "settings": settings_rows(verification.settings),

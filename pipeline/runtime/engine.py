@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from math import log
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pipeline import kernel
-from pipeline.config.runtime.values import gates_of
+from pipeline.config.runtime.values import gates_of, touch_model_of
 from pipeline.devices.sample import Status
 from pipeline.runtime.lines import Answer
 
@@ -30,22 +31,41 @@ def make_runtime(config: RuntimeConfig) -> kernel.Runtime:
     ----------
     config : RuntimeConfig
     """
+    return kernel.Runtime(**kernel_arguments(config))
+
+
+def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
+    """
+    Return the arguments of :class:`pipeline.kernel.Runtime` for a config, with the bits of the C library.
+
+    Parameters
+    ----------
+    config : RuntimeConfig
+    """
     model, probe = config.model, config.probe
+    touch = touch_model_of(model.touch)
+    bonus = np.array([0.0, *(2 * log(region.odds) for region in model.regions)])
     wrench, location = model.filters.wrench, model.filters.location
     kalman = None
     if wrench is not None:
         values = (wrench.rate_Hz, wrench.q, wrench.r, wrench.tuned_rate_Hz, wrench.per_sample)
         kalman = np.array(values, dtype=np.float64)
-    return kernel.Runtime(
-        probe.vertices,
-        probe.faces,
-        probe.region,
-        np.array(model.noise.wrench_covariance),
-        config.gravity.vector,
-        kalman=kalman,
-        sections=np.zeros((0, 6)) if location is None else np.array(location.sections),
+    return {
+        "vertices": probe.vertices,
+        "faces": probe.faces,
+        "region": probe.region,
+        "noise": np.array(model.noise.wrench_covariance) + touch.model_error.covariance,
+        "gravity": config.gravity.vector,
+        "kalman": kalman,
+        "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
+        "bonus": bonus[probe.region],
+        "torsion_arm": touch.torsion_arm,
+        "mesh_deviation": touch.mesh_deviation,
+        "mesh_curved": touch.mesh_curved,
         **gates_of(model.gates).kernel_arguments(),
-    )
+        # As it stands there: Gates has come to it by way of a probability.
+        "implausible_misfit": model.gates.implausible_misfit,
+    }
 
 
 class Engine:

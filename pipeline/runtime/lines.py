@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 _STALE = "stale"  # as the kernel names it
 _NOWHERE = (
-    ',"point_S_m":null,"filtered_point_S_m":null,"normal_S":null,"torque_Nm":null,"force_S_N":null,'
-    '"torque_S_Nm":null,"covariance_S_m2":null,"face":-1,"vertex":-1,"region":0,"candidates":0,"runner_up_m":null}\n'
+    ',"accepted":false,"point_S_m":null,"filtered_point_S_m":null,"normal_S":null,"torque_Nm":null,"force_S_N":null,'
+    '"torque_S_Nm":null,"covariance_S_m2":null,"face":-1,"vertex":-1,"region":0,"candidates":0,"confidence":0,'
+    '"misfit":null,"left_over_Nm":null,"arm_m":null,"runner_up_S_m":null,"second_S_m":null}\n'
 )
 
 
@@ -74,13 +75,17 @@ def _line(time: float, contact: kernel.RuntimeContact | None) -> str:
     covariance = contact.covariance
     return (
         f'{{"time":{number(time)},"reason":"{contact.reason_name}"'
+        f',"accepted":{"true" if contact.accepted else "false"}'
         f',"point_S_m":{_array(contact.point)},"filtered_point_S_m":{_array(contact.filtered_point)}'
         f',"normal_S":{_array(contact.normal)},"torque_Nm":{number(contact.torque)}'
         f',"force_S_N":{_array(None if wrench is None else wrench[:3])}'
         f',"torque_S_Nm":{_array(None if wrench is None else wrench[3:])}'
         f',"covariance_S_m2":{_array(None if covariance is None else covariance.ravel())}'
         f',"face":{_index(contact.face)},"vertex":{_index(contact.vertex)},"region":{contact.region}'
-        f',"candidates":{contact.candidates},"runner_up_m":{number(contact.runner_up_distance)}}}\n'
+        f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'
+        f',"misfit":{number(contact.misfit)},"left_over_Nm":{number(contact.left_over)}'
+        f',"arm_m":{number(contact.arm)},"runner_up_S_m":{_array(contact.runner_up)}'
+        f',"second_S_m":{_array(contact.second)}}}\n'
     )
 
 

@@ -217,7 +217,8 @@ def contact_schema() -> bytes:
         "timestamp": {"type": "object", "properties": {"sec": whole, "nsec": whole}},
         "frame_id": text,
         "time": _numbers("The samples' clock, s.", array=False),
-        "reason": {**text, "description": "Act only on ok and vertex."},
+        "reason": {**text, "description": "Why there is a contact, or none."},
+        "accepted": {"type": "boolean", "description": "Act only where it is true."},
         "point_S_m": _numbers("In the sensor's frame, m; null: none."),
         "filtered_point_S_m": _numbers("Low-passed, m; held for a moment without contact."),
         "normal_S": _numbers("Outward."),
@@ -229,7 +230,12 @@ def contact_schema() -> bytes:
         "vertex": {**whole, "description": "-1: none."},
         "region": {**whole, "description": "Rank; 0: none."},
         "candidates": whole,
-        "runner_up_m": _numbers("To the likeliest other candidate, m.", array=False),
+        "confidence": _numbers("That this place is touched and no other, 0 to 1.", array=False),
+        "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),
+        "left_over_Nm": _numbers("Torque that the best touch does not explain, N·m.", array=False),
+        "arm_m": _numbers("Torque along the force over the force, m.", array=False),
+        "runner_up_S_m": _numbers("The likeliest other place, m; null: none."),
+        "second_S_m": _numbers("Where a second touch has joined this one, m; null: none."),
     }
     schema = {"title": CONTACT_SCHEMA, "type": "object", "properties": fields}
     return json.dumps(schema, ensure_ascii=False).encode()

@@ -13,6 +13,7 @@ from pipeline.config.runtime import Filters, RuntimeConfig, build_config
 from pipeline.config.runtime.model import LimitsPart, SensorPart, SourcePart, VerificationPart
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
+from pipeline.contact.touch_model import TouchModel
 from pipeline.control.content import controller_of
 from pipeline.control.foundation import Foundation
 from pipeline.control.settings import ControlSettings
@@ -22,9 +23,16 @@ from pipeline.mesh.regions import Region, RegionSet
 from pipeline.mesh.sidecar import ProbeFile
 from pipeline.simulation.weighing import weigh
 
+_CLAMP_M = 0.02
+
 
 def example_config(
-    facets: int = 1_000, *, rate: float = 1_000.0, seed: int = 1, verified: bool = True
+    facets: int = 1_000,
+    *,
+    rate: float = 1_000.0,
+    seed: int = 1,
+    verified: bool = True,
+    clamped: bool = False,
 ) -> RuntimeConfig:
     """
     Make a config of the bundled T-shape; the same arguments give the same bytes.
@@ -38,6 +46,8 @@ def example_config(
         Of the readings that the calibration is made from.
     verified : bool
         Left out, the verification is missing.
+    clamped : bool
+        A clamp hides the end at the sensor, and the model error was measured.
     """
     rng = np.random.default_rng(seed)
     truth = GravityModel(
@@ -50,8 +60,13 @@ def example_config(
     calibration = calibrate(weigh(truth, Rotation.random(12, rng).as_matrix(), noise, rng).poses, noise)
     vertices, faces = assets.make("t-shape", facets)
     region = assets.contact_region("t-shape", vertices, faces)
+    painted = [Region("acoustic face", "#1f77b4")]
+    if clamped:
+        region = np.where(vertices[faces].mean(axis=1)[:, 2] < _CLAMP_M, 2, region)
+        painted.append(Region("clamp", "#ff7f0e", untouchable=True))
     probe = Probe.from_arrays(vertices, faces, region, name="t-shape")
-    regions = RegionSet.from_labels(probe.region, (Region("acoustic face", "#1f77b4"),))
+    regions = RegionSet.from_labels(probe.region, painted)
+    error = WrenchNoise((0.04, 0.05, 0.06), (0.001, 0.0012, 0.0009))
     return build_config(
         calibration,
         ProbeFile(probe, regions, "S"),
@@ -68,6 +83,8 @@ def example_config(
         session=None,
         created=datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC),
         sources=[SourcePart(role="mesh", name="t-shape", sha256="0" * 64)],
+        model=TouchModel(0.002, error, 5e-5) if clamped else None,
+        measured=clamped,
         unverified=not verified,
     )
 

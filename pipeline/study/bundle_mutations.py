@@ -214,6 +214,9 @@ _UNITS: tuple[tuple[tuple[Any, ...], float], ...] = (
     (("filters", "location", "cutoff_Hz"), 1e3),
     (("filters", "location", "rate_Hz"), 1e-3),
     (("filters", "wrench", "q"), 1e3),
+    (("touch", "torsion_arm_m"), 1e3),
+    (("touch", "model_error", "force_N"), 1e4),
+    (("touch", "model_error", "torque_Nm"), 1e5),
 )
 
 
@@ -241,7 +244,13 @@ def _untrue(content: Any, rng: np.random.Generator) -> None:
         (("probe", "file"), "../probe.ply"),
         (("regions", 0, "rank"), 2),
         (("regions", 0, "facets"), 0),
-        (("version",), 3),
+        (("regions", 0, "odds"), 0.0),
+        (("regions", 0, "odds"), 0.5),
+        (("regions", 0, "untouchable"), True),
+        (("regions", 1, "untouchable"), False),
+        (("touch", "mesh_deviation_m"), -1e-4),
+        (("version",), 4),
+        (("version",), 2),
         (("version",), 1),
         (("version",), 0),
         (("version",), True),
@@ -251,7 +260,9 @@ def _untrue(content: Any, rng: np.random.Generator) -> None:
         (("filters", "location", "order"), 3),
         (("filters", "location", "sections"), [[1.0, 0.0, 0.0, 1.0, 0.0, 0.0]]),
         (("gates", "friction_angle_rad"), 75.0),
-        (("gates", "torque_ratio"), 0.5),
+        (("gates", "rival_odds"), 0.5),
+        (("gates", "torque_ratio"), 1.5),
+        (("gates", "implausible_misfit"), 1e3),
         (("gravity", "covariance", 0, 0), -1.0),
         (("gravity", "covariance", 0, 1), 1.0),
         (("noise", "wrench_covariance", 2, 2), 0.0),
@@ -276,7 +287,7 @@ _EDITS: dict[str, Callable[[Any, np.random.Generator], None]] = {
 
 def _not_finite(config: bytes, rng: np.random.Generator) -> bytes:
     content = json.loads(config)
-    part = ("gravity", "noise", "limits", "gates")[int(rng.integers(4))]
+    part = ("gravity", "noise", "limits", "gates", "touch")[int(rng.integers(5))]
     numbers = [path for path in _paths(content[part]) if path and isinstance(_at(content[part], path), float)]
     _put(content[part], numbers[int(rng.integers(len(numbers)))], "@@@")
     word = (b"NaN", b"Infinity", b"-Infinity", b"1e999", b"9" * 5000)[int(rng.integers(5))]

@@ -9,6 +9,7 @@ import typer
 from pipeline.console import JsonOption, print_json, say
 from pipeline.errors import InputError
 from pipeline.study.ablation.commands import add_ablation_command
+from pipeline.study.confidence.commands import add_confidence_command
 from pipeline.study.control_commands import add_control_commands
 from pipeline.study.device_commands import add_device_commands
 from pipeline.study.finishing import NOT_GOOD_ENOUGH, MarkdownOption, SeedOption, finish, show, write
@@ -166,3 +167,4 @@ add_sweep_commands(study_app)
 add_ablation_command(study_app)
 add_rivals_command(study_app)
 add_stability_commands(study_app)
+add_confidence_command(study_app)

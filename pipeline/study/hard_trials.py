@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import Batch, ContactSolver, Gates, Reason, WrenchNoise, methods
+from pipeline.contact import Batch, ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
 from pipeline.mesh import Probe
 from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_judge import Judge
 from pipeline.study.hard_meshes import Body, Bools, Drawn, Float
 
 if TYPE_CHECKING:
@@ -116,6 +117,13 @@ class Case:
     faults: tuple[str, ...] = ()
 
 
+_SAME_TOUCH, _ROUNDING_M, _TIED = 4.5, 1e-9, 1e-9
+_NO_ERROR = WrenchNoise(0.0, 0.0)
+# Any torsion, as far as a model allows, and a mesh that is the very body: where the likelihood is the closed form.
+EXACT = TouchModel(torsion_arm=1000.0, model_error=_NO_ERROR, mesh_curved=False)
+# The same, but the mesh stands for a curved body: facets then answer for the gaps between their normals, too.
+CURVED = replace(EXACT, mesh_curved=True)
+
 Check = Callable[[methods.Method, Batch], Bools]
 
 
@@ -127,6 +135,8 @@ class Trial:
     ----------
     drawn : Drawn
         The wrenches, and where each should be found; NaN where nowhere in particular.
+    noise, gates, model
+        What the solver is told.
     tolerance_mm : float
         A larger error is wrong.
     check : callable, optional
@@ -142,20 +152,24 @@ class Trial:
     drawn: Drawn
     noise: WrenchNoise = field(default_factory=lambda: WrenchNoise(0.0, 0.0))
     gates: Gates = field(default_factory=Gates)
+    model: TouchModel = field(default_factory=lambda: EXACT)
     tolerance_mm: float = 10.0
     check: Check | None = None
     known_bad_mesh: bool = False
 
     def run(self) -> Case:
         """Try both methods and judge."""
-        ours, theirs = (
-            self._outcome(make(self.probe, self.noise, self.gates))
-            for make in (methods.contactbench, methods.algorithm1)
-        )
+        ours = self._outcome(self.method())
+        theirs = self._outcome(methods.algorithm1(self.probe, self.noise, self.gates))
         faults = (
             self.rule.faults(ours) if len(self.drawn) else ("no wrench fits the case: give more samples",)
         )
         return Case(self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults)
+
+    def method(self) -> methods.Method:
+        """Return the solver that is tried."""
+        solver = ContactSolver(self.probe, self.noise, self.gates, self.model)
+        return methods.Method("contactbench", solver.locate, solver.locate_batch, solver)
 
     def _outcome(self, method: methods.Method) -> Outcome:
         batch = method.locate_batch(self.drawn.wrenches)
@@ -202,23 +216,46 @@ def certified(body: Body, wrenches: Float) -> Check:
     return check
 
 
-def complete(body: Body, drawn: Drawn) -> Check:
-    """Refuse candidates that are not those of the exhaustive scan and of brute force, or lack the truth."""
+def judged(drawn: Drawn) -> Check:
+    """Refuse answers that are not those of every facet one by one, judged by d2 as it is defined."""
 
-    def check(method: methods.Method, _: Batch) -> Bools:
-        broken = np.zeros(len(drawn), dtype=bool)
+    def check(method: methods.Method, batch: Batch) -> Bools:
         if not isinstance(method.engine, ContactSolver):
+            return np.zeros(len(drawn), dtype=bool)
+        judge = Judge(method.engine)
+        wrong = [bool(judge.faults(w, batch[i])) for i, w in enumerate(drawn.wrenches)]
+        return np.array(wrong, dtype=bool)
+
+    return check
+
+
+def complete(drawn: Drawn) -> Check:
+    """Refuse what `judged` does, and answers that have the truth neither as point nor as candidate."""
+
+    def check(method: methods.Method, batch: Batch) -> Bools:
+        broken = judged(drawn)(method, batch)
+        solver = method.engine
+        if not isinstance(solver, ContactSolver):
             return broken
-        cap = method.engine.gates.friction_angle
-        for i, wrench in enumerate(drawn.wrenches):
-            found, all_found = method.engine.locate(wrench), method.engine.locate_exhaustively(wrench)
+        for i, truth in enumerate(drawn.points):
+            found = batch[i]
             points = [c.point for c in found.candidates] + ([] if found.point is None else [found.point])
-            truth = hm.solve(body, wrench)
-            off = np.linalg.norm(np.reshape(points, (-1, 3)) - drawn.points[i], axis=1)
-            other = len(points) != np.count_nonzero(truth.angles < cap) and truth.sure
-            scanned = len(all_found.candidates) != len(found.candidates)
-            broken[i] = other or scanned or off.min(initial=np.inf) > 1e-6
+            off = np.linalg.norm(np.reshape(points, (-1, 3)) - truth, axis=1)
+            # What is nearer to a candidate is the same touch.
+            broken[i] |= off.min(initial=np.inf) > solver.gates.ambiguity_distance
         return broken
+
+    return check
+
+
+def within(drawn: Drawn) -> Check:
+    """Refuse points that are further from the truth than they say: 4.5 standard deviations."""
+
+    def check(method: methods.Method, batch: Batch) -> Bools:
+        if not isinstance(method.engine, ContactSolver):
+            return np.zeros(len(drawn), dtype=bool)
+        off = np.linalg.norm(batch.points - drawn.points, axis=1)
+        return np.asarray(off > np.maximum(_ROUNDING_M, _SAME_TOUCH * batch.sigma_max))
 
     return check
 
@@ -227,9 +264,15 @@ def like(base: Trial, move: Callable[[Float], Float], size: float) -> Check:
     """Refuse answers that are not those of another trial, moved, to 1e-9 of the body's size."""
 
     def check(method: methods.Method, batch: Batch) -> Bools:
-        make = methods.METHODS[method.name]
-        before = make(base.probe, base.noise, base.gates).locate_batch(base.drawn.wrenches)
+        if not isinstance(method.engine, ContactSolver):
+            return np.zeros(len(batch), dtype=bool)
+        before = base.method().locate_batch(base.drawn.wrenches)
         off = np.linalg.norm(batch.points - move(before.points), axis=1)
+        # Of places that explain a wrench equally well, rounding chooses: one of them it must be.
+        for i in np.flatnonzero((before.confidences < 0.5 + _TIED) & np.isfinite(batch.points[:, 0])):
+            tied = [c.point for c in before[i].candidates if c.delta < _TIED]
+            others = np.linalg.norm(move(np.reshape(tied, (-1, 3))) - batch.points[i], axis=1)
+            off[i] = min(off[i], others.min(initial=np.inf))
         return np.asarray((batch.reasons != before.reasons) | (off > 1e-9 * size))
 
     return check

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
 
 PAGE, TOGETHER = "page.md", "results.md"
 # Kind of a study -> the package whose module `page` tells about it.
-PACKAGES = {name: f"pipeline.study.{name}" for name in ("sweep", "stability", "ablation", "rivals")}
+PACKAGES = {
+    name: f"pipeline.study.{name}" for name in ("sweep", "stability", "ablation", "rivals", "confidence")
+}
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")
 

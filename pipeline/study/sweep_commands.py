@@ -94,6 +94,10 @@ def run(
             timed=times,
             progress=bar,
         )
+    for missing in done.left_out:
+        say(f"left out: {missing}", "yellow")
+    for fault in done.faults:
+        say(f"not computed: {fault}", "red")
     say(f"{done.results}: {done.cells:,} cells, {done.computed:,} computed now, {done.failed:,} failed.")
     if as_json:
         print_json(
@@ -102,6 +106,8 @@ def run(
                 "cells": done.cells,
                 "computed": done.computed,
                 "failed": done.failed,
+                "left_out": list(done.left_out),
+                "faults": list(done.faults),
             }
         )
     if done.failed:

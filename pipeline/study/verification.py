@@ -171,7 +171,7 @@ def bench(cause: Cause | None, rng: np.random.Generator) -> Bench:
     """
     points, normals = true_markers()
     points, normals = np.repeat(points, _REPEATS, axis=0), np.repeat(normals, _REPEATS, axis=0)
-    wrenches = _touched(points, normals, cause, rng)
+    wrenches = draw_presses(points, normals, cause, rng)
     weighing = draw_weighing(
         rng, poses=(10, 12), mass=(0.3, 0.8), force_noise=(0.01, 0.02), torque_noise=(3e-4, 5e-4)
     )
@@ -212,7 +212,7 @@ def true_markers() -> tuple[Array, Array]:
 # ---- drawing -----------------------------------------------------------------------------------
 
 
-def _touched(points: Array, normals: Array, cause: Cause | None, rng: np.random.Generator) -> Array:
+def draw_presses(points: Array, normals: Array, cause: Cause | None, rng: np.random.Generator) -> Array:
     """Return true wrenches (n, 6) of touches at points."""
     n = len(points)
     helper = np.eye(3)[np.abs(normals).argmin(axis=1)]

@@ -67,8 +67,8 @@ class Evidence:
     noise: Array
     theta: Array
 
-    def only(self, kept: NDArray[np.bool_]) -> Evidence:
-        """Return some of the touches."""
+    def only(self, kept: NDArray[np.bool_] | NDArray[np.intp]) -> Evidence:
+        """Return some of the touches, or all in another order."""
         fields = ("errors", "markers", "points", "normals", "heights", "wrenches", "R_WS", "torques")
         rows: dict[str, Any] = {name: getattr(self, name)[kept] for name in fields}
         return replace(self, **rows)
@@ -120,6 +120,14 @@ def sensitivities(points: Array, normals: Array, forces: Array) -> Array:
     """Return (n, 3, 6) how contacts at `points` move with their wrenches."""
     rows = [contact_sensitivity(p, n, F[None])[0] for p, n, F in zip(points, normals, forces, strict=True)]
     return np.array(rows).reshape(-1, 3, 6)
+
+
+def across(normals: Array) -> Array:
+    """Return (n, 2, 3) two unit vectors along the surface for each normal (n, 3)."""
+    helper = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    first = np.cross(helper, normals)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    return np.stack([first, np.cross(normals, first)], axis=1)
 
 
 def alignment_columns(J: Array, wrenches: Array) -> Array:
@@ -236,13 +244,11 @@ def _torsion(evidence: Evidence, _J: Array) -> Array:
 
 def _places(evidence: Evidence) -> Array:
     """Where a marker is not where it is said to be, all its touches are off alike, along the surface."""
-    helper = np.eye(3)[np.abs(evidence.normals).argmin(axis=1)]
-    side = np.cross(helper, evidence.normals)
-    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    sides = across(evidence.normals)
     names, place = np.unique(evidence.markers, return_inverse=True)
     columns = np.zeros((len(place), 3, 2 * len(names)))
-    columns[np.arange(len(place)), :, 2 * place] = _PLACE * side
-    columns[np.arange(len(place)), :, 2 * place + 1] = _PLACE * np.cross(evidence.normals, side)
+    columns[np.arange(len(place)), :, 2 * place] = _PLACE * sides[:, 0]
+    columns[np.arange(len(place)), :, 2 * place + 1] = _PLACE * sides[:, 1]
     return columns
 
 

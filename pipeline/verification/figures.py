@@ -229,6 +229,32 @@ class Refined:
 
 
 @dataclass(frozen=True)
+class ModelError:
+    """
+    What the wrench's model leaves out, as found: drift, cable, hysteresis, mount; standard deviations of a component.
+
+    Attributes
+    ----------
+    force_N, torque_Nm : float
+        To be told to the solver: larger than the true one in four cases of five, and never under a least value.
+    likely_force_N, likely_torque_Nm : float
+        As likely too large as too small.
+    most_force_N, most_torque_Nm : float
+        Upper 95 % bound.
+    draws : float
+        As how many touches that know nothing of each other the accepted ones count.
+    """
+
+    force_N: float
+    torque_Nm: float
+    likely_force_N: float
+    likely_torque_Nm: float
+    most_force_N: float
+    most_torque_Nm: float
+    draws: float
+
+
+@dataclass(frozen=True)
 class Verdict:
     """
     Whether the limits are kept.
@@ -250,7 +276,7 @@ class Verdict:
 @dataclass(frozen=True)
 class Unresolved:
     """
-    Settled touches without a marker: their points are ambiguous, far from every marker, or nowhere.
+    Settled touches without a marker: ambiguous, implausible, far from every marker, or nowhere on the probe.
 
     Attributes
     ----------
@@ -313,6 +339,8 @@ class Verification:
     warnings : tuple of str
     unresolved : Unresolved or None
         None: no touch settled.
+    model_error : ModelError or None
+        None: too few markers.
     """
 
     touches: tuple[TouchFigure, ...]
@@ -335,6 +363,7 @@ class Verification:
     sources: dict[str, str] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     unresolved: Unresolved | None = None
+    model_error: ModelError | None = None
 
     @property
     def bias_mm(self) -> Vector | None:

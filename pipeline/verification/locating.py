@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.contact import ContactSolver, Reason, WrenchNoise
+from pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,7 +23,7 @@ _RIVAL = 1.0  # standard deviations by which a second marker must be further awa
 _FAR = 6.0  # standard deviations from the nearest marker
 _SHORTEST, _MOST_LAGS = 24, 200  # samples of a run that tells anything about correlation
 _CHANCE = 0.1  # autocorrelation that means nothing
-_ACCEPTED = (Reason.OK, Reason.VERTEX)
+_MUCH_TORSION = TouchModel(torsion_arm=0.01)  # ten times what is usual
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +49,8 @@ class Located:
     drift, drift_sigma : float
         How far the point moved between the halves of the samples, and the 1 sigma of that by noise alone, m.
     ambiguous : bool
+    implausible : bool
+        No single touch explains the wrench, unless with more torque about the normal than a tip can give.
     """
 
     point: NDArray[np.float64]
@@ -60,6 +63,7 @@ class Located:
     drift: float
     drift_sigma: float
     ambiguous: bool
+    implausible: bool = False
 
 
 @dataclass(frozen=True)
@@ -98,7 +102,8 @@ class Placing:
     noise : WrenchNoise
         Of one sample, such that the mean of n has 1/n of its variance.
     samples : int
-        That a touch is the mean of: what is ambiguous follows from the noise of the mean.
+        That a touch is the mean of: what is ambiguous follows from the noise of the mean, and from the model's error
+        as it is assumed before it is measured, which no mean makes smaller.
     correlation : float
         By what that variance is larger than half the mean square between neighbouring samples.
     """
@@ -112,21 +117,28 @@ class Placing:
         samples: int = 50,
         correlation: float = 1.0,
     ) -> None:
-        self.probe, self.markers, self.noise = probe, markers, noise
-        self._model, self._correlation = model, correlation
+        self.probe, self.markers, self.model, self.noise = probe, markers, model, noise
+        self._correlation = correlation
         root = np.sqrt(samples)
-        self.solver = ContactSolver(
-            probe, WrenchNoise(np.asarray(noise.force) / root, np.asarray(noise.torque) / root)
-        )
+        of_mean = WrenchNoise(np.asarray(noise.force) / root, np.asarray(noise.torque) / root)
+        self.solver = ContactSolver(probe, of_mean)
+
+    @cached_property
+    def _lenient(self) -> ContactSolver:
+        """What tells where a touch is whose torque is not to be believed."""
+        return ContactSolver(self.probe, self.solver.noise, model=_MUCH_TORSION)
 
     def locate(self, wrenches: NDArray[np.float64], R_WS: NDArray[np.float64]) -> Located | Reason:
         """Return where samples (n, 6) taken at orientations (n, 3, 3) have touched, or why that is nowhere."""
         count, mean = len(wrenches), wrenches.mean(axis=0)
         whole = self.solver.locate(mean)
-        if whole.point is None or whole.normal is None or whole.reason not in (*_ACCEPTED, Reason.AMBIGUOUS):
+        implausible = whole.reason is Reason.IMPLAUSIBLE
+        if implausible:
+            whole = self._lenient.locate(mean)
+        if whole.point is None or whole.normal is None:
             return whole.reason
         per_wrench = self._sensitivity(whole.point, whole.normal, mean[:3])
-        total = self.noise.covariance / count + self._model.wrench_covariance(R_WS[count // 2])
+        total = self.noise.covariance / count + self.model.wrench_covariance(R_WS[count // 2])
         halves = np.array([each.mean(axis=0) for each in np.array_split(wrenches, 2)])
         # Linear, because a far rival may win one half by chance; steps of wrench, so what turns is not a slip.
         moved = np.linalg.norm(per_wrench @ (halves[1] - halves[0] * _norm_ratio(halves)))
@@ -142,7 +154,8 @@ class Placing:
             count=count,
             drift=float(moved),
             drift_sigma=float(np.sqrt(np.linalg.eigvalsh(left)[-1].clip(0))),
-            ambiguous=whole.reason is Reason.AMBIGUOUS,
+            ambiguous=not whole.accepted,
+            implausible=implausible,
         )
 
     def moved(self, located: Located, wrenches: NDArray[np.float64]) -> float:

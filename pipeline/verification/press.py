@@ -35,6 +35,7 @@ class Why(StrEnum):
     UNSETTLED = "not settled"
     MOVED = "moved on without release"
     AMBIGUOUS = "ambiguous"
+    IMPLAUSIBLE = "no single touch explains it"
     FAR = "far from every marker"
     MISSED = "misses the probe"
     TANGENTIAL = "along the surface"
@@ -43,7 +44,7 @@ class Why(StrEnum):
 
 
 # The touch was as it should be, and yet nobody can tell which marker it was: the point itself may be wrong.
-UNRESOLVED = (Why.AMBIGUOUS, Why.FAR, Why.MISSED, Why.TANGENTIAL, Why.TOO_LIGHT)
+UNRESOLVED = (Why.AMBIGUOUS, Why.IMPLAUSIBLE, Why.FAR, Why.MISSED, Why.TANGENTIAL, Why.TOO_LIGHT)
 
 
 @dataclass(frozen=True)

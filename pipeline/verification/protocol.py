@@ -203,9 +203,13 @@ class TouchProtocol:
             return _NOWHERE.get(located, Why.MISSED), None, None
         expected = self._expected()
         placed = self._placing.place(located, expected)
+        if located.implausible and (located.ambiguous or placed.rival or placed.far):
+            return Why.IMPLAUSIBLE, None, None
         why: Why | None = None
         if located.drift > self.settings.slip_m + 3 * located.drift_sigma:
             why = Why.SLIPPED
+        elif located.implausible:
+            why = Why.IMPLAUSIBLE
         elif expected is None and placed.far:
             why = Why.FAR
         elif expected is None and (located.ambiguous or placed.rival):

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from pipeline.contact import ContactSolver
-from pipeline.kernel import Reason, SurfaceIndex
+from pipeline.kernel import SurfaceIndex
 from pipeline.verification.markers import MarkerError, MarkerSet, make_markers, snap
 
 if TYPE_CHECKING:
@@ -110,12 +110,15 @@ def _lines(low: float, high: float, pitch: float) -> NDArray[np.float64]:
 
 
 def _chosen(probe: Probe, region: int | None) -> NDArray[np.intp]:
-    if region is None:
-        return np.arange(len(probe.faces))
-    chosen = np.flatnonzero(probe.region == region)
-    if region < 1 or not len(chosen):
-        known = ", ".join(map(str, np.unique(probe.region[probe.region > 0]))) or "none"
-        raise MarkerError(f"there is no region {region}; the probe has {known}: choose one, or --all.")
+    touchable = ~np.isin(probe.region, probe.untouchable)
+    chosen = np.flatnonzero(touchable if region is None else touchable & (probe.region == region))
+    if region is None and not len(chosen):
+        raise MarkerError("all of the probe is marked untouchable: correct the regions.")
+    if not len(chosen) or (region is not None and region < 1):
+        known = ", ".join(map(str, np.unique(probe.region[touchable & (probe.region > 0)]))) or "none"
+        raise MarkerError(
+            f"there is no region {region} to touch; the probe has {known}: choose one, or --all."
+        )
     return chosen
 
 
@@ -147,5 +150,5 @@ def _told(probe: Probe, points: NDArray[np.float64], facets: NDArray[np.intp]) -
         forces = _FORCE * (inward + _LEAN * lean)
         found = solver.locate_batch(np.hstack([forces, np.cross(points, forces)]))
         off = np.linalg.norm(np.array(found.points) - points, axis=1)
-        told &= np.isin(found.reasons, [int(Reason.OK), int(Reason.VERTEX)]) & (off < _OFF)
+        told &= np.array(found.accepted) & (off < _OFF)
     return np.asarray(told)

@@ -152,16 +152,23 @@ def crowded(markers: MarkerSet, limits: Limits) -> tuple[str | None, bool]:
     return said, pitch < 2 * limits.max_m
 
 
-def misses(figures: Sequence[TouchFigure]) -> str | None:
-    """Return what to check if most settled touches miss the probe."""
-    count = sum(figure.reason == Why.MISSED for figure in figures)
+_CHECKS = {
+    Why.MISSED: "miss the probe: check the units (N, N·m, mm), the mount of the sensor on the flange, and the alignment"
+    " of the probe.",
+    Why.IMPLAUSIBLE: "leave a torque that no single touch explains: press with a tip that can turn freely, and let"
+    " nothing else touch the probe.",
+}
+
+
+def checks(figures: Sequence[TouchFigure]) -> list[str]:
+    """Return what to check if most settled touches miss the probe, or are none."""
     settled = sum(figure.accepted or figure.reason in UNRESOLVED for figure in figures)
-    if not settled or 2 * count <= settled:
-        return None
-    return (
-        f"{count} of {settled} settled touches miss the probe: check the units (N, N·m, mm), the mount of the"
-        " sensor on the flange, and the alignment of the probe."
-    )
+    counts = Counter(figure.reason for figure in figures)
+    return [
+        f"{counts[why]} of {settled} settled touches {words}"
+        for why, words in _CHECKS.items()
+        if 2 * counts[why] > settled
+    ]
 
 
 def _times(times: Times | None, limits: Limits) -> list[str]:

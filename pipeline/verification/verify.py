@@ -15,11 +15,12 @@ from pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
 from pipeline.verification.figures import Limits, Times, TouchFigure, Verification
 from pipeline.verification.locating import Placing
 from pipeline.verification.markers import with_normals
+from pipeline.verification.model_error import measure_model_error
 from pipeline.verification.noise import measured_noise, rate_of, resting
-from pipeline.verification.protocol import ProtocolSettings, TouchProtocol
+from pipeline.verification.protocol import ProtocolSettings, TouchProtocol, Why
 from pipeline.verification.reference import force_accuracy
 from pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
-from pipeline.verification.verdict import Case, crowded, misses, missing, unresolved
+from pipeline.verification.verdict import Case, checks, crowded, missing, unresolved
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -186,11 +187,20 @@ def judge(
     faults: tuple[str, ...] = (),
     rate: float | None = None,
 ) -> Verification:
-    """Return the verification of touches; `evidence` has a row for each accepted one of `figures`; `rate` is in Hz."""
+    """
+    Return the verification of touches; `rate` is in Hz.
+
+    `evidence` has a row for each of `figures` that was accepted, or that no single touch explains though its marker is
+    known: the causes are of these too, all other figures of the accepted ones.
+    """
     names = placing.markers.names
     if strangers := sorted(set(settings.left_out) - set(names)):
         raise InputError(f"left out: there are no markers {', '.join(strangers)}: correct the names.")
     accepted = [figure for figure in figures if figure.accepted]
+    every, evidence = (
+        evidence,
+        evidence.only(np.array([each.accepted for each in figures if _tells(each)], dtype=bool)),
+    )
     errors, enough = evidence.errors, len(accepted) >= FEWEST
     overall = summarise("all", errors) if accepted else None
     protocol, rejected = (
@@ -230,8 +240,8 @@ def judge(
         times=times,
         force=force,
         verdict=case.judged(times),
-        diagnosis=diagnose(evidence, _within(overall, settings.limits), placing.markers.names)
-        if len(accepted) >= FEWEST_TOUCHES
+        diagnosis=diagnose(every, _within(overall, settings.limits), placing.markers.names)
+        if len(every.errors) >= FEWEST_TOUCHES
         else None,
         alignment_refined=refine(evidence, placing.solver, placing.markers),
         missing=case.missing,
@@ -240,6 +250,7 @@ def judge(
         sources=dict(sorted((sources or {}).items())),
         warnings=(*warnings, f"{said[0].upper()}{said[1:]}.") if said else warnings,
         unresolved=case.unresolved,
+        model_error=measure_model_error(evidence, placing.model),
     )
 
 
@@ -261,8 +272,8 @@ def _sentences(
     protocol: ProtocolSettings,
     rate: float | None,
 ) -> list[str]:
-    found = (misses(figures), None if rate is None else resting(recording, protocol, rate))
-    return [sentence for sentence in found if sentence is not None]
+    at_rest = None if rate is None else resting(recording, protocol, rate)
+    return [*checks(figures), *([] if at_rest is None else [at_rest])]
 
 
 # ---- from touches to figures -------------------------------------------------------------------
@@ -276,7 +287,11 @@ def _evidence(
     model: GravityModel,
     samples: int,
 ) -> Evidence:
-    pairs = [(t.located, t.placed.marker) for t in touches if t.why is None and t.located and t.placed]
+    pairs = [
+        (t.located, t.placed.marker)
+        for t in touches
+        if t.why in (None, Why.IMPLAUSIBLE) and t.located and t.placed
+    ]
     places = np.array([marker for _, marker in pairs], dtype=np.intp)
     points = np.array([each.point for each, _ in pairs]).reshape(-1, 3)
     return Evidence(
@@ -291,6 +306,11 @@ def _evidence(
         noise=noise.covariance / samples,
         theta=model.vector,
     )
+
+
+def _tells(figure: TouchFigure) -> bool:
+    """Tell whether a touch has a row in the evidence."""
+    return figure.accepted or (figure.reason == Why.IMPLAUSIBLE and figure.marker is not None)
 
 
 def _figures(touches: list[Touch], markers: MarkerSet) -> tuple[TouchFigure, ...]:
@@ -377,7 +397,10 @@ def _plain(settings: VerifySettings, placing: Placing, rate: float | None) -> di
         del plain["left_out"]
     noise = np.sqrt(np.diag(placing.noise.covariance)).tolist()
     gates = {name: _finite(value) for name, value in asdict(placing.solver.gates).items()}
-    return {**plain, "noise": noise, "rate_Hz": rate, "filters": [], "gates": gates}
+    touch = placing.solver.model
+    floor = np.sqrt(np.diag(touch.model_error.covariance)).tolist()
+    assumed = {"torsion_arm_m": touch.torsion_arm, "model_error": floor}
+    return {**plain, "noise": noise, "rate_Hz": rate, "filters": [], "gates": gates, "assumed": assumed}
 
 
 def _finite(value: Any) -> Any:

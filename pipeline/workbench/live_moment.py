@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _CONTACTS = 4096  # at 30 a second, two minutes of them
 _GAP_S = 1.0  # after a longer silence the filter begins anew: what was before says nothing
 _NO_TOUCH = (Reason.LOW_FORCE, Reason.STALE, Reason.NOT_FINITE)
+_FORGET_S = 0.25  # a contact that was not looked at for longer is not followed
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +65,7 @@ class Moment:
         self._raw: NDArray[np.float64] | None = None
         self._R_WS = np.full((3, 3), np.nan)
         self._told: tuple[tuple[object, ...], Reading] | None = None
+        self._looked = -np.inf
         self._contacts: deque[tuple[float, NDArray[np.float64]]] = deque(maxlen=_CONTACTS)
         self._lock = threading.Lock()
         self._asking = threading.Lock()
@@ -109,8 +111,7 @@ class Moment:
         compensated = np.full(6, np.nan) if model is None else model.compensate(R_WS, raw)
         contact = None
         if solver is not None and np.isfinite(compensated).all():
-            found = solver.locate(compensated)
-            contact = None if found.reason in _NO_TOUCH else found
+            contact = self._follow(time, compensated, solver)
         point = None if contact is None else contact.point
         if (
             self._contacts and self._contacts[-1][0] == time
@@ -118,3 +119,14 @@ class Moment:
             self._contacts.pop()
         self._contacts.append((time, np.full(3, np.nan) if point is None else point))
         return Reading(time, raw, compensated, R_WS, contact)
+
+    def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
+        """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""
+        if not 0 <= time - self._looked <= _FORGET_S:
+            solver.reset()
+        self._looked = time
+        found = solver.track(compensated)
+        if found.reason in _NO_TOUCH:
+            solver.reset()  # the next press may be anywhere
+            return None
+        return found

@@ -33,12 +33,15 @@ class RegionRow:
     facets : int
     area : float
         m².
+    untouchable : bool
+        Nothing can touch it.
     """
 
     name: str
     colour: str
     facets: int
     area: float
+    untouchable: bool = False
 
 
 class RegionsWork:
@@ -100,9 +103,14 @@ class RegionsWork:
         areas = np.bincount(labels, weights=self.probe.areas, minlength=count)
         facets = np.bincount(labels, minlength=count)
         return tuple(
-            RegionRow(region.name, region.colour, int(facets[rank]), float(areas[rank]))
+            RegionRow(region.name, region.colour, int(facets[rank]), float(areas[rank]), region.untouchable)
             for rank, region in enumerate(self.model.regions, 1)
         )
+
+    def untouchable(self) -> NDArray[np.int32]:
+        """Return the facets that nothing can touch, ascending."""
+        marks = np.array([False, *(region.untouchable for region in self.model.regions)])
+        return np.flatnonzero(marks[self.model.labels]).astype(np.int32)
 
     def area(self, mask: NDArray[np.bool_]) -> float:
         """Return the area of the facets of a mask (m,), m²."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pipeline.errors import InputError
 from pipeline.session.recompute import compute, newest_inputs
+from pipeline.verification.figures import ModelError
 from pipeline.workbench.verify_settings import KIND, REPORT, RESULT, parameters_of
 
 if TYPE_CHECKING:
@@ -58,6 +59,8 @@ class Outcome:
         What was another while it was live; empty: nothing.
     stale : str
         Why it no longer holds; empty: it does.
+    model_error : str
+        What the model leaves out of the wrench, and what to do about it.
     """
 
     passed: bool
@@ -80,6 +83,7 @@ class Outcome:
     report: Path | None
     differs: str = ""
     stale: str = ""
+    model_error: str = ""
 
     def with_difference(self, words: str) -> Outcome:
         """Return it with what was another while it was live."""
@@ -134,9 +138,11 @@ def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
 
 
 def _read(content: dict[str, Any], report: Path | None) -> Outcome:
+    from pipeline.verification.model_error import model_error_words
+
     verdict, overall = content["verdict"], content.get("overall") or {}
     interval = (content.get("ci") or {}).get("mean_mm") or (None, None)
-    diagnosis = content.get("diagnosis") or {}
+    diagnosis, left = content.get("diagnosis") or {}, content.get("model_error")
     return Outcome(
         passed=bool(verdict["passed"]),
         reasons=tuple(verdict["reasons"]),
@@ -165,6 +171,7 @@ def _read(content: dict[str, Any], report: Path | None) -> Outcome:
             for each in content.get("per_marker", ())
         ),
         report=report,
+        model_error=model_error_words(None if left is None else ModelError(**left)),
     )
 
 

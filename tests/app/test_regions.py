@@ -472,3 +472,30 @@ def test_nothing_is_cut_and_nothing_scrolls_sideways(window):
             assert panel.widget().minimumSizeHint().width() <= panel.viewport().width()
     for button in (panel.apply_button, panel.regions.add_button, panel.shape.grow_button):
         assert button.height() >= 36 or not button.isVisible()
+
+
+def test_what_nothing_can_touch_is_crossed_out_until_it_is_undone(window):
+    page, listed = window.page, window.page.panel.regions
+    draw(window, (0, 0, 1), (0.3, 0, 0.95))
+    layer = window.scene.probe_layer
+
+    def lines():
+        return layer._crossed.mapper.GetInput().GetNumberOfLines()
+
+    assert lines() == 0
+    listed.untouchable.click()
+    assert page.work.model.regions[0].untouchable
+    assert window.bench.undo.undoText() == "mark Region 1 untouchable"
+    assert "untouchable" in listed.rows.index(0, 1).data()
+    before = lines()
+    assert before > 0
+    draw(window, (0, 0, 1), (-0.4, 0, 0.9))
+    assert lines() > before
+    page.leave()
+    page.enter()  # shown anew
+    assert lines() > before
+    window.bench.undo.undo()
+    assert lines() == before
+    window.bench.undo.undo()
+    assert lines() == 0
+    assert not listed.untouchable.isChecked()

@@ -1,6 +1,7 @@
 """The Verify page in a real window: markers by clicks, touches on a bench that goes by steps, the verdict."""
 
 import shutil
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,8 +11,10 @@ from workbench.touch_session import STEPWISE, make_session, press
 
 from app.bench import Bench, Weight
 from app.pages.verify import VerifyPage
+from pipeline.kernel import Reason
 from pipeline.session import Session
 from pipeline.workbench.desk import Desk
+from pipeline.workbench.live_moment import Reading
 from pipeline.workbench.markers import Markers, kept
 from pipeline.workbench.steps import Step, StepState, StepStatus
 from widgets.scene import Scene
@@ -271,3 +274,104 @@ def test_nothing_of_the_page_stays_in_the_scene_and_no_panel_is_too_wide(window)
     window.page.enter()
     page.panel_touch.mute.click()
     assert page.sounds.muted
+
+
+def found(reason, **known):
+    """A contact as the solver gives it."""
+    usual = {
+        "reason": reason,
+        "accepted": reason in (Reason.OK, Reason.VERTEX, Reason.BY_REGION),
+        "point": np.array([0.0, 0.0, 0.15]),
+        "normal": np.array([0.0, 0.0, 1.0]),
+        "covariance": 1e-8 * np.eye(3),
+        "sigma_max": 1e-4,
+        "confidence": 0.98,
+        "candidates": [],
+        "second": None,
+        "misfit": 0.1,
+        "arm": 0.0,
+    }
+    return SimpleNamespace(**(usual | known))
+
+
+def shown(window, monkeypatch, contact, force=9.0):
+    """Let the page see a contact; return what it says, whether without a doubt, and what it shows in the scene."""
+    wrench, seen = np.array([0.0, 0.0, -force, 0.0, 0.0, 0.0]), []
+    monkeypatch.setattr(
+        window.bench.live, "reading", lambda: Reading(1.0, wrench, wrench, np.eye(3), contact)
+    )
+    monkeypatch.setattr(window.scene, "show_contact", lambda *given: seen.append(given))
+    window.page.tick()
+    state = window.page.panel_touch.state
+    return state.contact, state.sure, seen
+
+
+IMPLAUSIBLE = (
+    "No single touch explains this wrench: 4.2 sigma left over, torque arm 12 mm. Two touches at once, or wrong units,"
+    " mount or compensation?"
+)
+RIVALS = [SimpleNamespace(point=np.array([0.0, 0.02, 0.1])), SimpleNamespace(point=np.array([0.0, 0.0, 0.1]))]
+
+
+@pytest.mark.parametrize(
+    ("contact", "words", "sure", "rings", "caption"),
+    [
+        (found(Reason.OK, candidates=RIVALS), "Confidence 98 %", True, None, None),
+        (found(Reason.VERTEX, confidence=1.0), "Confidence 99.9 %", True, None, None),
+        (
+            found(Reason.BY_REGION, candidates=RIVALS),
+            "because of the declared regions",
+            True,
+            2,
+            "could also be here",
+        ),
+        (
+            found(Reason.AMBIGUOUS, confidence=0.6, candidates=RIVALS),
+            "Confidence 60 %: the wrench fits another place",
+            False,
+            2,
+            "could also be here",
+        ),
+        (
+            found(Reason.TWO_TOUCHES, second=RIVALS[0].point),
+            "A second touch joined: both are shown.",
+            False,
+            1,
+            "second touch",
+        ),
+    ],
+)
+def test_how_sure_a_contact_is_and_where_it_could_be_as_well(
+    window, monkeypatch, contact, words, sure, rings, caption
+):
+    said, is_sure, seen = shown(window, monkeypatch, contact)
+    assert words in said
+    assert is_sure is sure
+    (point, covariance, _, others, captions) = seen[-1]
+    assert point is contact.point
+    assert (covariance is None) == (contact.reason is Reason.TWO_TOUCHES)
+    assert (others is None) if rings is None else others.shape == (rings, 3)
+    if rings:
+        assert others[0].tolist() == RIVALS[0].point.tolist()  # the likeliest of them has the words
+        assert captions == (caption, f"{caption}, behind")
+
+
+@pytest.mark.parametrize(
+    ("reason", "words"),
+    [
+        (Reason.IMPLAUSIBLE, IMPLAUSIBLE),
+        (Reason.TANGENTIAL, "press more steeply"),
+        (Reason.OFF_SURFACE, "No part of the probe faces this force"),
+        (Reason.OUTSIDE_REGION, "outside every region"),
+        (Reason.SATURATED, "end of its range"),
+    ],
+)
+def test_why_there_is_no_contact_is_said_in_plain_words(window, monkeypatch, reason, words):
+    contact = found(reason, point=None, misfit=4.2**2, arm=-0.012)
+    said, sure, seen = shown(window, monkeypatch, contact)
+    assert words in said
+    assert not sure
+    assert not any(point is not None for point, *_ in seen)
+    # Too light to say anything, or nothing at all.
+    assert shown(window, monkeypatch, contact, force=0.8)[:2] == ("", True)
+    assert shown(window, monkeypatch, None)[:2] == ("", True)

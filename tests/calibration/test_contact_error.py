@@ -14,7 +14,7 @@ from pipeline.calibration.contact_error import (
     usual_task,
     worst_sigma,
 )
-from pipeline.contact import ContactSolver, Reason, WrenchNoise
+from pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
 from pipeline.errors import InputError
 from pipeline.mesh import Probe
 
@@ -71,7 +71,10 @@ def test_sensitivity_is_that_of_the_kernel(rng):
     mixed = rng.standard_normal((6, 6)) * SENSOR[:, None]
     extra = mixed @ mixed.T
     forces = 10 * force_directions(normal, np.array([0.0, 0.3, 0.6, 1.0]), np.arange(4.0))
-    solver = ContactSolver(plate, noise=WrenchNoise(0.05, 0.0014, extra=extra))
+    # The sensitivity is that of noise alone, for any torsion on an exact surface.
+    noise = WrenchNoise(0.05, 0.0014, extra=extra)
+    exact = TouchModel(torsion_arm=1_000.0, model_error=WrenchNoise(0.0, 0.0), mesh_curved=False)
+    solver = ContactSolver(plate, noise, model=exact)
     total = extra + np.diag(SENSOR**2)
     for force, slope in zip(forces, contact_sensitivity(point, normal, forces), strict=True):
         contact = solver.locate(wrench_at(point, force))

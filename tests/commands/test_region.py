@@ -53,8 +53,22 @@ def test_the_list(mesh: Path) -> None:
     found = done("list", mesh)
     assert found["facets"] == 768
     assert found["regions"] == [
-        {"priority": 1, "name": "Top", "colour": "#e69f00", "facets": 0, "area_mm2": 0.0},
-        {"priority": 2, "name": "Side", "colour": "#123456", "facets": 0, "area_mm2": 0.0},
+        {
+            "priority": 1,
+            "name": "Top",
+            "colour": "#e69f00",
+            "untouchable": False,
+            "facets": 0,
+            "area_mm2": 0.0,
+        },
+        {
+            "priority": 2,
+            "name": "Side",
+            "colour": "#123456",
+            "untouchable": False,
+            "facets": 0,
+            "area_mm2": 0.0,
+        },
     ]
     shown = invoke("list", mesh)
     assert "Top" in shown.stdout
@@ -76,6 +90,23 @@ def test_names_colours_and_order(mesh: Path) -> None:
     assert np.count_nonzero(labels(mesh) == 1) == 128
     assert done("clear", mesh, "Lens")["changed"] == 128
     assert not labels(mesh).any()
+
+
+def test_a_region_that_nothing_can_touch(mesh: Path) -> None:
+    done("plane", mesh, "Side", "--point", "0,0,19.9", "--normal", "0,0,1")
+    found = done("mark", mesh, "Side", "--untouchable")
+    assert [row["untouchable"] for row in found["regions"]] == [False, True]
+    assert load_probe(mesh, units="m").untouchable == (2,)
+    assert "untouchable" in invoke("list", mesh).stdout
+    done("reorder", mesh, "Side", "Top")
+    assert load_probe(mesh, units="m").untouchable == (1,)
+    other = mesh.with_name("other.ply")
+    save_probe(load_probe(mesh, units="m").with_region(np.zeros(768, dtype=int)), other)
+    done("transfer", mesh, other)
+    assert load_probe(other, units="m").untouchable == (1,)
+    found = done("mark", mesh, "1", "--touchable")
+    assert not any(row["untouchable"] for row in found["regions"])
+    assert load_probe(mesh, units="m").untouchable == ()
 
 
 def test_every_command_is_in_the_history(mesh: Path) -> None:
@@ -193,6 +224,7 @@ def test_a_region_that_vanishes_is_exit_code_1(mesh: Path, tmp_path: Path) -> No
         (("remove", "{}", "0"), "there is no region '0'"),
         (("add", "{}", "Top"), "two regions are called 'Top'"),
         (("add", "{}", "New", "--colour", "red"), "#rrggbb"),
+        (("mark", "{}", "Top"), "Missing option '--untouchable"),
         (("reorder", "{}", "Top"), "is not an order of 2 regions"),
         (("box", "{}", "Top", "--low", "0,0,0", "--high", "0,1,1"), "below the high one"),
         (("box", "{}", "Top", "--low", "0,0", "--high", "0,1,1"), "--low needs 3"),
@@ -220,6 +252,7 @@ def test_wrong_arguments_change_nothing(mesh: Path, arguments: tuple[str, ...], 
 
 COMMANDS = [
     *("list", "add", "remove", "rename", "reorder", "colour", "box", "plane", "flood", "brush", "grow"),
+    "mark",
     *("shrink", "smooth", "mirror", "clear", "transfer", "export", "import"),
 ]
 

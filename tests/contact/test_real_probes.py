@@ -46,15 +46,15 @@ def test_answers_are_right_or_flagged(real_probe):
     points, wrenches = outer_touches(real_probe, 1_000, np.random.default_rng(1))
     batch = ContactSolver(real_probe).locate_batch(wrenches)
     error = np.linalg.norm(batch.points - points, axis=1)
-    sure = batch.reasons <= Reason.VERTEX
-    assert sure.sum() > 30
+    sure = batch.accepted
+    assert sure.sum() > 10
     # Double walls lie a millimetre apart: within the ambiguity distance either may be given.
     assert error[sure].max() < 0.005
     assert np.mean(error[sure] < 1e-9) > 0.9
     # Inner walls answer nearly every wrench too: that is what `ambiguous` is for.
     doubted = batch.reasons == Reason.AMBIGUOUS
     assert (sure | doubted).mean() > 0.98
-    assert np.mean(error[doubted] < 1e-3) > 0.85
+    assert np.mean(error[doubted] < 1e-3) > 0.93
 
 
 def test_the_command_runs_on_it_and_says_what_is_wrong(real_probe, tmp_path):

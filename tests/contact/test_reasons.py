@@ -1,12 +1,16 @@
 """Reason codes, gates, priorities and what a caller may pass."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
-from contact_cases import ball, bundled
+from contact_cases import ball, bundled, random_wrenches
 
-from pipeline.contact import ContactSolver, Gates, Reason, methods
+import assets
+from pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
 from pipeline.errors import InputError
 from pipeline.mesh import Probe
+from pipeline.simulation import add_noise, draw_slide, draw_touches
 
 TOP = np.array([0.0, 0.0, 0.13])
 
@@ -67,76 +71,230 @@ def test_numbers_beyond_squaring_are_saturated(solver):
     assert solver.locate(push((0, 0, -1e200))).reason == Reason.SATURATED
 
 
-def test_off_surface(solver):
-    contact = solver.locate(push(point=(0.2, 0, 0.1)))
+def sheet() -> Probe:
+    """A square of 80 mm at z = 0.1, that faces up; nothing faces down."""
+    corners = np.array([[-0.04, -0.04, 0.1], [0.04, -0.04, 0.1], [0.04, 0.04, 0.1], [-0.04, 0.04, 0.1]])
+    return Probe.from_arrays(corners, np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def test_off_surface_is_a_force_that_no_facet_faces():
+    contact = ContactSolver(sheet()).locate(push((0, 0, 10.0)))
     assert contact.reason == Reason.OFF_SURFACE
     assert contact.face is None
+    assert contact.point is None
+    assert np.isnan(contact.misfit)
+    assert contact.confidence == 0.0
 
 
-def test_tangential_lists_what_it_refused():
-    plate = two_blocks()
-    angle = np.radians(80)
-    contact = ContactSolver(plate).locate(
-        push(10 * np.array([np.sin(angle), 0, -np.cos(angle)]), point=(0, 0, 0.07))
-    )
-    # The side wall behind may be met head-on; a wall this thin is passed by.
-    kinds = {c.why for c in contact.candidates}
-    assert contact.reason in {Reason.TANGENTIAL, Reason.OK, Reason.AMBIGUOUS}
-    wide = ContactSolver(plate, gates=Gates(friction_angle=89.0)).locate(contact.wrench)
-    found = [wide.point, *(c.point for c in wide.candidates)]
-    assert any(np.allclose(p, (0, 0, 0.07), atol=1e-9) for p in found)
-    assert "outside the friction cone" in kinds or contact.reason != Reason.TANGENTIAL
+# ---- implausible ---------------------------------------------------------------------------------
+
+
+def test_an_axis_beside_the_probe_is_implausible_and_says_by_how_much(solver):
+    contact = solver.locate(push(point=(0.2, 0, 0.1)))
+    assert contact.reason == Reason.IMPLAUSIBLE
+    assert not contact.accepted
+    assert contact.point is None
+    assert contact.confidence == 0.0
+    # The line of force passes the ball's rim at 0.17 m and its middle at 0.2 m, with 10 N.
+    assert 1.65 < contact.left_over <= 2.0
+    assert contact.misfit > Gates().implausible_misfit
+
+
+@pytest.mark.parametrize("name", assets.PROBE_NAMES)
+def test_an_arm_of_two_metres_is_no_torsion(name):
+    probe = bundled(name, 1000)
+    tip = [0.001, 0.001, probe.vertices[:, 2].max()]
+    wrench = push((0, 0, -9.0), tip)
+    assert ContactSolver(probe).locate(wrench).point is not None
+    contact = ContactSolver(probe).locate(wrench + [0, 0, 0, 0, 0, 20.0])
+    assert contact.reason == Reason.IMPLAUSIBLE
+    assert abs(contact.arm) == pytest.approx(20 / 9, rel=1e-6)
+    assert contact.left_over > 1
+    assert contact.misfit > 1e6
+
+
+@pytest.mark.parametrize("name", assets.PROBE_NAMES)
+def test_two_opposite_touches_are_implausible(name):
+    probe, rng = bundled(name, 1000), np.random.default_rng(2)
+    touches = draw_touches(assets.surface(name), 2_000, rng, above=0.02, angle=(0, 20), force=(3, 12))
+    force = touches.wrenches[:, :3] / np.linalg.norm(touches.wrenches[:, :3], axis=1, keepdims=True)
+    pairs = touches.wrenches[:1000] + touches.wrenches[1000:]
+    opposed = np.einsum("ij,ij->i", force[:1000], force[1000:]) < -0.5
+    opposed &= np.linalg.norm(touches.points[:1000] - touches.points[1000:], axis=1) > 0.04
+    batch = ContactSolver(probe).locate_batch(add_noise(pairs[opposed], WrenchNoise(), rng))
+    assert opposed.sum() > 100
+    assert np.mean(batch.reasons == Reason.IMPLAUSIBLE) > 0.8
+    assert np.mean(batch.accepted) < 0.15
+
+
+def test_what_is_implausible_follows_the_probability():
+    wrench = push(point=(0.031, 0, 0.1))  # 1 mm beside the ball
+    loose = ContactSolver(ball(), gates=Gates(implausible_probability=1e-9))
+    strict = ContactSolver(ball(), gates=Gates(implausible_probability=0.5))
+    assert Gates().implausible_misfit == pytest.approx(10.83, abs=0.01)
+    misfit = strict.locate(wrench).misfit
+    assert Gates(implausible_probability=0.5).implausible_misfit < misfit < loose.gates.implausible_misfit
+    assert strict.locate(wrench).reason == Reason.IMPLAUSIBLE
+    assert loose.locate(wrench).accepted
+    assert loose.locate(wrench).misfit == misfit
+
+
+# ---- the friction cone ---------------------------------------------------------------------------
 
 
 def test_grazing_a_ball_is_tangential():
     angle = np.radians(80)
     point = np.array([0.0, 0.0, 0.13])
     force = 10 * np.array([np.sin(angle), 0, -np.cos(angle)])
-    contact = ContactSolver(ball(5120)).locate(push(force, point))
-    assert contact.reason == Reason.TANGENTIAL
-    assert contact.point is None
-    assert [c.why for c in contact.candidates] == ["outside the friction cone"]
-    assert contact.candidates[0].friction_angle == pytest.approx(80, abs=3)
+    narrow = ContactSolver(ball(5120), gates=Gates(friction_angle=60)).locate(push(force, point))
+    assert narrow.reason == Reason.TANGENTIAL
+    assert narrow.point is None
+    assert narrow.misfit > Gates().implausible_misfit
+    wide = ContactSolver(ball(5120), gates=Gates(friction_angle=89)).locate(push(force, point))
+    assert wide.accepted
+    assert wide.friction_angle == pytest.approx(80, abs=5)
 
 
-def test_two_far_candidates_are_ambiguous_and_the_first_met_is_given():
-    contact = ContactSolver(two_blocks()).locate(push(point=(0.005, 0.003, 0)))
+# ---- two places ----------------------------------------------------------------------------------
+
+ON_BOTH = push(point=(0.005, 0.003, 0))
+
+
+def test_two_far_places_are_ambiguous_and_the_first_met_is_given():
+    contact = ContactSolver(two_blocks()).locate(ON_BOTH)
     assert contact.reason == Reason.AMBIGUOUS
     assert not contact.accepted
-    assert np.allclose(contact.point, [0.005, 0.003, 0.07])
+    assert np.allclose(contact.point, [0.005, 0.003, 0.07], atol=1e-6)
     [other] = contact.candidates
     assert other.why == "met later along the force"
     assert other.distance == pytest.approx(0.06)
+    assert other.delta == pytest.approx(2 * np.log(Gates().first_odds), abs=1e-6)
 
 
-def test_a_region_settles_it():
-    region = np.repeat([1, 0], 12)
-    contact = ContactSolver(two_blocks(region)).locate(push(point=(0.005, 0.003, 0)))
+def test_the_odds_of_what_is_met_first_can_settle_it():
+    contact = ContactSolver(two_blocks(), gates=Gates(first_odds=1e3)).locate(ON_BOTH)
     assert contact.reason == Reason.OK
+    assert contact.candidates[0].why == "explains the wrench less well"
+
+
+def test_a_region_settles_it_and_the_answer_says_so():
+    contact = ContactSolver(two_blocks(np.repeat([1, 0], 12))).locate(ON_BOTH)
+    assert contact.reason == Reason.BY_REGION
+    assert contact.accepted
     assert contact.region == 1
-    assert np.allclose(contact.point, [0.005, 0.003, 0.01])
-    assert contact.candidates[0].why == "outside the priority region"
+    assert np.allclose(contact.point, [0.005, 0.003, 0.01], atol=1e-6)
+    assert contact.candidates[0].why == "less likely to be touched, as declared"
+    strict = Gates(accept_by_region=False)
+    doubted = ContactSolver(two_blocks(np.repeat([1, 0], 12)), gates=strict).locate(ON_BOTH)
+    assert (doubted.reason, doubted.accepted) == (Reason.BY_REGION, False)
+
+
+def test_by_region_is_said_only_where_it_would_be_ambiguous_without_it():
+    region = np.repeat([1, 0], 12)
+    side = np.hstack([[-10.0, 0, 0], np.cross([0.02, 0.0, 0.0], [-10.0, 0, 0])])  # meets the lower block only
+    alone = ContactSolver(two_blocks(region)).locate(side)
+    assert (alone.reason, alone.region) == (Reason.OK, 1)
+    probe = bundled("convex", 1000, regions=True)
+    rng = np.random.default_rng(5)
+    wrenches = add_noise(random_wrenches(probe, 3_000, rng, pitch=0.001, angle=60), WrenchNoise(), rng)
+    declared = ContactSolver(probe).locate_batch(wrenches)
+    # The same gates, and a region that is worth nothing.
+    plain = ContactSolver(probe, gates=Gates(region_odds=1)).locate_batch(wrenches)
+    by_region = declared.reasons == Reason.BY_REGION
+    assert by_region.sum() > 30
+    # A region draws touches at its border inwards, as far as the noise lets it: that is the same touch.
+    radius = np.maximum(Gates().ambiguity_distance, 4.5 * plain.sigma_max)
+    elsewhere = np.linalg.norm(declared.points - plain.points, axis=1) > radius
+    # Without the region another place is as likely, or one that explains the wrench better was the answer.
+    overruled = declared.misfits > plain.misfits + 1
+    assert np.all((plain.reasons[by_region] == Reason.AMBIGUOUS) | overruled[by_region])
+    assert np.mean(plain.reasons[by_region] == Reason.AMBIGUOUS) > 0.5
+    sure = np.isin(declared.reasons, (Reason.OK, Reason.VERTEX))
+    assert sure.sum() > 1_000
+    assert np.isin(plain.reasons[sure], (Reason.OK, Reason.VERTEX)).mean() > 0.999
+    assert not elsewhere[sure].any()
+    assert Reason.BY_REGION not in plain.reasons
 
 
 def test_regions_rank_by_number():
-    contact = ContactSolver(two_blocks(np.repeat([2, 1], 12))).locate(push(point=(0.005, 0.003, 0)))
-    assert contact.reason == Reason.OK
+    contact = ContactSolver(two_blocks(np.repeat([2, 1], 12))).locate(ON_BOTH)
     assert contact.point[2] == pytest.approx(0.07)
+    swapped = ContactSolver(two_blocks(np.repeat([1, 2], 12)), gates=Gates(first_odds=1)).locate(ON_BOTH)
+    assert swapped.point[2] == pytest.approx(0.01)
+
+
+def test_an_untouchable_place_turns_the_answer():
+    """The upper block is behind a clamp: the lower one is touched, though the line of force meets it later."""
+    hidden = two_blocks(np.repeat([0, 1], 12))
+    hidden = hidden.with_region(hidden.region, untouchable=(1,))
+    contact = ContactSolver(hidden).locate(ON_BOTH)
+    assert contact.reason == Reason.BY_REGION
+    assert np.allclose(contact.point, [0.005, 0.003, 0.01], atol=1e-6)
+    assert contact.candidates[0].why == "less likely to be touched, as declared"
+    assert contact.candidates[0].region == 1
+
+
+def test_what_is_untouchable_is_still_given_where_nothing_else_explains_it():
+    hidden = two_blocks(np.repeat([0, 1], 12))
+    hidden = hidden.with_region(hidden.region, untouchable=(1,))
+    side = np.hstack([[-10.0, 0, 0], np.cross([0.02, 0.0, 0.06], [-10.0, 0, 0])])
+    contact = ContactSolver(hidden).locate(side)
+    assert (contact.reason, contact.region) == (Reason.OK, 1)
 
 
 def test_region_only():
-    solver = ContactSolver(two_blocks(), gates=Gates(region_only=True, rival_sigmas=0.0))
-    contact = solver.locate(push(point=(0.005, 0.003, 0)))
+    solver = ContactSolver(two_blocks(), gates=Gates(region_only=True))
+    contact = solver.locate(ON_BOTH)
     assert contact.reason == Reason.OUTSIDE_REGION
     assert contact.point is None
+    assert contact.confidence == 0.0
 
 
 def test_the_previous_contact_settles_it():
-    solver = ContactSolver(two_blocks())
-    contact = solver.locate(push(point=(0.005, 0.003, 0)), np.array([0.005, 0.002, 0.01]))
+    previous = np.array([0.005, 0.002, 0.01])
+    contact = ContactSolver(two_blocks()).locate(ON_BOTH, previous)
     assert contact.reason == Reason.OK
     assert contact.point[2] == pytest.approx(0.01)
-    assert contact.candidates[0].why == "far from the previous contact"
+    # With less trust in it there is a doubt, but the same answer.
+    less = ContactSolver(two_blocks(), gates=Gates(follow_odds=100)).locate(ON_BOTH, previous)
+    assert less.reason == Reason.AMBIGUOUS
+    assert less.point[2] == pytest.approx(0.01)
+    assert [c.why for c in less.candidates] == ["far from the previous contact"]
+    assert ContactSolver(two_blocks(), gates=Gates(follow_distance=2e-3)).locate(ON_BOTH, previous).point[
+        2
+    ] == pytest.approx(0.01)
+    assert ContactSolver(two_blocks(), gates=Gates(follow_distance=0.5e-3)).locate(ON_BOTH, previous).point[
+        2
+    ] == pytest.approx(0.07)
+
+
+# ---- confidence ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("regions", [False, True])
+@pytest.mark.parametrize("name", assets.PROBE_NAMES)
+def test_confidence_is_that_of_the_rivals(name, regions):
+    probe, rng = bundled(name, 1000, regions=regions), np.random.default_rng(6)
+    solver = ContactSolver(probe)
+    wrenches = add_noise(random_wrenches(probe, 1_500, rng, pitch=0.001, angle=80), WrenchNoise(), rng)
+    batch = solver.locate_batch(wrenches)
+    assert batch.confidences.min() >= 0
+    assert batch.confidences.max() <= 1
+    rivalled = 0
+    for row in np.flatnonzero(np.isfinite(batch.points[:, 0])):
+        contact = batch[row]
+        assert all(c.distance > solver.gates.ambiguity_distance for c in contact.candidates)
+        deltas = np.array([c.delta for c in contact.candidates])
+        rivalled += len(deltas) > 0
+        assert contact.confidence == pytest.approx(1 / (1 + np.exp(-deltas / 2).sum()), rel=1e-12)
+        near = deltas <= 2 * np.log(solver.gates.rival_odds)
+        assert (contact.reason == Reason.AMBIGUOUS) == bool(near.any())
+        if contact.accepted:
+            assert contact.confidence > 0.9
+    assert rivalled > 30
+
+
+# ---- tracking ------------------------------------------------------------------------------------
 
 
 def test_tracking_forgets_after_recent_samples():
@@ -202,10 +360,14 @@ def test_batch_views_cannot_be_written(solver):
         ({"min_force": -1}, "min_force"),
         ({"friction_angle": 90}, "friction_angle"),
         ({"friction_angle": 0}, "friction_angle"),
-        ({"torque_ratio": 0.5}, "torque_ratio"),
+        ({"rival_odds": 0.5}, "rival_odds"),
+        ({"region_odds": float("nan")}, "region_odds"),
+        ({"untouchable_odds": 1e10}, "untouchable_odds"),
+        ({"follow_odds": 0}, "follow_odds"),
+        ({"implausible_probability": 0}, "implausible_probability"),
         ({"recent_samples": -1}, "recent_samples"),
         ({"recent_samples": 1.5}, "recent_samples"),
-        ({"rival_sigmas": float("inf")}, "rival_sigmas"),
+        ({"first_odds": float("inf")}, "first_odds"),
         ({"saturation": (1, 1, 1)}, "six"),
         ({"saturation": (1, 1, 1, 1, 1, 0)}, "positive"),
         ({"max_age": float("nan")}, "max_age"),
@@ -214,6 +376,19 @@ def test_batch_views_cannot_be_written(solver):
 def test_impossible_gates_are_refused(arguments, said):
     with pytest.raises(InputError, match=said):
         Gates(**arguments)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"torsion_arm": -1e-3}, "torsion_arm"),
+        ({"torsion_arm": float("inf")}, "torsion_arm"),
+        ({"mesh_deviation": float("nan")}, "mesh_deviation"),
+    ],
+)
+def test_impossible_touches_are_refused(arguments, said):
+    with pytest.raises(InputError, match=f"TouchModel.{said}"):
+        TouchModel(**arguments)
 
 
 @pytest.mark.parametrize("name", list(methods.METHODS))
@@ -268,14 +443,19 @@ def test_repr_reads_well(solver):
     assert "no point" in repr(solver.locate(np.zeros(6)))
 
 
-def test_more_noise_never_makes_a_t_shape_surer():
-    from pipeline.contact import WrenchNoise
-
-    wrench = push((0.0, 0.0, -9.0), bundled("t-shape", 1000).vertices.max(axis=0) * [0, 0, 1])
-    assert ContactSolver(bundled("t-shape", 1000)).locate(wrench).accepted
-    drowned = ContactSolver(bundled("t-shape", 1000), WrenchNoise(force=2.0)).locate(wrench)
-    assert drowned.reason == Reason.AMBIGUOUS
-    assert ContactSolver(ball(), WrenchNoise(force=2.0)).locate(push()).accepted  # convex: no rival anywhere
+def test_more_noise_never_makes_a_touch_surer():
+    probe, rng = bundled("t-shape", 1000), np.random.default_rng(8)
+    wrenches = random_wrenches(probe, 1_000, rng, pitch=0.001, angle=60)
+    batches = [
+        ContactSolver(probe, WrenchNoise(0.05 * n, 0.002 * n)).locate_batch(wrenches) for n in (1, 4, 16)
+    ]
+    for quiet, loud in pairwise(batches):
+        # Where both give the same place, its uncertainty has grown.
+        same = np.linalg.norm(quiet.points - loud.points, axis=1) < 1e-3
+        assert same.sum() > 500
+        assert np.all(loud.sigma_max[same] > quiet.sigma_max[same])
+    doubted = [np.mean(batch.reasons == Reason.AMBIGUOUS) for batch in batches[:2]]
+    assert doubted[1] > doubted[0]
 
 
 def test_rows_of_a_batch_carry_what_single_contacts_do():
@@ -294,9 +474,6 @@ def test_rows_of_a_batch_carry_what_single_contacts_do():
 
 def test_a_solver_can_be_shared_between_threads():
     from concurrent.futures import ThreadPoolExecutor
-
-    import assets
-    from pipeline.simulation import draw_slide
 
     wrenches = draw_slide(assets.surface("t-shape"), 20_000, np.random.default_rng(1)).wrenches
     solver = ContactSolver(bundled("t-shape", 1000))

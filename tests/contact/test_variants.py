@@ -23,7 +23,8 @@ vertices, faces = assets.make("t-shape", 2000)
 solver = ContactSolver(Probe.from_arrays(vertices, faces))
 digest = hashlib.sha256()
 for batch in (solver.locate_batch(wrenches), solver.track_batch(wrenches)):
-    for name in ("points", "normals", "torques", "faces", "vertices", "reasons", "candidates", "covariances"):
+    for name in ("points", "normals", "torques", "faces", "vertices", "reasons", "candidates", "covariances",
+                 "misfits", "left_overs", "arms", "confidences", "seconds", "accepted"):
         digest.update(np.ascontiguousarray(getattr(batch, name)).tobytes())
 sys.stdout.write(kernel.variant + " " + digest.hexdigest())
 """

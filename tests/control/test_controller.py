@@ -189,6 +189,14 @@ def test_a_bundle_is_all_it_takes():
     controller = Controller.from_config(config, arm, np.zeros(6), p_ES_E=(0, 0, 0.01), **more)
     settings = controller.settings
     assert settings.max_force == config.model.limits.max_force_N
+    solver, touch = controller._intake._method.engine, config.model.touch
+    assert solver.model.torsion_arm == touch.torsion_arm_m
+    assert solver.model.mesh_deviation == touch.mesh_deviation_m
+    told_N = np.sqrt(np.diag(solver.model.model_error.covariance)[:3])
+    np.testing.assert_allclose(told_N, touch.model_error.force_N)
+    odds = np.exp(0.5 * solver.gates.bonus(config.probe.region, config.probe.untouchable))
+    said = np.array([1.0, *(region.odds for region in config.model.regions)])
+    np.testing.assert_allclose(odds, said[config.probe.region])
     if config.model.controller is not None:
         assert settings.desired_force == config.model.controller.desired_force_N
     assert controller.wanted_S[2] == pytest.approx(config.probe.vertices[:, 2].max())

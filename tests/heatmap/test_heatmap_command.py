@@ -146,6 +146,74 @@ def test_a_window_of_time_and_a_range_of_force(bench, monkeypatch, given):
     assert hard["total"] == pytest.approx(9.0, abs=1e-6)
 
 
+def without(file, column):
+    """Return a copy of a table without a column."""
+    rows = [line.split(",") for line in file.read_text().splitlines()]
+    place = rows[0].index(column)
+    copy = file.with_name(f"without-{column}.csv")
+    copy.write_text("".join(",".join(row[:place] + row[place + 1 :]) + "\n" for row in rows))
+    return copy
+
+
+def test_weighed_by_confidence(bench):
+    shared = ["--probe", bench / "p.ply", "--out", bench / "sure.ply"]
+    old = without(bench / "contacts.csv", "confidence")
+    assert facts(old, *shared)["total"] == N
+    done = run("heatmap", old, *shared, "--by-confidence", code=2)
+    assert "without-confidence.csv: these contacts do not say how sure they are" in " ".join(
+        done.output.split()
+    )
+    rows = old.read_text().splitlines()
+    file = bench / "half.csv"
+    sure = [1.0 if number < N // 2 else 0.5 for number in range(N)]
+    file.write_text(
+        "\n".join([f"{rows[0]},confidence", *(f"{row},{c}" for row, c in zip(rows[1:], sure, strict=True))])
+    )
+    said = facts(file, *shared, "--by-confidence")
+    assert (said["by_confidence"], said["total"]) == (True, pytest.approx(0.75 * N))
+    assert facts(file, *shared)["total"] == N
+    located = facts(bench / "contacts.csv", *shared, "--by-confidence")["total"]
+    recorded = [bench / "r.mcap", "--calibration", bench / "c.json", *shared, "--by-confidence"]
+    assert N / 2 < located <= N
+    assert N / 2 < facts(*recorded)["total"] <= N
+
+
+def test_a_confidence_that_is_none_is_refused(bench):
+    text = (bench / "contacts.csv").read_text().splitlines()
+    place = text[0].split(",").index("confidence")
+    cells = text[3].split(",")
+    cells[place] = "1.5"
+    wrong = bench / "wrong.csv"
+    wrong.write_text("\n".join([*text[:3], ",".join(cells), *text[4:]]))
+    done = run("heatmap", wrong, "--probe", bench / "p.ply", "--out", bench / "x.ply", code=2)
+    assert "wrong.csv: row 3: the confidence is 1.5" in " ".join(done.output.split())
+
+
+def test_only_sure_places_are_shown(bench):
+    text = (bench / "contacts.csv").read_text().splitlines()
+    rows = [
+        row.replace(",ok,", f",{reason},")
+        for row, reason in zip(
+            text[1:],
+            ("ok", "vertex", "by_region", "ambiguous", "two_touches", "outside_region", *["ok"] * N),
+            strict=False,
+        )
+    ]
+    file = bench / "reasons.csv"
+    file.write_text("\n".join([text[0], *rows]))
+    said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply")
+    assert said["contacts"] == N - 3
+    assert said["left_out"] == {"ambiguous": 1, "outside_region": 1, "two_touches": 1}
+    assert said["warnings"] == []
+    file.write_text(
+        "\n".join(
+            [text[0], *(row.replace(",ok,", ",ambiguous,") for row in text[1 : N // 2]), *text[N // 2 :]]
+        )
+    )
+    said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply")
+    assert f"{N // 2 - 1} of {N} contacts could be at another place as well" in said["warnings"][0]
+
+
 def test_a_film_of_contacts(bench):
     out = bench / "film.gif"
     said = facts(

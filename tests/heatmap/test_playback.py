@@ -46,6 +46,25 @@ def test_all_of_it_is_the_heatmap(bench, playback, quantity, normalisation):
     assert playback.top(selection) == pytest.approx(made.top)
 
 
+@pytest.mark.parametrize("quantity", ["density", "force", "uncertainty"])
+@pytest.mark.parametrize("normalisation", ["contacts", "seconds", "rate"])
+def test_weighed_by_confidence_it_is_the_heatmap_too(bench, quantity, normalisation):
+    found = replace(bench[1], sigmas=np.linspace(1e-3, 3e-3, N), confidences=np.linspace(0.1, 1.0, N))
+    playback = Playback(bench[0], found, BANDWIDTH)
+    selection = Selection(quantity, normalisation, BANDWIDTH, by_confidence=True)
+    made, frame = selected_heatmap(bench[0], found, selection), playback.frame(selection)
+    np.testing.assert_allclose(frame.values, made.values, rtol=1e-12)
+    assert playback.heatmap(selection).by_confidence
+    plain = playback.frame(replace(selection, by_confidence=False))
+    assert not np.allclose(frame.values, plain.values, equal_nan=True)
+
+
+@pytest.mark.parametrize("quantity", ["density", "force", "peak"])
+def test_an_unknown_confidence_weighs_nothing(playback, quantity):
+    with pytest.raises(HeatmapError, match="weigh"):
+        playback.frame(Selection(quantity, bandwidth=BANDWIDTH, by_confidence=True))
+
+
 def test_a_window_adds_up_and_is_where_the_contacts_are(bench, playback):
     probe, found = bench
     selection = Selection(bandwidth=BANDWIDTH, start=1.0, end=1.5, least_force=3.2)

@@ -120,3 +120,33 @@ def test_a_part_is_drawn_like_these_contacts_alone(probe):
     )
     assert np.array_equal(part.values, alone.values, equal_nan=True)
     assert part.total == pytest.approx(4.5)
+
+
+def test_a_sure_contact_counts_more(probe):
+    sure = np.array([1.0, 0.5, 0, 0, 0, 0, 0, 0, 0, 0])
+    found = replace(contacts(probe), confidences=sure)
+    plain = selected_heatmap(probe, found, Selection())
+    made = selected_heatmap(probe, found, Selection(by_confidence=True))
+    assert (plain.total, made.total) == pytest.approx((10, 1.5))
+    assert (made.contacts, made.by_confidence, plain.by_confidence) == (10, True, False)
+    assert "weighed by confidence" in made.title
+    per = selected_heatmap(probe, found, Selection(normalisation="seconds", by_confidence=True))
+    assert per.total == pytest.approx(0.15)
+    force = selected_heatmap(probe, found, Selection("force", by_confidence=True))
+    assert force.total == pytest.approx(0.5 / 1.5)
+    part = windowed(found, Selection(least_force=1))
+    assert part.confidences.tolist() == sure[1:].tolist()
+
+
+@pytest.mark.parametrize(
+    ("sure", "quantity", "words"),
+    [
+        (None, "density", "do not say how sure they are: locate them again"),
+        (np.ones(10), "peak", "choose another quantity"),
+        (np.zeros(10), "density", "none of these contacts is sure at all"),
+    ],
+)
+def test_what_cannot_be_weighed_is_said(probe, sure, quantity, words):
+    found = replace(contacts(probe), confidences=sure)
+    with pytest.raises(HeatmapError, match=words):
+        selected_heatmap(probe, found, Selection(quantity, by_confidence=True))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 
 #include "contactbench/vec.hpp"
 
@@ -14,6 +15,7 @@ namespace testing {
 
 struct Counts {
     long passed = 0, failed = 0;
+    bool stop = false;  // at the first failure
 };
 
 inline Counts& counts() {
@@ -26,6 +28,7 @@ inline bool report(bool ok, bool& told, const char* what, const char* file, int 
     ++(ok ? counts().passed : counts().failed);
     if (!ok && !told) std::printf("%s:%d: failed: %s\n", file, line, what);
     told |= !ok;
+    if (!ok && counts().stop) std::exit(1);
     return ok;
 }
 

@@ -4,14 +4,13 @@
 // mutated inputs instead, for compilers without it:  fuzz_kernel [iterations] [seed]
 #include <cstdlib>
 #include <cstring>
-#include <set>
 #include <stdexcept>
 #include <vector>
 
 #include "check.hpp"
 #include "contactbench/algorithm1.hpp"
-#include "contactbench/linearity.hpp"
 #include "contactbench/scan.hpp"
+#include "contactbench/solver.hpp"
 
 using namespace contactbench;
 
@@ -68,32 +67,32 @@ private:
     std::size_t left_;
 };
 
-using Keys = std::multiset<std::pair<std::int32_t, std::int32_t>>;
-
-// Nearer to edge-on than this the side that a facet shows to the force is rounding.
-constexpr double grazing = 1e-6;
-
-Keys keys_of(const Hits& hits, double least_cosine) {
-    Keys keys;
-    for (std::size_t i = 0; i < hits.size(); ++i)
-        if (hits[i].cosine >= least_cosine) keys.insert({hits[i].face, hits[i].vertex});
-    return keys;
+void check_candidate(const Candidate& c) {
+    require(finite(c.point) && finite(c.normal), "a touch is not finite");
+    require(c.face >= 0 && c.cosine > 0.0, "a touch without a facet or a push");
+    require(c.misfit >= 0.0 && std::isfinite(c.cost()), "a touch without a cost");
 }
 
 void check_answer(const Answer& a) {
     require(has_point(a.reason) == (a.chosen >= 0), "a reason and its point disagree");
-    if (a.chosen < 0) return;
-    require(std::size_t(a.chosen) < a.hits.size(), "the chosen candidate does not exist");
-    const Candidate& c = a.hits[std::size_t(a.chosen)];
-    require(finite(c.point) && finite(c.normal), "a contact is not finite");
-    require(c.face >= 0 && c.cosine > 0.0, "a contact without a facet or a push");
+    require(a.count >= 0 && a.count <= Answer::capacity && a.chosen < a.count, "the chosen candidate does not exist");
+    require(a.confidence >= 0.0 && a.confidence <= 1.0, "a confidence is no probability");
+    require(a.has_second == (a.reason == Reason::two_touches), "a second touch without its reason");
+    for (int i = 0; i < a.count; ++i) check_candidate(a.candidates[i]);
+    if (a.has_second) check_candidate(a.second);
 }
 
-bool same_choice(const Answer& a, const Answer& b) {
-    if (a.reason != b.reason || a.hits.size() != b.hits.size() || (a.chosen < 0) != (b.chosen < 0)) return false;
-    if (a.chosen < 0) return true;
-    const Candidate &p = a.hits[std::size_t(a.chosen)], &q = b.hits[std::size_t(b.chosen)];
-    return p.face == q.face && p.vertex == q.vertex && std::memcmp(&p.point, &q.point, sizeof p.point) == 0;
+bool same_number(double a, double b) { return a == b || (a != a && b != b); }
+
+bool same(const Answer& a, const Answer& b) {
+    if (a.reason != b.reason || a.count != b.count || a.chosen != b.chosen) return false;
+    for (int i = 0; i < a.count; ++i) {
+        const Candidate &p = a.candidates[i], &q = b.candidates[i];
+        if (p.face != q.face || p.vertex != q.vertex || p.cost() != q.cost() || p.why != q.why ||
+            std::memcmp(&p.point, &q.point, sizeof p.point) != 0)
+            return false;
+    }
+    return same_number(a.misfit, b.misfit) && same_number(a.left_over, b.left_over) && a.confidence == b.confidence;
 }
 
 // Facets whose normal is lost in the rounding of their corners are tested, but not compared: they
@@ -116,26 +115,17 @@ void check_wrench(Solver& solver, const ScanTable& table, const PlaneLoop& loop,
     const Answer a = solver.locate(w, previous), b = solver.locate_exhaustively(w, previous);
     check_answer(a);
     check_answer(b);
-    if (compare) require(same_choice(a, b), "locate and locate_exhaustively differ");
-    if (a.chosen >= 0) (void)is_linear(solver, w, a.hits[std::size_t(a.chosen)]);
+    if (compare) require(same(a, b), "locate and locate_exhaustively differ");
     const Answer c = solver.track(w, age);
     check_answer(c);
-    if (age <= solver.gates().max_age)
-        require(same_choice(a, c), "track and locate differ");
-    else
+    if (age > solver.gates().max_age)
         require(c.reason == Reason::stale, "an old sample was used");
+    else if (c.reason != Reason::two_touches)
+        require(same(a, c), "track and locate differ");
     if (gate(w, solver.gates()) != Reason::ok) return;
-    const Model& m = solver.model();
-    const Query q = make_query(m.frame, w);
-    for (const double cap : {0.0, solver.gates().cos_friction}) {
-        Hits every, pruned, rows;
-        exhaust(m, q, cap, every);
-        search(m, q, cap, pruned);
-        scan(table, m, q, cap, rows);
-        if (compare) require(keys_of(every, grazing) == keys_of(pruned, grazing), "search and exhaust differ");
-        require(keys_of(every, 0.0) == keys_of(rows, 0.0), "scan and exhaust differ");
-    }
     Candidate found;
+    if (table.locate(solver.model(), w, solver.gates().cos_friction, found))
+        require(finite(found.point), "the table's point is not finite");
     if (loop.locate(w, found)) require(finite(found.point), "the plane loop's point is not finite");
 }
 
@@ -162,16 +152,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     gates.min_force = bytes.byte() % 2 ? 0.5 : 0.0;
     gates.region_only = bytes.byte() % 8 == 0;
     gates.recent_samples = bytes.byte() % 4;
+    gates.cos_friction = double(bytes.byte() % 8) / 8.0;
+    gates.ambiguity_distance = double(bytes.byte() % 8) * 0.05;
+    gates.follow_distance = double(bytes.byte() % 8) * 0.1;
+    gates.rival_cost = double(bytes.byte() % 16);
+    gates.accept_by_region = bytes.byte() % 2 == 0;
+    const double arm = double(bytes.byte() % 16) * double(bytes.byte() % 4) * 1e-3;
+    const MeshTerms terms{double(bytes.byte() % 4) * 1e-3, bytes.byte() % 2 == 0};
+    std::vector<double> bonus(bytes.byte() % 2 ? faces.size() : 0);
+    for (double& b : bonus) b = bytes.byte() % 4 ? 0.0 : double(bytes.byte()) / 8.0 - 16.0;
     WrenchCovariance noise;
     const double level = double(bytes.byte()) * 1e-4;
-    for (int i = 0; i < 6; ++i) noise.s[i][i] = level * level;
+    for (int i = 0; i < 6; ++i) noise.s[i][i] = level * level * (1.0 + bytes.byte() % 8);
+    for (int i = 0; i < 3; ++i) noise.s[i][i + 3] = noise.s[i + 3][i] = 0.5 * level * level;
     std::shared_ptr<const Model> model;
     try {
-        model = std::make_shared<const Model>(make_model(std::move(vertices), faces, std::move(region)));
+        model = std::make_shared<const Model>(make_model(std::move(vertices), faces, std::move(region), bonus, terms));
     } catch (const std::invalid_argument&) {
         return 0;
     }
-    Solver solver(model, noise, gates);
+    Solver solver(model, noise, arm, gates);
     const ScanTable table(*model);
     const PlaneLoop loop(*model);
     const bool compare = well_shaped(*model);

@@ -8,35 +8,11 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from pipeline import kernel
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from pipeline import kernel
     from pipeline.config.runtime import RuntimeConfig
-
-
-def arguments(config: RuntimeConfig) -> dict[str, Any]:
-    """Return what `pipeline.kernel.Runtime` needs for a config."""
-    from pipeline.config.runtime.values import gates_of
-
-    model, probe = config.model, config.probe
-    wrench, location = model.filters.wrench, model.filters.location
-    kalman = None
-    if wrench is not None:
-        kalman = np.array(
-            [wrench.rate_Hz, wrench.q, wrench.r, wrench.tuned_rate_Hz, wrench.per_sample], float
-        )
-    return {
-        "vertices": probe.vertices,
-        "faces": probe.faces,
-        "region": probe.region,
-        "noise": np.array(model.noise.wrench_covariance),
-        "gravity": config.gravity.vector,
-        "kalman": kalman,
-        "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
-        **gates_of(model.gates).kernel_arguments(),
-    }
 
 
 def stream(
@@ -71,6 +47,18 @@ def with_faults(readings: NDArray[Any], R: NDArray[Any], times: NDArray[Any]) ->
     times[len(times) // 2 :] += 1.0
 
 
+def with_surprises(config: RuntimeConfig, readings: NDArray[Any], seed: int = 4) -> None:
+    """Put in, in place, what is not one touch: now a second one for a while, now a torque that no touch explains."""
+    rng = np.random.default_rng(seed)
+    probe = config.probe
+    for begin in range(300, len(readings) - 200, 400):
+        rows = slice(begin, begin + 150)
+        facet = int(rng.integers(len(probe.faces)))
+        force = -6.0 * probe.normals[facet]
+        torque = np.cross(probe.vertices[probe.faces[facet]].mean(axis=0), force)
+        readings[rows] += [*force, *torque] if begin % 800 < 400 else [0, 0, 0, *rng.normal(0, 0.3, 3)]
+
+
 COLUMNS = (
     "reasons",
     "faces",
@@ -84,7 +72,13 @@ COLUMNS = (
     "wrenches",
     "covariances",
     "filtered_points",
-    "runner_up_distances",
+    "accepted",
+    "misfits",
+    "left_overs",
+    "arms",
+    "confidences",
+    "runners_up",
+    "seconds",
 )
 
 

@@ -22,23 +22,25 @@ void* allocate(std::size_t size, std::size_t alignment = 0) {
 }  // namespace
 
 // Every form that the standard library and the headers use, so that no allocation goes uncounted.
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, std::size_t(alignment)); }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+__attribute__((noinline)) void* operator new(std::size_t size) { return allocate(size); }
+__attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocate(size); }
+__attribute__((noinline)) void* operator new(std::size_t size, std::align_val_t alignment) { return allocate(size, std::size_t(alignment)); }
+__attribute__((noinline)) void operator delete(void* p) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+__attribute__((noinline)) void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
 
 long testing::allocations() { return allocation_count; }
 
-int main() {
+// With --first it stops at the first check that fails.
+int main(int argc, char** argv) {
+    testing::Counts& counts = testing::counts();
+    counts.stop = argc > 1 && std::strcmp(argv[1], "--first") == 0;
     testing::check_facets();
     testing::check_search();
     testing::check_solver();
     testing::check_geodesic();
-    const testing::Counts& counts = testing::counts();
     if (counts.failed > 0) {
         std::printf("%ld checks failed, %ld passed\n", counts.failed, counts.passed);
         return 1;

@@ -7,27 +7,28 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from config.runtime.bundles import example
-from kernel.runtime_cases import arguments, columns, stream, with_faults
+from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
 from pipeline import kernel
 from pipeline.filtering import KalmanFilter, LowPass
+from pipeline.runtime.engine import kernel_arguments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-CONFIG = example()
+CONFIG = example(clamped=True)
 STALE, NOT_FINITE, SATURATED, NOT_A_ROTATION = 8, 9, 7, 10
 
 
 def runtime(**changes: Any) -> kernel.Runtime:
-    return kernel.Runtime(**{**arguments(CONFIG), **changes})
+    return kernel.Runtime(**{**kernel_arguments(CONFIG), **changes})
 
 
 class Reference:
     """What the runtime does, said with the project's other parts."""
 
     def __init__(self) -> None:
-        a = arguments(CONFIG)
+        a = kernel_arguments(CONFIG)
         rate, q, r, tuned, per_sample = a["kalman"].tolist()
         self.kalman = KalmanFilter(rate, q=q, r=r, tuned_rate=tuned, per_sample=bool(per_sample))
         location = CONFIG.model.filters.location
@@ -80,8 +81,16 @@ class Reference:
         return self.low_pass.update(np.full(3, np.nan))
 
 
+def same(one: Any, other: Any) -> bool:
+    """Whether two are equal to the bit, nothing and NaN included."""
+    if one is None or other is None:
+        return one is other
+    return np.asarray(one, float).tobytes() == np.asarray(other, float).tobytes()
+
+
 def test_agrees_with_filters_and_solver_one_after_the_other() -> None:
-    readings, R, times = stream(CONFIG, 6_000)
+    readings, R, times = stream(CONFIG, 12_000)
+    with_surprises(CONFIG, readings)
     with_faults(readings, R, times)
     live, reference = runtime(), Reference()
     reasons = set()
@@ -102,16 +111,21 @@ def test_agrees_with_filters_and_solver_one_after_the_other() -> None:
             assert told.point.tobytes() == contact.point.tobytes()
             assert told.covariance.tobytes() == contact.covariance.tobytes()
             assert (told.face, told.vertex, told.torque) == (contact.face, contact.vertex, contact.torque)
-            others = contact.candidates
-            assert told.runner_up_distance == (
-                others[0].distance if others else pytest.approx(np.nan, nan_ok=True)
-            )
+            others = sorted(contact.candidates, key=lambda each: each.delta)
+            assert same(told.runner_up, others[0].point if others else None), i
         else:
             assert told.point is None
+        if contact is not None:
+            assert same(told.second, contact.second), i
+            assert told.accepted == contact.accepted
+            for name in ("misfit", "left_over", "arm", "confidence"):
+                assert same(getattr(told, name), getattr(contact, name)), (i, name)
+        else:
+            assert not told.accepted
         # SciPy solves for the filter's first state by LU, the kernel in closed form: they differ by rounding.
         shown = np.full(3, np.nan) if told.filtered_point is None else told.filtered_point
         np.testing.assert_allclose(shown, held, rtol=0, atol=1e-12)
-    assert {0, 3, SATURATED, STALE, NOT_FINITE, NOT_A_ROTATION} <= reasons
+    assert {0, 2, 3, SATURATED, STALE, NOT_FINITE, NOT_A_ROTATION, 11, 12, 13} <= reasons
 
 
 def test_compensation_is_that_of_the_gravity_model() -> None:
@@ -191,12 +205,12 @@ def test_times_that_only_jump_back_stay_stale() -> None:
 
 def test_the_location_is_held_for_a_moment_and_then_forgotten() -> None:
     readings, R, times = stream(CONFIG, 3_000)
-    reasons = (batch := runtime().update_batch(readings, R, times)).reasons
+    accepted = (batch := runtime().update_batch(readings, R, times)).accepted
     shown = ~np.isnan(batch.filtered_points[:, 0])
     recent = CONFIG.model.gates.recent_samples
     misses = recent + 1
-    for i, reason in enumerate(reasons):
-        misses = 0 if reason <= 1 else misses + 1
+    for i, good in enumerate(accepted):
+        misses = 0 if good else misses + 1
         assert shown[i] == (misses <= recent), i
     assert not shown.all()
 

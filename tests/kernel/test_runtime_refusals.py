@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from config.runtime.bundles import example, example_bundle
+from config.runtime.bundles import example, example_bundle, of_version_2
 from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake, edited, put, run
 
 from pipeline.config.runtime.pack import KNOWN
@@ -135,6 +135,65 @@ def test_a_correlation_just_beyond_one_is_refused(library: Library, folder: Path
     assert "correlation" in refusal(library, folder)[1]
 
 
+@pytest.mark.parametrize(
+    ("odds", "untouchable", "code", "says"),
+    [
+        (0.0, False, 6, "regions[0].odds"),
+        (0.5, False, 6, "regions[0].odds"),
+        (1000.0, True, 6, "regions[0].odds"),
+        (0.001, True, 8, "untouchable regions"),  # the mesh does not say so
+        (1000.0, 1, 4, "regions[0].untouchable"),
+    ],
+)
+def test_odds_that_the_region_denies_are_refused(
+    library: Library, folder: Path, odds: float, untouchable: Any, code: int, says: str
+) -> None:
+    (region,) = content(folder)["regions"]
+    edited(folder, "regions", [{**region, "odds": odds, "untouchable": untouchable}])
+    found, message = refusal(library, folder)
+    assert found == code
+    assert says in message
+
+
+def test_an_untouchable_region_that_only_the_mesh_has_is_refused(library: Library, tmp_path: Path) -> None:
+    example_bundle(tmp_path, 300, clamped=True)
+    assert refusal(library, tmp_path) == (0, "")
+    mesh = (tmp_path / "probe.ply").read_bytes()
+    line = b"comment untouchable regions 2\n"
+    for change in (b"", line + line, line.replace(b"2", b"1")):
+        put(tmp_path, "probe.ply", mesh.replace(line, change))
+        code, message = refusal(library, tmp_path)
+        assert code == 8
+        assert "untouchable regions" in message
+
+
+OLD_GATES = json.loads(of_version_2(example(300).encoded())["contactbench.json"])["gates"]
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        (
+            {"gates": {name: value for name, value in OLD_GATES.items() if name != "rival_sigmas"}},
+            "gates.rival_sigmas",
+        ),
+        ({"gates": {**OLD_GATES, "rival_odds": 100.0}}, "gates.rival_odds"),
+        ({"gates": []}, "gates"),
+        ({"touch": {}}, "touch"),
+        ({"regions": example(300).model.to_json()["regions"]}, "regions[0]"),
+        ({"regions": 3}, "regions"),
+    ],
+)
+def test_what_version_2_never_was_is_refused(
+    library: Library, tmp_path: Path, changes: dict[str, Any], says: str
+) -> None:
+    for name, data in of_version_2(example(300).encoded(), **changes).items():
+        (tmp_path / name).write_bytes(data)
+    code, message = refusal(library, tmp_path)
+    assert code == 4
+    assert message.startswith(f"contactbench.json: {says}")
+
+
 def test_planes_are_counted(library: Library, folder: Path) -> None:
     edited(folder, "planes.count", 299)
     assert "planes.count" in refusal(library, folder)[1]
@@ -204,7 +263,7 @@ def test_a_project_of_c_alone_hears_that_a_static_library_needs_more(tmp_path: P
     user.mkdir()
     (user / "CMakeLists.txt").write_text(
         "cmake_minimum_required(VERSION 3.22)\nproject(consumer LANGUAGES C)\n"
-        "find_package(contactbench_runtime 1 REQUIRED)\n",
+        "find_package(contactbench_runtime 2 REQUIRED)\n",
         encoding="ascii",
     )
     done = run(CMAKE, "-S", user, "-B", user / "build", f"-Dcontactbench_runtime_DIR={static}")

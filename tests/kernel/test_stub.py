@@ -38,35 +38,46 @@ def runtime_names(cls: type) -> set[str]:
     return {name for name in vars(cls) if not name.startswith("_") or name in PROTOCOL}
 
 
-def solver(layers: int = 1) -> kernel.Solver:
-    """Facets above each other, all of which answer a push from above."""
+def solver(layers: int = 1, apart: tuple[float, float, float] = (0.0, 0.0, 0.02)) -> kernel.Solver:
+    """Facets above each other, all of which answer a push from above; or `apart` in another direction."""
     triangle = np.array([[0.0, 0.0, 0.0], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0]])
     return kernel.Solver(
-        np.concatenate([triangle + np.array([0.0, 0.0, 0.02 * i]) for i in range(layers)]),
+        np.concatenate([triangle + i * np.array(apart) for i in range(layers)]),
         np.arange(3 * layers, dtype=np.int32).reshape(layers, 3),
         np.zeros(layers, dtype=np.int32),
         np.diag([0.0025] * 3 + [4e-6] * 3),
+        bonus=np.zeros(layers),
+        torsion_arm=0.001,
+        mesh_deviation=0.0,
+        mesh_curved=True,
         min_force=0.5,
         cos_friction=0.26,
+        implausible_misfit=10.8,
+        rival_cost=9.2,
         ambiguity_distance=0.005,
-        torque_ratio=1.5,
-        rival_sigmas=3.0,
+        behind_cost=4.0,
+        behind_distance=0.003,
+        follow_cost=13.8,
         follow_distance=0.01,
         recent_samples=20,
         max_age=0.1,
         saturation=np.full(6, np.inf),
         region_only=False,
+        accept_by_region=True,
     )
 
 
 ON_FACE = np.array([0.0, 0.0, -5.0, -0.01, 0.01, 0.0])
+ON_NEXT = np.array([0.0, 0.0, -5.0, -0.01, 0.51, 0.0])  # 100 mm along x
 OFF_FACE = np.array([0.0, 0.0, -5.0, 1.0, 1.0, 0.0])
 
 
 def instances(name: str) -> list[Any]:
     s = solver()
     if name == "Contact":
-        return [s.locate(ON_FACE), s.locate(OFF_FACE)]
+        pair = solver(2, (0.1, 0.0, 0.0))
+        pair.track_batch(np.tile(ON_FACE, (50, 1)))
+        return [s.locate(ON_FACE), s.locate(OFF_FACE), pair.track(ON_FACE + ON_NEXT)]
     if name == "Batch":
         return [s.locate_batch([ON_FACE, OFF_FACE]), s.locate_batch(np.zeros((0, 6)))]
     if name == "Solver":
@@ -106,7 +117,7 @@ def test_reason() -> None:
     assert stub == {reason.name: int(reason) for reason in kernel.Reason}
 
 
-DTYPES = {"np.float64": np.float64, "np.int32": np.int32, "np.uint8": np.uint8}
+DTYPES = {"np.float64": np.float64, "np.int32": np.int32, "np.uint8": np.uint8, "np.bool_": np.bool_}
 
 
 def matches(value: object, annotation: str) -> bool:

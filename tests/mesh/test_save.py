@@ -27,6 +27,19 @@ def test_round_trip_is_bit_for_bit(ball, tmp_path):
     assert (tmp_path / "BALL.PLY").read_bytes() == (tmp_path / "ball.ply").read_bytes()
 
 
+@pytest.mark.parametrize("ranks", ["", " 0", " -1", " 2 x", " 1.5"])
+def test_a_damaged_list_of_untouchable_regions_is_refused(box, tmp_path, ranks):
+    file = tmp_path / "box.ply"
+    save_probe(Probe.from_arrays(*box, np.arange(12), untouchable=(2, 11)), file)
+    assert load_probe(file, units="m").untouchable == (2, 11)
+    data = file.read_bytes()
+    file.write_bytes(
+        data.replace(b"comment untouchable regions 2 11", f"comment untouchable regions{ranks}".encode())
+    )
+    with pytest.raises(MeshError, match="line 5 of the PLY header"):
+        load_probe(file, units="m")
+
+
 def test_round_trip_neither_merges_nor_renumbers(box, tmp_path):
     # Corners that coincide, a vertex nobody uses, a facet shorter than the merging tolerance.
     vertices = np.vstack((box[0], box[0], [[1.0, 1.0, 1.0]], box[0][:1] + np.array([1e-10, 0, 0])))

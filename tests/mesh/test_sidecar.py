@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -33,6 +34,29 @@ def test_everything_comes_back(content, tmp_path):
     assert np.array_equal(back.probe.invented, content.probe.invented)
     assert [region.name for region in back.regions.regions] == ["lens", "edge"]
     assert (back.frame, back.history, back.notes) == ("S", content.history, ())
+
+
+def test_what_nothing_can_touch_comes_back_in_both_files(content, tmp_path):
+    lens, edge = content.regions.regions
+    marked = replace(content, regions=content.regions.with_regions((lens, replace(edge, untouchable=True))))
+    assert marked.probe.untouchable == (2,)
+    assert marked.after("simplify", bundled("linear", 100), {}, {}).probe.untouchable == (2,)
+    file = tmp_path / "probe.ply"
+    save_probe_file(marked, file)
+    back = load_probe_file(file)
+    assert [region.untouchable for region in back.regions.regions] == [False, True]
+    assert back.probe.untouchable == load_probe(file, "m").untouchable == (2,)
+    file.with_suffix(".json").unlink()
+    alone = load_probe_file(file)
+    assert [region.untouchable for region in alone.regions.regions] == [False, True]
+    assert alone.probe.untouchable == (2,)
+
+
+def test_files_from_before_there_were_marks_are_touchable(content, tmp_path):
+    save_probe_file(content, tmp_path / "probe.ply")
+    assert b"untouchable" not in (tmp_path / "probe.ply").read_bytes()
+    assert b"untouchable" not in (tmp_path / "probe.json").read_bytes()
+    assert load_probe_file(tmp_path / "probe.ply").probe.untouchable == ()
 
 
 def test_the_same_content_gives_the_same_bytes(content, tmp_path):

@@ -24,7 +24,7 @@ from pipeline.report.facts import settings_rows, summaries
 from pipeline.report.figures import draw
 from pipeline.report.making import report as make
 from pipeline.report.touches import error_map, marker_views
-from pipeline.verification.figures import ForceAccuracy
+from pipeline.verification.figures import ForceAccuracy, ModelError
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -147,6 +147,16 @@ def test_a_failure_is_said_first(given):
     assert "Failed" in text
     assert "The mean error is 1.20 mm, over 1 mm." in text
     assert "What to fix first" in text
+
+
+def test_what_the_model_leaves_is_told(given):
+    assert "What the model leaves was not measured: 0.05 N, 1.0 mN·m are assumed." in report_html(given)
+    left = ModelError(0.06, 0.0012, 0.05, 0.001, 0.08, 0.002, 12.4)
+    measured = replace(given, verification=replace(given.verification, model_error=left))
+    words = (
+        "What the model leaves: 0.06 N, 1.2 mN·m (95 % upper limit 0.08 N, 2.0 mN·m; the touches count as 12"
+    )
+    assert words in report_html(measured)
 
 
 def test_names_cannot_become_markup(given):

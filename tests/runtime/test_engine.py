@@ -2,11 +2,12 @@ from __future__ import annotations
 
 import json
 import math
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 from config.runtime.bundles import example
-from kernel.runtime_cases import arguments, stream
+from kernel.runtime_cases import stream
 from runtime.runtime_recordings import BEGIN, flange, wrench
 from scipy.spatial.transform import Rotation
 
@@ -14,7 +15,10 @@ from pipeline import kernel
 from pipeline.config.runtime import RuntimeConfig
 from pipeline.devices.sample import Status
 from pipeline.runtime import Engine
-from pipeline.runtime.engine import mount_rotation, sensor_rotation
+from pipeline.runtime.engine import kernel_arguments, make_runtime, mount_rotation, sensor_rotation
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 TURNS = Rotation.random(6, 3).as_matrix()
 
@@ -28,7 +32,7 @@ def mounted(quaternion: list[float] | None) -> RuntimeConfig:
 def test_the_same_as_the_kernel_given_everything() -> None:
     config = example()
     readings, R, times = stream(config, 400)
-    batch = kernel.Runtime(**arguments(config)).update_batch(readings, R, times)
+    batch = make_runtime(config).update_batch(readings, R, times)
     engine = Engine(config)
     for i, time in enumerate(times.tolist()):
         engine.poses([flange(time, R[i])])
@@ -36,13 +40,52 @@ def test_the_same_as_the_kernel_given_everything() -> None:
         assert told["force_S_N"] + told["torque_S_Nm"] == batch.wrenches[i].tolist()
         point = batch.points[i]
         assert told["point_S_m"] == (None if np.isnan(point[0]) else point.tolist())
-        assert told["runner_up_m"] == (
-            None if np.isnan(batch.runner_up_distances[i]) else batch.runner_up_distances[i]
-        )
+        assert told["accepted"] is bool(batch.accepted[i])
+        assert told["confidence"] == batch.confidences[i]
+        for name, values in (
+            ("misfit", batch.misfits),
+            ("left_over_Nm", batch.left_overs),
+            ("arm_m", batch.arms),
+            ("runner_up_S_m", batch.runners_up),
+            ("second_S_m", batch.seconds),
+        ):
+            assert told[name] == (None if np.isnan(values[i]).any() else values[i].tolist()), name
         covariance = batch.covariances[i]
         assert told["covariance_S_m2"] == (
             None if np.isnan(covariance[0, 0]) else covariance.ravel().tolist()
         )
+
+
+def test_the_kernel_gets_what_the_bundle_says_of_a_touch() -> None:
+    config = example(clamped=True)
+    given = kernel_arguments(config)
+    error = np.array([0.04, 0.05, 0.06, 0.001, 0.0012, 0.0009])
+    covariance = np.array(config.model.noise.wrench_covariance) + np.diag(error * error)
+    assert (given["noise"] == covariance).all()
+    assert (given["torsion_arm"], given["mesh_deviation"], given["mesh_curved"]) == (0.002, 5e-5, True)
+    expected = {0: 0.0, 1: 2 * math.log(1000.0), 2: 2 * math.log(0.001)}
+    assert given["bonus"].tolist() == [expected[rank] for rank in config.probe.region.tolist()]
+    assert given["implausible_misfit"] == config.model.gates.implausible_misfit
+    assert given["rival_cost"] == 2 * math.log(100.0)
+
+
+def test_what_a_clamp_hides_is_less_often_the_answer() -> None:
+    config = example(clamped=True)
+    probe, level = config.probe, np.eye(3)
+    clamped = np.flatnonzero(probe.region == 2)
+    forces = -7.0 * probe.normals[clamped]
+    torques = np.cross(probe.vertices[probe.faces[clamped]].mean(axis=1), forces)
+    readings = np.hstack([forces, torques]) + config.gravity.predict(level[None])
+
+    def answers_there(bonus: NDArray[Any]) -> int:
+        count, live = 0, kernel.Runtime(**{**kernel_arguments(config), "bonus": bonus})
+        for reading in readings:
+            live.reset()
+            count += live.update(reading, level, 0.0).region == 2
+        return count
+
+    bonus = kernel_arguments(config)["bonus"]
+    assert answers_there(bonus) + 20 < answers_there(np.where(probe.region == 2, 0.0, bonus))
 
 
 def test_a_sample_takes_the_newest_pose_that_is_not_later() -> None:

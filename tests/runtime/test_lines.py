@@ -51,5 +51,6 @@ def test_without_a_pose() -> None:
     told = json.loads(answer.line)
     assert answer.reason == told["reason"] == "stale"
     assert told["time"] == 2.5
-    assert told["point_S_m"] is told["force_S_N"] is None
+    assert told["point_S_m"] is told["force_S_N"] is told["misfit"] is None
+    assert told["accepted"] is False
     assert answer.line.endswith(b"}\n")

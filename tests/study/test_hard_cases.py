@@ -15,7 +15,7 @@ from pipeline.errors import InputError
 from pipeline.study import hard_cases
 from pipeline.study import hard_meshes as hm
 from pipeline.study.hard_cases import Case, HardCasesReport, Outcome, Rule, Trial
-from pipeline.study.hard_trials import certified, complete, exact, like, refused
+from pipeline.study.hard_trials import certified, complete, exact, like, refused, within
 
 GOOD = Outcome(1.0, 1e-9, 1e-8, {"OK": 10}, 0.0)
 
@@ -147,24 +147,24 @@ def test_checks_refuse_answers_to_other_wrenches(trial: Trial) -> None:
     # The check belongs to one set of wrenches and is asked about another.
     for check in (
         certified(body, turned.wrenches),
-        complete(body, hm.Drawn(trial.drawn.wrenches, turned.points)),
+        complete(hm.Drawn(trial.drawn.wrenches, turned.points)),
+        within(hm.Drawn(trial.drawn.wrenches, turned.points)),
     ):
         assert replace(trial, check=check).run().contactbench.broken == count
-    for check in (certified(body, trial.drawn.wrenches), complete(body, trial.drawn)):
+    for check in (certified(body, trial.drawn.wrenches), complete(trial.drawn), within(trial.drawn)):
         assert replace(trial, check=check).run().contactbench.broken == 0
     assert replace(trial, check=like(trial, lambda p: p, body.size)).run().contactbench.broken == 0
     assert replace(trial, check=like(trial, lambda p: p + 1e-9, body.size)).run().contactbench.broken == count
 
 
 def test_complete_notices_a_lost_candidate(rng: np.random.Generator) -> None:
-    """A friction cone that is narrower for the solver than for the truth loses candidates."""
+    """A friction cone that is narrower for the solver than for the touches loses candidates."""
     body = hm.bundled("t-shape", 500)
-    drawn = hm.press(*hm.places(body, 40, rng), rng, pitch=0.3)
-    probe = body.probe()
-    with_cone = Trial("", "", Rule("", unflagged=1.0), probe, drawn, gates=Gates(friction_angle=89.0))
-    assert replace(with_cone, check=complete(body, drawn)).run().passed
-    bent = hm.Body(body.vertices * [1.0, 1.0, 1.02], body.faces)
-    assert replace(with_cone, check=complete(bent, drawn)).run().contactbench.broken > 0
+    drawn = hm.press(*hm.places(body, 40, rng), rng, angle=(30.0, 40.0))
+    wide = Trial("", "", Rule("", unflagged=1.0), body.probe(), drawn, gates=Gates(friction_angle=89.0))
+    assert replace(wide, check=complete(drawn)).run().passed
+    narrow = replace(wide, gates=Gates(friction_angle=25.0), check=complete(drawn)).run()
+    assert narrow.contactbench.broken == 40
 
 
 def test_bodies_are_closed_and_face_outwards() -> None:

@@ -120,6 +120,18 @@ def test_spread_markers_are_where_a_press_is_told_and_a_tip_has_room(name):
     assert (made.points[down, 2] / -made.normals[down, 2] > 0.045).all()
 
 
+def test_no_marker_is_put_where_nothing_can_touch():
+    probe = mesh(2_000)
+    low = (probe.vertices[probe.faces, 2].mean(axis=1) < 0.5 * probe.bounds[1, 2]).astype(np.int32)
+    marked = probe.with_region(low, (1,))
+    made = spread_markers(marked, 17)
+    assert made.points[:, 2].min() > 0.45 * probe.bounds[1, 2]
+    with pytest.raises(MarkerError, match="no region 1 to touch"):
+        spread_markers(marked, 3, region=1)
+    with pytest.raises(MarkerError, match="untouchable"):
+        spread_markers(probe.with_region(np.ones_like(low), (1,)), 3)
+
+
 def test_a_grid_has_its_pitch():
     probe = mesh(2_000)
     region = ((probe.normals[:, 2] > 0.9) & (probe.vertices[probe.faces, 2].mean(axis=1) > 0.1)).astype(

@@ -1,9 +1,14 @@
 import numpy as np
 import pytest
-from verification.touch_cases import Push, markers, protocol, stream, touches
+from verification.touch_cases import MODEL, NOISE, Push, markers, probe, protocol, stream, touches
 
+import assets
+from pipeline.contact import TouchModel
 from pipeline.errors import InputError
-from pipeline.verification.protocol import ProtocolSettings, State, Why
+from pipeline.mesh import Probe
+from pipeline.verification.locating import Placing
+from pipeline.verification.markers import make_markers, with_normals
+from pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, State, Why
 
 
 def only(found):
@@ -48,6 +53,38 @@ def test_a_clipped_reading_rejects_the_press():
 
 def test_a_wrench_that_meets_no_surface_misses_the_probe():
     assert only(touches(Push(marker=1, shift=0.2))).why is Why.MISSED
+
+
+def test_a_torque_that_no_tip_gives_is_no_touch_but_its_marker_is_told():
+    touch = only(touches(Push(marker=2, twist=0.008)))
+    assert touch.why is Why.IMPLAUSIBLE
+    assert touch.why in UNRESOLVED
+    assert touch.placed.marker == 2
+    assert touch.located.torque == pytest.approx(0.008 * 9.0, rel=0.1)
+    nowhere = only(touches(Push(marker=2, shift=0.016, twist=0.008)))
+    assert (nowhere.why, nowhere.placed, nowhere.located) == (Why.IMPLAUSIBLE, None, None)
+
+
+def test_a_touch_that_only_its_region_makes_sure_is_accepted():
+    linear = Probe.from_arrays(*assets.make("linear", 2_000))
+    top = (linear.normals[:, 2] > 0.5) & (linear.vertices[linear.faces, 2].mean(axis=1) > 0.14)
+    found = []
+    for told in (linear, linear.with_region(top.astype(np.int32))):
+        foot = told.bounds[1] * [0.5, 0.0, 1.0]
+        targets = with_normals(make_markers([foot]), told)[0]
+        F = np.array([0.0, 0.0, -9.0])
+        wrenches = np.tile(np.hstack([F, np.cross(foot, F)]), (50, 1))
+        located = Placing(told, targets, MODEL, NOISE).locate(wrenches, np.tile(np.eye(3), (50, 1, 1)))
+        found.append((located.ambiguous, located.implausible))
+    assert found == [(True, False), (False, False)]
+
+
+def test_the_model_error_that_is_assumed_is_not_averaged_away():
+    """What drifts is the same in all samples."""
+    floor = TouchModel().model_error.covariance
+    for samples in (4, 400):
+        solver = Placing(probe(), markers(), MODEL, NOISE, samples).solver
+        np.testing.assert_allclose(solver.covariance, NOISE.covariance / samples + floor, rtol=1e-12)
 
 
 def test_the_order_is_free_unless_it_is_given():

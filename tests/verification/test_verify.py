@@ -126,6 +126,16 @@ def test_the_cause_that_was_put_in_is_named(cause):
     assert sum(share.share for share in found.diagnosis.shares) == pytest.approx(1.0)
 
 
+def test_touches_with_a_gripping_tip_speak_against_it_and_are_in_no_figure():
+    found = bench(Cause.TORSION, np.random.default_rng(11)).verified()
+    assert found.rejected == {"no single touch explains it": 34}
+    assert found.overall is None
+    assert found.model_error is None
+    assert found.unresolved.touches == found.unresolved.settled == 34
+    assert any("no marker (34 no single touch explains it)" in reason for reason in found.verdict.reasons)
+    assert any("34 of 34 settled touches leave a torque" in said for said in found.warnings)
+
+
 def test_a_wrong_alignment_is_refined_and_judged_on_the_other_markers():
     wrong = bench(Cause.ALIGNMENT, np.random.default_rng(5)).verified()
     refined = wrong.alignment_refined
@@ -196,7 +206,9 @@ def test_a_session_and_the_command_write_the_same_bytes(files, tmp_path):
     out = tmp_path / "v.json"
     ended = CliRunner().invoke(app, [*arguments(files), "--out", str(out), "--json"])
     assert ended.exit_code == 0, ended.output
+    assert "What the model leaves: 0.0" in ended.output
     told = json.loads(ended.stdout)
+    assert told["model_error"]["force_N"] < 0.05
     given = {"name": "v.json", "times": [told["times"][key] for key in ("count", "median_s", "p99_s")]}
     made = [verification(inputs(files), given, created)["v.json"] for created in (None, "any")]
     assert made[0] == made[1] == out.read_bytes()

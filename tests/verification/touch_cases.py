@@ -32,7 +32,7 @@ def markers():
 
 @dataclass
 class Push:
-    """A press of a marker: |F| sample by sample, and what is special about it."""
+    """A press of a marker: |F| sample by sample, and what is special about it; twist is torque over force, m."""
 
     marker: int = 1
     force: float = 9.0
@@ -41,6 +41,7 @@ class Push:
     slide: float = 0.0
     wave: float = 0.0
     shift: float = 0.0
+    twist: float = 0.0
 
 
 def stream(*pushes, seed=0):
@@ -55,7 +56,8 @@ def stream(*pushes, seed=0):
         along = push.shift + push.slide * np.arange(n) / RATE
         points = targets[push.marker].point_S + along[:, None] * np.array([1.0, 0, 0])
         forces = -size[:, None] * normal
-        rows += [np.hstack([forces, np.cross(points, forces)]), np.zeros((60, 6))]
+        torques = np.cross(points, forces) + push.twist * size[:, None] * normal
+        rows += [np.hstack([forces, torques]), np.zeros((60, 6))]
     wrenches = np.vstack(rows)
     wrenches += rng.standard_normal(wrenches.shape) * np.repeat([0.05, 0.0014], 3)
     times = np.arange(len(wrenches)) / RATE

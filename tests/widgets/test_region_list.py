@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import QModelIndex, Qt
 from PySide6.QtWidgets import QApplication, QLineEdit
@@ -107,6 +109,28 @@ def test_buttons_and_keys_ask(listed, qtbot):
         qtbot.mouseClick(listed.add_button, Qt.MouseButton.LeftButton)
     listed.choose(1)
     assert not listed.up_button.isEnabled()
+
+
+def test_what_nothing_can_touch_is_marked_in_words_and_crossed_out(listed, qtbot):
+    assert not listed.untouchable.isChecked()
+    with qtbot.waitSignal(listed.marked) as asked:
+        listed.untouchable.click()
+    assert asked.args == [1, True]
+    before = listed.rows.index(0, PRIORITY).data(Qt.ItemDataRole.DecorationRole).pixmap(20, 20).toImage()
+    listed.show_rows((replace(ROWS[0], untouchable=True), *ROWS[1:]))
+    assert listed.untouchable.isChecked()
+    assert "untouchable" in text(listed, 0, NAME)
+    assert "Lens" in text(listed, 0, NAME)
+    assert listed.rows.index(0, NAME).data(Qt.ItemDataRole.EditRole) == "Lens"
+    assert "untouchable" in listed.rows.index(0, NAME).data(Qt.ItemDataRole.AccessibleTextRole)
+    patch = listed.rows.index(0, PRIORITY).data(Qt.ItemDataRole.DecorationRole).pixmap(20, 20).toImage()
+    middle = patch.width() // 2
+    assert patch.pixelColor(middle, middle).lightness() < before.pixelColor(middle, middle).lightness() - 60
+    listed.choose(2)
+    assert not listed.untouchable.isChecked()
+    listed.show_rows(())
+    assert not listed.untouchable.isEnabled()
+    assert "1000 times" in listed.untouchable.toolTip()
 
 
 def test_colours_that_everybody_can_tell_apart_come_first(listed, qtbot):

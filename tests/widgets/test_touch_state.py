@@ -41,6 +41,22 @@ def test_each_state_has_a_word_of_its_own(state):
     assert len(words) == 6
 
 
+def test_how_sure_the_contact_is_stands_below_and_a_doubt_has_a_sign(state):
+    below = (0, 170, 340, 74)
+    state.resize(state.sizeHint())
+    empty = state.grab().toImage()
+    state.show_contact("Confidence 98 %")
+    assert "Confidence 98 %" in state.accessibleName()
+    assert state.grab().toImage() != empty
+    theme = colours(False)
+    assert has(state, theme.good, below)
+    state.show_contact("A second touch joined: both are shown.", False)
+    assert has(state, theme.warning, below)
+    assert not has(state, theme.good, below)
+    state.show_contact("")
+    assert state.grab().toImage() == empty
+
+
 def test_the_gauge_rises_with_the_force_and_tells_whether_it_is_in_the_window(state):
     gauge = (270, 10, 60, 110)
     theme = colours(False)

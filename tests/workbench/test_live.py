@@ -1,5 +1,6 @@
 import threading
 import time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,9 @@ from pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from pipeline.devices.url import AddressError
 from pipeline.errors import InputError
 from pipeline.filtering import KalmanFilter
+from pipeline.kernel import Reason
 from pipeline.workbench.live import Live, Tap
+from pipeline.workbench.live_moment import Moment
 from pipeline.workbench.live_poses import LONGEST_GAP, PoseTrack
 from pipeline.workbench.live_ring import Ring
 from pipeline.workbench.live_trial import trial_of
@@ -220,9 +223,11 @@ def test_reading_finds_the_contact_once_for_each_sample(live):
     asked = []
 
     class Counting:
-        def locate(self, wrench):
+        reset = solver.reset
+
+        def track(self, wrench):
             asked.append(wrench)
-            return solver.locate(wrench)
+            return solver.track(wrench)
 
     live.set_solver(Counting())
     assert live.reading().contact is None  # nothing touches
@@ -238,6 +243,32 @@ def test_reading_finds_the_contact_once_for_each_sample(live):
     assert np.isnan(points[0]).all()
     assert points[-1] == pytest.approx(contact.point)
     assert (np.diff(times) > 0).all()
+
+
+class Following:
+    """A solver that counts how often it began anew."""
+
+    def __init__(self, *reasons):
+        self.reasons, self.began = list(reasons), 0
+
+    def track(self, wrench):
+        return SimpleNamespace(reason=self.reasons.pop(0), point=wrench[:3])
+
+    def reset(self):
+        self.began += 1
+
+
+def test_a_contact_is_followed_until_it_is_let_go():
+    moment, model = Moment(200.0), GravityModel(EMPTY, EMPTY, EMPTY, EMPTY)
+    solver = Following(Reason.OK, Reason.TWO_TOUCHES, Reason.LOW_FORCE, Reason.OK, Reason.OK)
+    seen, began = [], []
+    for now in (1.0, 1.1, 1.2, 1.3, 2.0):  # the last after a pause in which nobody looked
+        moment.add(np.array([now]), np.ones((1, 6)), np.eye(3)[None])
+        contact = moment.reading(model, solver).contact
+        seen.append(None if contact is None else contact.reason)
+        began.append(solver.began)
+    assert seen == [Reason.OK, Reason.TWO_TOUCHES, None, Reason.OK, Reason.OK]
+    assert began == [1, 1, 2, 2, 3]
 
 
 # ---- opening -------------------------------------------------------------------------------------

@@ -144,6 +144,18 @@ def test_rows_hold_areas_and_facets(work):
     assert lens.area == pytest.approx(math.pi * 0.01**2, rel=0.35)
 
 
+def test_what_nothing_can_touch_is_told_facet_by_facet(work):
+    paint(work, TOP, radius=0.01)
+    assert len(work.untouchable()) == 0
+    assert work.step(lambda model: model.set_untouchable(1, True)) == "mark Lens untouchable"
+    assert work.rows()[0].untouchable
+    assert np.array_equal(work.untouchable(), np.flatnonzero(work.model.labels == 1))
+    consistent(work)
+    work.undo()
+    assert not work.rows()[0].untouchable
+    assert len(work.untouchable()) == 0
+
+
 # ---- tools -------------------------------------------------------------------------------------
 
 

@@ -92,6 +92,7 @@ def test_what_is_limited_later_makes_it_stale(bench):
     work.finish()
     bench.set("verification.max_limit_mm", 0.5)
     outcome = outcome_of(bench.desk.folder, bench.desk.state, bench.desk.stale)
+    assert outcome.model_error.startswith("What the model leaves")
     assert "max_limit_mm" in outcome.stale
 
 

@@ -1,4 +1,4 @@
-"""Where the probe is touched: a disc as large as the doubt about it, and hollow rings where it might have been."""
+"""Where the probe is touched: a disc as large as the doubt about it, and hollow rings where it could be as well."""
 
 from __future__ import annotations
 
@@ -7,14 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from widgets.scene.label import Label
 from widgets.scene.shapes import circle, disc, frame_on, ring_segments, segments
 from widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from widgets.scene.picking import Picker
     from widgets.scene.stage import Stage
+    from widgets.scene.views import Screen
 
 CHI2_95 = 5.991  # of two degrees of freedom
 
@@ -33,6 +37,8 @@ class ContactLayer:
             shape.plain()
             shape.lift(lift)
             shape.show(False)
+        self._caption = Label(stage, (14.0, 14.0))
+        self._captions, self._second = ("", ""), np.full(3, np.nan)
         self.dress()
 
     def dress(self) -> None:
@@ -56,10 +62,15 @@ class ContactLayer:
         covariance: NDArray[np.float64] | None,
         normal: NDArray[np.float64] | None,
         candidates: NDArray[np.float64] | None,
+        captions: tuple[str, str],
         picker: Picker | None,
         normals: NDArray[np.float64] | None,
     ) -> None:
-        """Show a contact, or none; what the picker finds says how the surface lies where nobody told."""
+        """
+        Show a contact, or none; what the picker finds says how the surface lies where nobody told.
+
+        The first candidate has a caption: one for where it is seen, and one for where it is behind the probe.
+        """
         for shape in (self._disc, self._rim, self._dot):
             shape.show(point is not None)
         if point is not None:
@@ -75,10 +86,22 @@ class ContactLayer:
             self._rim.place(ellipse)
         rows = np.zeros((0, 3)) if candidates is None else np.reshape(candidates, (-1, 3))
         self._lost.show(len(rows) > 0)
+        self._captions, self._second = captions, rows[0] if len(rows) else np.full(3, np.nan)
         if len(rows):
-            radius = 0.02 * self._stage.size
+            radius = 0.025 * self._stage.size
             frames = np.array([frame_on(row, _normal(row, picker, normals), radius) for row in rows])
             self._lost.give(segments(ring_segments(frames)))
+
+    def label(self, screen: Screen, seen: Callable[[NDArray[np.float64]], bool]) -> None:
+        """Put the caption beside the first candidate."""
+        there = bool(np.isfinite(self._second).all()) and any(self._captions)
+        if not there:
+            self._caption.put(0.0, 0.0, False, screen.height)
+            return
+        turn, place = self._stage.turn, self._second
+        self._caption.write(self._captions[0 if seen(place) else 1], self._stage.colours.text)
+        x, y = screen.project((turn[:3, :3] @ place + turn[:3, 3])[None])[0, :2]
+        self._caption.put(x, y, True, screen.height)
 
 
 def ellipse_frame(

@@ -1,4 +1,4 @@
-"""Lines across facets that were made up: they tell the guess from the measured without a colour."""
+"""Lines across facets that were made up, and crossed ones where nothing can touch: told apart without a colour."""
 
 from __future__ import annotations
 
@@ -17,15 +17,26 @@ _LINES = 70  # across the probe's size
 # The direction in which the lines follow each other, by the axis along which a facet's normal is longest: it is
 # never along the normal, so every facet gets its lines.
 _ACROSS = np.array([[0.0, 1.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 0.0]]) / np.sqrt(2.0)
+_CROSSED = _ACROSS * [[1.0, 1.0, -1.0], [1.0, 1.0, -1.0], [1.0, -1.0, 1.0]]
 
 
 def hatches(probe: Probe) -> Any:
-    """Return the lines for VTK."""
+    """Return the lines across what was made up, for VTK."""
     return segments(hatch_segments(probe.vertices, probe.faces[probe.invented], probe.size / _LINES))
 
 
+def crosses(probe: Probe, faces: NDArray[np.intp] | NDArray[np.int32]) -> Any:
+    """Return crossed lines over the given facets, for VTK."""
+    chosen, spacing = probe.faces[faces], probe.size / _LINES
+    both = [hatch_segments(probe.vertices, chosen, spacing, across) for across in (_ACROSS, _CROSSED)]
+    return segments(np.concatenate(both))
+
+
 def hatch_segments(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], spacing: float
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    spacing: float,
+    directions: NDArray[np.float64] = _ACROSS,
 ) -> NDArray[np.float64]:
     """
     Return where parallel planes cut facets.
@@ -36,6 +47,8 @@ def hatch_segments(
     faces : (m, 3)
     spacing : float
         Between the planes.
+    directions : (3, 3)
+        In which the planes follow each other, by the axis along which a facet's normal is longest.
 
     Returns
     -------
@@ -46,7 +59,7 @@ def hatch_segments(
         return np.zeros((0, 3))
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    across = _ACROSS[np.argmax(np.abs(normals), axis=1)]
+    across = directions[np.argmax(np.abs(normals), axis=1)]
     height = np.einsum("mcj,mj->mc", corners, across) / spacing
     low, high = np.ceil(height.min(axis=1)), np.floor(height.max(axis=1))
     count = np.maximum(high - low + 1, 0).astype(np.int64)

@@ -1,4 +1,4 @@
-"""The probe's surface: a colour per facet, edges, hatching of what was made up, fields, and a second mesh."""
+"""The probe's surface: a colour per facet, edges, hatching, fields, and a second mesh."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from widgets.scene.ahead import MANY
 from widgets.scene.fields import cividis
-from widgets.scene.hatching import hatches
+from widgets.scene.hatching import crosses, hatches
 from widgets.scene.picking import Picker
 from widgets.scene.shapes import segments, thinned, triangles
 from widgets.scene.stage import Shape
@@ -54,11 +54,12 @@ class ProbeLayer:
         self.fresh = _surface(stage)  # facets painted since the picture was kept
         self._edges = Shape(stage, vtkPolyData(), live=False)
         self._hatching = Shape(stage, vtkPolyData(), live=False)
+        self._crossed = Shape(stage, vtkPolyData(), live=False)
         self._field = _surface(stage)
         self._overlay = _surface(stage)
         self.fresh.show(False)
         self._coarse.show(False)
-        for lines in (self._edges, self._hatching):
+        for lines in (self._edges, self._hatching, self._crossed):
             lines.plain()
             lines.lift(0.02)
         self._field.show(False)
@@ -69,7 +70,8 @@ class ProbeLayer:
     @property
     def shapes(self) -> tuple[Shape, ...]:
         """All that stands still."""
-        return self.surface, self._coarse, self._edges, self._hatching, self._field, self._overlay
+        lines = self._edges, self._hatching, self._crossed
+        return self.surface, self._coarse, *lines, self._field, self._overlay
 
     def dress(self) -> None:
         """Take the theme's colours."""
@@ -78,8 +80,9 @@ class ProbeLayer:
         self._edges.colour("#7d8287")
         # soft: on a narrow seam the lines are short, and black ones look like a fault of the picture
         self._hatching.colour("#6f7478")
+        self._crossed.colour("#2b2f33")
         self._overlay.colour(colours.series[5])
-        for shape in (self._edges, self._hatching):
+        for shape in (self._edges, self._hatching, self._crossed):
             shape.look.SetLineWidth(self._stage.ratio)
 
     def turn(self) -> None:
@@ -95,7 +98,7 @@ class ProbeLayer:
         self.surface.show(probe is not None)
         if probe is None:
             self.picker = None
-            for shape in (self.surface, self._edges, self._hatching):
+            for shape in (self.surface, self._edges, self._hatching, self._crossed):
                 shape.give(vtkPolyData())
             return
         self.bounds = np.array(probe.bounds)
@@ -108,6 +111,12 @@ class ProbeLayer:
         self.picker = Picker(self.surface.mapper.GetInput())
         self._edges.give(vtkPolyData())
         self._hatching.give(hatches(probe))
+        self.cross(np.flatnonzero(np.isin(probe.region, probe.untouchable)))
+
+    def cross(self, faces: NDArray[np.intp] | NDArray[np.int32]) -> None:
+        """Cross out the facets (c,) that nothing can touch, and no others."""
+        if self.probe is not None:
+            self._crossed.give(crosses(self.probe, faces) if len(faces) else vtkPolyData())
 
     def take(self, prepared: Prepared) -> None:
         """Take what was computed of the probe that is shown."""

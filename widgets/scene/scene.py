@@ -113,7 +113,11 @@ class Scene(QWidget):
     # ---- the probe ---------------------------------------------------------------------------------
 
     def show_probe(self, probe: Probe | None, colours: NDArray[np.uint8] | None = None) -> None:
-        """Show another probe, with a colour (m, 3) per facet; the view stays. Invented facets are hatched."""
+        """
+        Show another probe, with a colour (m, 3) per facet; the view stays.
+
+        Invented facets are hatched, those that nothing can touch are crossed out.
+        """
         self.probe_layer.show(probe, colours)
         self.colour_bar.hide()
         self._poses.show_stand_in(probe is None)
@@ -138,6 +142,11 @@ class Scene(QWidget):
             self.stage.stir()
         else:
             self.redraw()
+
+    def show_untouchable(self, faces: NDArray[np.int32]) -> None:
+        """Cross out other facets (c,) than those that the probe says nothing can touch."""
+        self.probe_layer.cross(faces)
+        self.stage.stir()
 
     def show_overlay(self, probe: Probe | None, opacity: float = 0.25) -> None:
         """Show a second mesh, see-through, such as the original beside the simplified one."""
@@ -180,11 +189,17 @@ class Scene(QWidget):
         covariance: NDArray[np.float64] | None = None,
         normal: NDArray[np.float64] | None = None,
         candidates: NDArray[np.float64] | None = None,
+        captions: tuple[str, str] = ("", ""),
     ) -> None:
-        """Show the contact as a disc of the 95 % ellipse, and candidates (k, 3) that lost as hollow rings."""
+        """
+        Show the contact as a disc of the 95 % ellipse, and candidates (k, 3) that are rivals to it as hollow rings.
+
+        Beside the first candidate stands the first of the captions, or the second where it is behind the probe.
+        """
         probe = self.probe_layer.probe
         normals = None if probe is None else probe.normals
-        self._contact.show(point, covariance, normal, candidates, self.probe_layer.picker, normals)
+        picker = self.probe_layer.picker
+        self._contact.show(point, covariance, normal, candidates, captions, picker, normals)
         self.redraw()
 
     def show_markers(
@@ -337,6 +352,7 @@ class Scene(QWidget):
         screen = self.projection()
         self._eye.aim()
         self._markers.label(screen, self._eye.sees)
+        self._contact.label(screen, self._eye.sees)
         self._poses.label(screen)
         self.scale_bar.setVisible(not self._eye.look.perspective)
         self.scale_bar.set_scale(screen.metres_per_pixel * ratio)

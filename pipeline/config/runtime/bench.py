@@ -10,6 +10,7 @@ import hashlib
 import tempfile
 from dataclasses import dataclass, field, replace
 from datetime import datetime
+from math import hypot, inf
 from pathlib import Path
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Protocol
@@ -30,6 +31,7 @@ from pipeline.config.runtime.mounts import (
 from pipeline.config.runtime.verified import rate_reasons, read_verification
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
+from pipeline.contact.touch_model import TouchModel
 from pipeline.filtering import KalmanFilter, LowPass
 from pipeline.mesh.sidecar import load_probe_file
 
@@ -65,6 +67,8 @@ class ExportSettings:
     cutoff : float or None
         Low-pass of the contact point, Hz; None: none.
     gates : Gates
+    torsion_arm : float
+        One standard deviation of the local torque over the force, m.
     limits : LimitsPart
     controller : ControllerPart or None
     operator : str or None
@@ -82,6 +86,7 @@ class ExportSettings:
     smoothed: bool = True
     cutoff: float | None = None
     gates: Gates = field(default_factory=Gates)
+    torsion_arm: float = TouchModel.torsion_arm
     limits: LimitsPart = field(
         default_factory=lambda: LimitsPart(
             max_force_N=30.0, max_torque_Nm=3.0, max_speed_mps=None, max_turn_radps=None
@@ -152,13 +157,13 @@ def _built(
     mounts: Mounts,
     unverified: bool,
 ) -> RuntimeConfig:
-    checked, rate = None, settings.rate
+    checked, rate, error = None, settings.rate, None
     mount = settings.mount or mount_of(record) or mounts.calibrated
     if verification is not None:
         checked, verified = read_verification(verification, "verification")
         mounts = replace(mounts, verified=verified.mount or mounts.verified)
         stale = [*stale, *_others(verified.sources, sources)]
-        rate = rate or verified.rate
+        rate, error = rate or verified.rate, verified.model_error
         stale += rate_reasons(verified.rate, rate, settings.filters)
     if rate is None:
         raise RateUnknownError(
@@ -181,6 +186,12 @@ def _built(
         session=session,
         created=created,
         sources=sources,
+        model=TouchModel(
+            settings.torsion_arm,
+            TouchModel().model_error if error is None else error,
+            mesh_deviation(probe_file),
+        ),
+        measured=error is not None,
         stale=tuple(stale),
         names=settings.names,
         unverified=unverified,
@@ -229,6 +240,32 @@ def reading_noise(calibration: Calibration) -> WrenchNoise:
         return WrenchNoise()
     sigmas = [np.sqrt(np.mean(np.square(each), axis=0)) for each in (force, torque)]
     return WrenchNoise(*sigmas) if all((each > 0).all() for each in sigmas) else WrenchNoise()
+
+
+def mesh_deviation(probe_file: ProbeFile) -> float:
+    """
+    Return the root mean square between a probe and the surface that it was simplified from, m; 0 if it never was.
+
+    Raises
+    ------
+    ConfigError
+        The history states no such length.
+    """
+    total = 0.0
+    for number, step in enumerate(probe_file.history, 1):
+        if step["step"] != "simplify":
+            continue
+        try:
+            rms = float(step["result"]["deviation"]["rms_mm"])
+        except (KeyError, TypeError, ValueError):
+            rms = -1.0
+        if not 0 <= rms < inf:
+            raise ConfigError(
+                f"{probe_file.probe.name}: step {number} of its history, simplify, states no result.deviation.rms_mm:"
+                " prepare the probe again."
+            )
+        total = hypot(total, rms / 1e3)
+    return total
 
 
 # ---- a session ---------------------------------------------------------------------------------

@@ -23,6 +23,7 @@ from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
 from pipeline.config.runtime.planes import encode_planes
 from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from pipeline.config.vertical import vertical_residual
+from pipeline.contact.touch_model import TouchModel
 from pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from pipeline.contact.gates import Gates
     from pipeline.contact.noise import WrenchNoise
     from pipeline.filtering import KalmanFilter, LowPass
+    from pipeline.mesh import Probe
     from pipeline.mesh.sidecar import ProbeFile
 
 _MOST_ORDER = 8
@@ -81,6 +83,8 @@ def build_config(
     session: str | None,
     created: datetime,
     sources: Sequence[SourcePart],
+    model: TouchModel | None = None,
+    measured: bool = False,
     stale: Sequence[str] = (),
     names: RobotNames | None = None,
     unverified: bool = False,
@@ -111,6 +115,10 @@ def build_config(
     created : datetime
         With a time zone.
     sources : sequence of SourcePart
+    model : TouchModel, optional
+        Torsion, mesh, and what the wrench's model leaves out.
+    measured : bool
+        Whether a verification has measured the model error.
     stale : sequence of str
         Why what this rests on no longer holds, in sentences.
     names : RobotNames, optional
@@ -139,13 +147,14 @@ def build_config(
         "units": _UNITS,
         "gravity": _gravity(calibration.model),
         "noise": _noise(noise, filters.wrench, calibration.model),
+        "touch": _touch(model or TouchModel(), measured=measured),
         "filters": {"wrench": _kalman(filters.wrench), "location": _low_pass(filters.location)},
         "gates": gates_content(gates),
         "controller": controller,
         "limits": limits,
         "verification": verification,
         "verified": not reasons,
-        **_surface(probe_file),
+        **_surface(probe_file, gates),
         "provenance": {
             "created": created.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
             "tool": f"contactbench {__version__}",
@@ -157,12 +166,12 @@ def build_config(
         },
     }
     try:
-        model = RuntimeModel.model_validate(content)
+        checked = RuntimeModel.model_validate(content)
     except ValidationError as error:
         raise ConfigError(f"the config cannot be made: {fault_of(error)}.") from None
-    probe = probe_file.probe.with_region(probe_file.regions.labels)
-    check_config(model, probe, files, "the config cannot be made")
-    return RuntimeConfig(model, probe, MappingProxyType(files))
+    probe = _painted(probe_file)
+    check_config(checked, probe, files, "the config cannot be made")
+    return RuntimeConfig(checked, probe, MappingProxyType(files))
 
 
 def reasons_against(
@@ -187,10 +196,15 @@ def reasons_against(
 # ---- parts -------------------------------------------------------------------------------------
 
 
+def _painted(probe_file: ProbeFile) -> Probe:
+    regions = probe_file.regions
+    return probe_file.probe.with_region(regions.labels, regions.untouchable)
+
+
 def _files(
     gravity: GravityModel, probe_file: ProbeFile, names: RobotNames, report: bytes | None
 ) -> dict[str, bytes]:
-    probe = probe_file.probe.with_region(probe_file.regions.labels)
+    probe = _painted(probe_file)
     colours = [region.colour for region in probe_file.regions.regions]
     files = {
         PROBE: encode_probe(probe, colours),
@@ -204,8 +218,9 @@ def _files(
     return dict(sorted(files.items()))
 
 
-def _surface(probe_file: ProbeFile) -> dict[str, Any]:
+def _surface(probe_file: ProbeFile, gates: Gates) -> dict[str, Any]:
     probe, regions = probe_file.probe, probe_file.regions
+    odds = gates.odds(len(regions.regions), regions.untouchable)
     return {
         "probe": {
             "file": PROBE,
@@ -220,6 +235,8 @@ def _surface(probe_file: ProbeFile) -> dict[str, Any]:
                 "name": region.name,
                 "colour": region.colour,
                 "facets": len(regions.faces_of(rank)),
+                "odds": odds[rank - 1],
+                "untouchable": region.untouchable,
             }
             for rank, region in enumerate(regions.regions, 1)
         ],
@@ -243,6 +260,22 @@ def _noise(noise: WrenchNoise, wrench_filter: KalmanFilter | None, gravity: Grav
     force, torque = _floats(np.broadcast_to(noise.force, 3)), _floats(np.broadcast_to(noise.torque, 3))
     covariance = wrench_covariance(force, torque, wrench_filter, gravity)
     return {"force_N": force, "torque_Nm": torque, "wrench_covariance": covariance.tolist()}
+
+
+def _touch(model: TouchModel, *, measured: bool) -> dict[str, Any]:
+    error = model.model_error
+    if error.extra is not None:
+        raise ConfigError("touch.model_error: a bundle holds no covariance of it: leave extra out.")
+    return {
+        "torsion_arm_m": float(model.torsion_arm),
+        "model_error": {
+            "force_N": _floats(np.broadcast_to(error.force, 3)),
+            "torque_Nm": _floats(np.broadcast_to(error.torque, 3)),
+            "measured": measured,
+        },
+        "mesh_deviation_m": float(model.mesh_deviation),
+        "mesh_curved": model.mesh_curved,
+    }
 
 
 def _kalman(wrench_filter: KalmanFilter | None) -> dict[str, Any] | None:
@@ -280,13 +313,16 @@ def gates_content(gates: Gates) -> dict[str, Any]:
         "min_force_N": float(gates.min_force),
         "friction_angle_rad": radians(gates.friction_angle),
         "ambiguity_distance_m": float(gates.ambiguity_distance),
-        "torque_ratio": float(gates.torque_ratio),
-        "rival_sigmas": float(gates.rival_sigmas),
+        "implausible_misfit": gates.implausible_misfit,
+        "rival_odds": float(gates.rival_odds),
+        "first_odds": float(gates.first_odds),
+        "follow_odds": float(gates.follow_odds),
         "follow_distance_m": float(gates.follow_distance),
         "recent_samples": gates.recent_samples,
         "max_age_s": float(gates.max_age),
         "saturation": [None if isinf(limit) else float(limit) for limit in gates.saturation],
         "region_only": gates.region_only,
+        "accept_by_region": gates.accept_by_region,
     }
 
 

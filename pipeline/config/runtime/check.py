@@ -116,6 +116,17 @@ def _check_regions(model: RuntimeModel, probe: Probe, name: str) -> None:
                 f"{name}: regions.{region.rank - 1}.facets is {region.facets}, but the mesh has"
                 f" {counts[region.rank]} of that region. {_AGAIN}"
             )
+        if region.odds > 1 if region.untouchable else region.odds < 1:
+            raise ConfigError(
+                f"{name}: regions.{region.rank - 1}.odds is {region.odds:g}, but its untouchable is"
+                f" {str(region.untouchable).lower()}. {_AGAIN}"
+            )
+    hidden = tuple(region.rank for region in model.regions if region.untouchable)
+    if probe.untouchable != hidden:
+        raise ConfigError(
+            f"{name}: regions says that {list(hidden)} are untouchable, the mesh says {list(probe.untouchable)}."
+            f" {_AGAIN}"
+        )
     names = [region.name for region in model.regions]
     if len(set(names)) < len(names):
         raise ConfigError(f"{name}: two regions have the same name. {_AGAIN}")

@@ -16,6 +16,7 @@ _MEANINGS = {
     "gravity.covariance": "how sure the calibration is",
     "gravity": "what is taken off every reading: every contact moves",
     "noise": "how uncertain a contact is told to be, and which rivals count",
+    "touch": "what else a touch may differ by: torsion, drift, the mesh",
     "filters.wrench": "lag and noise of the wrench",
     "filters.location": "lag and noise of the contact point",
     "gates": "which touches are answered",

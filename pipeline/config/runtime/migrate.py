@@ -70,8 +70,41 @@ def _from_1(content: dict[str, Any]) -> dict[str, Any]:
     return {**content, "controller": controller}
 
 
+# What version 2 left open is as contactbench took it when version 3 came; the C++ loader has the same numbers.
+_TOUCH = {
+    "torsion_arm_m": 0.001,
+    "model_error": {"force_N": [0.05] * 3, "torque_Nm": [0.001] * 3, "measured": False},
+    "mesh_deviation_m": 0.0,
+    "mesh_curved": True,
+}
+_GATES = {
+    "implausible_misfit": 10.827566170662935,
+    "rival_odds": 100.0,
+    "first_odds": 7.38905609893065,
+    "follow_odds": 1000.0,
+    "accept_by_region": True,
+}
+_REGION_ODDS = (1000.0, 100.0, 10.0)  # by rank; the last for all that follow
+
+
+def _from_2(content: dict[str, Any]) -> dict[str, Any]:
+    """Version 2 ranked touches by rules: the ratio of their torques, rivals in sigmas, any region before none."""
+    gates = dict(content["gates"])
+    del gates["torque_ratio"], gates["rival_sigmas"]
+    regions = [dict(region) for region in content["regions"]]
+    new = {"odds", "untouchable"}
+    if "touch" in content or _GATES.keys() & gates.keys() or any(new & each.keys() for each in regions):
+        raise ValueError("touch, gates or regions: fields of version 3")
+    last = len(_REGION_ODDS) - 1
+    regions = [
+        {**region, "odds": _REGION_ODDS[min(index, last)], "untouchable": False}
+        for index, region in enumerate(regions)
+    ]
+    return {**content, "touch": _TOUCH, "gates": {**gates, **_GATES}, "regions": regions}
+
+
 # Version -> what turns its JSON object into one of the next version. Version 1 is the first.
-STEPS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _from_1}
+STEPS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _from_1, 2: _from_2}
 
 
 def migrated(content: dict[str, Any], name: str) -> dict[str, Any]:

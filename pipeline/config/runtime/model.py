@@ -12,12 +12,14 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 SCHEMA: Final = "contactbench.runtime"
-VERSION: Final = 2
+VERSION: Final = 3
 
 # Wide enough for every device there is, narrow enough that no square overflows and no unit is mistaken unnoticed.
 _Number = Annotated[float, Field(ge=-1e9, le=1e9)]
 _Positive = Annotated[float, Field(gt=0, le=1e9)]
 _NotNegative = Annotated[float, Field(ge=0, le=1e9)]
+_Odds = Annotated[float, Field(ge=1, le=1e9)]
+_Short = Annotated[float, Field(ge=0, le=0.1)]
 _TwoPositive = Annotated[list[_Positive], Field(min_length=2, max_length=2)]
 _TwoNotNegative = Annotated[list[_NotNegative], Field(min_length=2, max_length=2)]
 _Three = Annotated[list[_Number], Field(min_length=3, max_length=3)]
@@ -103,7 +105,8 @@ class NoisePart(Part):
     How uncertain a wrench is.
 
     ``force_N`` and ``torque_Nm`` are of one reading. ``wrench_covariance`` is of a compensated, filtered wrench (N²,
-    N²·m, N²·m²), the calibration's share included, on average over all orientations: what the runtime takes.
+    N²·m, N²·m²), the calibration's share included, on average over all orientations. The runtime adds the squares of
+    ``touch.model_error`` to its diagonal.
     """
 
     force_N: _ThreeSigmas
@@ -143,10 +146,37 @@ class FiltersPart(Part):
     location: LowPassPart | None
 
 
+class ModelErrorPart(Part):
+    """
+    Standard deviation of what drift, cable, hysteresis and mount leave in a wrench, by axis of S.
+
+    ``measured``: by the verification; else it is the default.
+    """
+
+    force_N: Annotated[list[Annotated[float, Field(ge=0, le=100)]], Field(min_length=3, max_length=3)]
+    torque_Nm: Annotated[list[Annotated[float, Field(ge=0, le=10)]], Field(min_length=3, max_length=3)]
+    measured: bool
+
+
+class TouchModelPart(Part):
+    """
+    As TouchModel: what is known of a touch beside the sensor's noise.
+
+    ``torsion_arm_m`` is one standard deviation of the local torque over the force. ``mesh_deviation_m`` is the root
+    mean square between mesh and surface, ``mesh_curved`` whether facets stand for a curved surface.
+    """
+
+    torsion_arm_m: _Short
+    model_error: ModelErrorPart
+    mesh_deviation_m: _Short
+    mesh_curved: bool
+
+
 class GatesPart(Part):
     """
-    As Gates; a limit of null is none.
+    As Gates; a limit of null is none. Odds are so many to one; a runtime takes them as 2 ln(odds).
 
+    ``implausible_misfit``: d2, in standard deviations squared, beyond which no touch explains a wrench.
     ``saturation``: where Fx, Fy, Fz (N), Mx, My, Mz (N·m) of a raw reading end. Without limits a reading at the end of
     its range is taken for a touch: give them, or pass NaN for a sample that the sensor itself flags.
     """
@@ -154,13 +184,16 @@ class GatesPart(Part):
     min_force_N: _NotNegative
     friction_angle_rad: Annotated[float, Field(gt=0, lt=1.5708)]
     ambiguity_distance_m: _NotNegative
-    torque_ratio: Annotated[float, Field(ge=1, le=1e9)]
-    rival_sigmas: _NotNegative
+    implausible_misfit: Annotated[float, Field(ge=0.45, le=37.4)]
+    rival_odds: _Odds
+    first_odds: _Odds
+    follow_odds: _Odds
     follow_distance_m: _NotNegative
     recent_samples: _Count
     max_age_s: _NotNegative
     saturation: _SixLimits
     region_only: bool
+    accept_by_region: bool
 
 
 class ProbePart(Part):
@@ -174,19 +207,27 @@ class ProbePart(Part):
 
 
 class RegionPart(Part):
-    """A region; rank 1 is preferred to 2, and any to none."""
+    """
+    A region.
+
+    ``odds``: how much likelier a touch there is than one elsewhere; below 1 where it is ``untouchable``, because
+    something hides it.
+    """
 
     rank: Annotated[int, Field(ge=1, le=1_000)]
     name: _Text
     colour: Annotated[str, Field(pattern="^#[0-9a-f]{6}$")]
     facets: _Count
+    odds: Annotated[float, Field(ge=1e-9, le=1e9)]
+    untouchable: bool
 
 
 class PlanesPart(Part):
     """
     The facets as planes in priority order, for controllers that run the loop of Cao et al. (2023) themselves.
 
-    The columns nx, ny, nz, d are those of n . p + d = 0 as the paper prints it: n points outwards, d in m.
+    Those of untouchable regions come last. The columns nx, ny, nz, d are those of n . p + d = 0 as the paper prints
+    it: n points outwards, d in m.
     """
 
     file: _File
@@ -353,12 +394,13 @@ class RuntimeModel(Part):
     """
 
     schema_: Literal["contactbench.runtime"] = Field(alias="schema")
-    version: Literal[2]
+    version: Literal[3]
     units: UnitsPart
     frames: FramesPart
     sensor: SensorPart
     gravity: GravityPart
     noise: NoisePart
+    touch: TouchModelPart
     filters: FiltersPart
     gates: GatesPart
     probe: ProbePart

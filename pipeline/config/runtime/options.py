@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -22,6 +23,7 @@ _GIVE_PAIR = "--noise-force and --noise-torque: give both or none."
 
 _Number = Annotated[float, Field(ge=-1e9, le=1e9, allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
+_Arm = Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)]
 _Name = Annotated[str, Field(min_length=1, max_length=200)]
 _Three = tuple[_Number, _Number, _Number]
 _Six = tuple[_Positive, _Positive, _Positive, _Positive, _Positive, _Positive]
@@ -51,6 +53,10 @@ class ExportOptions(BaseModel):
         Where the channels end, N and N·m.
     region_only : bool
         Whether contacts outside every region are refused.
+    accept_by_region : bool
+        Whether contacts that are sure only because of the regions are accepted.
+    torsion_arm_mm : float
+        Usual local torque over the force, mm.
     max_force, max_torque : float
         What a controller must never exceed, N and N·m.
     controller : ControllerPart or None
@@ -73,6 +79,8 @@ class ExportOptions(BaseModel):
     no_filter: bool = False
     saturation: _Six | None = None
     region_only: bool = False
+    accept_by_region: bool = True
+    torsion_arm_mm: _Arm = 1.0
     max_force: _Positive = 30.0
     max_torque: _Positive = 3.0
     controller: ControllerPart | None = None
@@ -129,9 +137,9 @@ class ExportOptions(BaseModel):
             raise ConfigError(_GIVE_PAIR)
         if self.noise_force is not None and self.noise_torque is not None:
             noise = WrenchNoise(self.noise_force, self.noise_torque)
-        gates = Gates(region_only=self.region_only)
+        gates = Gates(region_only=self.region_only, accept_by_region=self.accept_by_region)
         if self.saturation is not None:
-            gates = Gates(region_only=self.region_only, saturation=self.saturation)
+            gates = replace(gates, saturation=self.saturation)
         return ExportSettings(
             sensor=self.sensor,
             serial=self.serial,
@@ -141,6 +149,7 @@ class ExportOptions(BaseModel):
             cutoff=self.cutoff,
             mount=mount_of_angles(self.mount),
             gates=gates,
+            torsion_arm=self.torsion_arm_mm / 1e3,
             limits=LimitsPart(
                 max_force_N=self.max_force,
                 max_torque_Nm=self.max_torque,

@@ -2,7 +2,8 @@
 ``planes.csv``: the facets as planes in priority order.
 
 For controllers that run the loop of Cao et al. (2023) themselves: the first plane whose triangle the axis of the
-wrench passes through is the contact. Facets of region 1 come first, then 2, and so on, those of no region last.
+wrench passes through is the contact. Facets of region 1 come first, then 2, and so on, then those of no region, and
+those of untouchable regions last.
 Columns: the facet's row in ``probe.ply``; its outward unit normal n; d of the plane ``n . p + d = 0``, as
 the paper prints it, m; its region; its three corners in S, m, counter-clockwise from outside.
 """
@@ -88,7 +89,8 @@ def check_planes(data: bytes, probe: Probe, name: str) -> int:
 
 def _order(probe: Probe) -> NDArray[np.int64]:
     last = np.iinfo(np.int64).max
-    ranks = np.where(probe.region > 0, probe.region.astype(np.int64), last)
+    ranks = np.where(probe.region > 0, probe.region.astype(np.int64), last - 1)
+    ranks[np.isin(probe.region, probe.untouchable)] = last
     return np.argsort(ranks, kind="stable")
 
 

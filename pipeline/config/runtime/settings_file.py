@@ -109,7 +109,9 @@ def _parts(given: _Settings, gates: Gates) -> dict[str, Any]:
         name: value for name in ("controller", "limits") if (value := getattr(given, name)) is not None
     }
     if given.gates is not None:
-        parts["gates"] = gates_of(GatesPart.model_validate({**gates_content(gates), **given.gates}))
+        said = gates_of(GatesPart.model_validate({**gates_content(gates), **given.gates}))
+        # Which no file of settings has.
+        parts["gates"] = replace(said, region_odds=gates.region_odds, untouchable_odds=gates.untouchable_odds)
     if given.filters is not None:
         wrench, location = given.filters.wrench, given.filters.location
         parts["filters"] = Filters(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees, inf
+from math import degrees, erfc, inf, sqrt
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -11,12 +11,14 @@ from scipy.spatial.transform import Rotation
 
 from pipeline.calibration.model import GravityModel
 from pipeline.contact.gates import Gates
+from pipeline.contact.noise import WrenchNoise
+from pipeline.contact.touch_model import TouchModel
 from pipeline.filtering import KalmanFilter
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.config.runtime.model import GatesPart, KalmanPart, RuntimeModel
+    from pipeline.config.runtime.model import GatesPart, KalmanPart, RuntimeModel, TouchModelPart
 
 # The covariance of a compensated wrench is of second degree in the rotation: the mean over the 24 rotations of a cube
 # is the mean over all rotations, exactly.
@@ -48,14 +50,28 @@ def gates_of(part: GatesPart) -> Gates:
     return Gates(
         min_force=part.min_force_N,
         friction_angle=degrees(part.friction_angle_rad),
+        # The probability that chance exceeds it, within what Gates takes.
+        implausible_probability=min(max(erfc(sqrt(part.implausible_misfit / 2)), 1e-9), 0.5),
+        rival_odds=part.rival_odds,
         ambiguity_distance=part.ambiguity_distance_m,
-        torque_ratio=part.torque_ratio,
-        rival_sigmas=part.rival_sigmas,
+        first_odds=part.first_odds,
+        follow_odds=part.follow_odds,
         follow_distance=part.follow_distance_m,
         recent_samples=part.recent_samples,
         max_age=part.max_age_s,
         saturation=cast("tuple[float, float, float, float, float, float]", saturation),
         region_only=part.region_only,
+        accept_by_region=part.accept_by_region,
+    )
+
+
+def touch_model_of(part: TouchModelPart) -> TouchModel:
+    """Return what is known of a touch beside the sensor's noise."""
+    return TouchModel(
+        torsion_arm=part.torsion_arm_m,
+        model_error=WrenchNoise(part.model_error.force_N, part.model_error.torque_Nm),
+        mesh_deviation=part.mesh_deviation_m,
+        mesh_curved=part.mesh_curved,
     )
 
 

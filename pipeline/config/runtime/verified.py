@@ -12,6 +12,7 @@ from pipeline.config.runtime.canonical import fault_of
 from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.model import VerificationPart
 from pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
+from pipeline.contact.noise import WrenchNoise
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -36,11 +37,14 @@ class Verified:
         Of the recording, Hz; None if the verification does not say it.
     mount : (4,) tuple or None
         quaternion_ES; None if the verification does not say it.
+    model_error : WrenchNoise or None
+        What the wrench's model leaves out; None if it was not measured.
     """
 
     sources: dict[str, str]
     rate: float | None
     mount: tuple[float, float, float, float] | None
+    model_error: WrenchNoise | None
 
 
 def read_verification(data: bytes, name: str) -> tuple[VerificationPart, Verified]:
@@ -115,7 +119,13 @@ def _verified(content: Mapping[str, Any]) -> Verified:
     rate, mount = settings.get("rate_Hz"), None
     if "mount" in settings:  # null: the orientations were the sensor's own
         mount = mount_of_angles(settings["mount"]) or UNTURNED
-    return Verified(dict(content.get("sources", {})), None if rate is None else float(rate), mount)
+    error = content.get("model_error")
+    return Verified(
+        dict(content.get("sources", {})),
+        None if rate is None else float(rate),
+        mount,
+        None if error is None else WrenchNoise(float(error["force_N"]), float(error["torque_Nm"])),
+    )
 
 
 def _unsaid(content: Mapping[str, Any]) -> str:

@@ -12,12 +12,10 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const char* why_text(Why why) {
     switch (why) {
         case Why::chosen: return "chosen";
-        case Why::region: return "outside the priority region";
-        case Why::friction: return "outside the friction cone";
+        case Why::misfit: return "explains the wrench less well";
+        case Why::region: return "less likely to be touched, as declared";
         case Why::previous: return "far from the previous contact";
-        case Why::torque: return "larger local torque";
         case Why::downstream: return "met later along the force";
-        case Why::noise: return "within the noise of the wrench";
     }
     return "unknown";
 }
@@ -26,33 +24,33 @@ nb::object index_or_none(std::int32_t i) { return i < 0 ? nb::none() : nb::cast(
 
 double degrees_of(double cosine) { return std::acos(std::min(1.0, cosine)) * 180.0 / M_PI; }
 
-// Every candidate but the chosen one, best first: nearest to being chosen is smallest |k|.
+// Every candidate but the chosen one, likeliest first.
 nb::list candidates_of(const Contact& c) {
     std::vector<const Candidate*> others;
-    for (std::size_t i = 0; i < c.answer.hits.size(); ++i)
-        if (std::int32_t(i) != c.answer.chosen) others.push_back(&c.answer.hits[i]);
-    std::stable_sort(others.begin(), others.end(), [](const Candidate* a, const Candidate* b) {
-        if (std::fabs(a->torque) != std::fabs(b->torque)) return std::fabs(a->torque) < std::fabs(b->torque);
-        return a->face != b->face ? a->face < b->face : a->vertex < b->vertex;
-    });
+    for (std::int32_t i = 0; i < c.answer.count; ++i)
+        if (i != c.answer.chosen) others.push_back(&c.answer.candidates[i]);
+    std::stable_sort(others.begin(), others.end(),
+                     [](const Candidate* a, const Candidate* b) { return a->cost() < b->cost(); });
     nb::list out;
     const Candidate* chosen = c.chosen();
     for (const Candidate* o : others)
-        out.append(nb::cast(ContactCandidate{*o, chosen ? norm(o->point - chosen->point) : nan}));
+        out.append(nb::cast(ContactCandidate{*o, chosen ? norm(o->point - chosen->point) : nan,
+                                             chosen ? o->cost() - chosen->cost() : nan}));
     return out;
 }
 
 Mat3 covariance_of(const Contact& c) {
-    return contact_covariance(*c.chosen(), c.wrench.F, c.context->noise());
+    const Candidate& p = *c.chosen();
+    return c.context->covariance(c.wrench, p.point, p.normal, p.face);
 }
 
 nb::object repr(const Contact& c) {
     nb::object reason = nb::cast(c.answer.reason).attr("name");
     const Candidate* p = c.chosen();
-    if (!p) return nb::str("Contact({}, no point, {} candidates)").format(reason, c.answer.hits.size());
-    return nb::str("Contact({}, point=({:.2f}, {:.2f}, {:.2f}) mm, k={:.2f} mN·m, face={}, {} other candidates)")
-        .format(reason, 1e3 * p->point.x, 1e3 * p->point.y, 1e3 * p->point.z, 1e3 * p->torque, p->face,
-                c.answer.hits.size() - 1);
+    if (!p) return nb::str("Contact({}, no point, misfit={:.3g})").format(reason, c.answer.misfit);
+    return nb::str("Contact({}, point=({:.2f}, {:.2f}, {:.2f}) mm, confidence={:.3f}, misfit={:.2f}, face={}, {} other candidates)")
+        .format(reason, 1e3 * p->point.x, 1e3 * p->point.y, 1e3 * p->point.z, c.answer.confidence, c.answer.misfit,
+                p->face, c.answer.count - 1);
 }
 
 [[noreturn]] void wrong_input(const char* what) {
@@ -93,18 +91,24 @@ Wrench to_wrench(nb::handle wrench) {
 
 void bind_contact(nb::module_& m) {
     nb::enum_<Reason>(m, "Reason", nb::is_arithmetic(), "Why a contact was, or was not, given.")
-        .value("OK", Reason::ok, "One contact on a facet.")
-        .value("VERTEX", Reason::vertex, "One contact on a vertex, between the facets' own solutions.")
-        .value("AMBIGUOUS", Reason::ambiguous, "Candidates further apart than the tolerance; the likeliest is given.")
+        .value("OK", Reason::ok, "One touch explains the wrench, and no other place does about as well.")
+        .value("VERTEX", Reason::vertex, "The same, on a corner of the mesh.")
+        .value("AMBIGUOUS", Reason::ambiguous, "Another place explains the wrench about as well; the likeliest is given.")
         .value("LOW_FORCE", Reason::low_force, "Force under its gate.")
-        .value("TANGENTIAL", Reason::tangential, "The axis only grazes the probe: outside the friction cone.")
-        .value("OFF_SURFACE", Reason::off_surface, "The axis misses the probe: torque, geometry or two contacts.")
+        .value("TANGENTIAL", Reason::tangential, "Only a touch outside the friction cone would explain the wrench.")
+        .value("OFF_SURFACE", Reason::off_surface, "No facet faces the force.")
         .value("OUTSIDE_REGION", Reason::outside_region, "On the probe, but outside every declared region.")
         .value("SATURATED", Reason::saturated, "A channel is at its limit.")
         .value("STALE", Reason::stale, "The sample is too old.")
-        .value("NOT_FINITE", Reason::not_finite, "NaN or infinity in the wrench.");
+        .value("NOT_FINITE", Reason::not_finite, "NaN or infinity in the wrench.")
+        .value("NOT_A_ROTATION", Reason::not_a_rotation, "The orientation is no rotation.")
+        .value("BY_REGION", Reason::by_region,
+               "Sure only because of the declared regions: without them another place would do as well.")
+        .value("IMPLAUSIBLE", Reason::implausible,
+               "No single touch explains the wrench: two touches, a wrong model, or wrong units.")
+        .value("TWO_TOUCHES", Reason::two_touches, "A second touch joined the one that is followed; both are given.");
 
-    nb::class_<ContactCandidate>(m, "Candidate", "A facet or vertex that also answers the wrench, and why it lost.")
+    nb::class_<ContactCandidate>(m, "Candidate", "Another place that explains the wrench, and why it lost.")
         .def_prop_ro("point", [](const ContactCandidate& c) { return to_array(c.candidate.point); }, "(3,) S, m.")
         .def_prop_ro("normal", [](const ContactCandidate& c) { return to_array(c.candidate.normal); }, "(3,) S, outward.")
         .def_prop_ro("torque", [](const ContactCandidate& c) { return c.candidate.torque; }, "Local torque k, N·m.")
@@ -116,18 +120,22 @@ void bind_contact(nb::module_& m) {
                      "Between -F and the normal, degrees.")
         .def_prop_ro("distance", [](const ContactCandidate& c) { return c.distance; },
                      "From the chosen point, m; NaN when none was chosen.")
+        .def_prop_ro("misfit", [](const ContactCandidate& c) { return c.candidate.misfit; },
+                     "d2: how badly it explains the wrench, standard deviations squared.")
+        .def_prop_ro("delta", [](const ContactCandidate& c) { return c.delta; },
+                     "By how much less likely than the chosen one: 2 ln(odds); NaN when none was chosen.")
         .def_prop_ro("why", [](const ContactCandidate& c) { return why_text(c.candidate.why); }, "Why it lost.");
 
     nb::class_<Contact>(m, "Contact", "Where the probe is touched, why that is believed, and how sure it is.")
         .def_prop_ro("reason", [](const Contact& c) { return c.answer.reason; }, "Reason code.")
-        .def_prop_ro("accepted", [](const Contact& c) { return accepted(c.answer.reason); },
-                     "True for OK and VERTEX: safe to act on.")
+        .def_prop_ro("accepted", [](const Contact& c) { return accepted(c.answer.reason, c.context->gates()); },
+                     "True for OK and VERTEX, and for BY_REGION where the gates say so: safe to act on.")
         .def_prop_ro("point", [](const Contact& c) -> nb::object {
             return c.chosen() ? to_array(c.chosen()->point) : nb::none(); }, "(3,) S, m, or None.")
         .def_prop_ro("normal", [](const Contact& c) -> nb::object {
             return c.chosen() ? to_array(c.chosen()->normal) : nb::none(); }, "(3,) S, outward unit normal, or None.")
         .def_prop_ro("torque", [](const Contact& c) { return c.chosen() ? c.chosen()->torque : nan; },
-                     "Local torque k about the normal, N·m; NaN without a point.")
+                     "Local torque k about the normal, N·m, by its likelihood: shrunk towards 0 as noise allows; NaN without a point.")
         .def_prop_ro("face", [](const Contact& c) { return index_or_none(c.chosen() ? c.chosen()->face : -1); },
                      "Face number; on a vertex the lowest one around it; None without a point, or where the method knows none.")
         .def_prop_ro("vertex", [](const Contact& c) { return index_or_none(c.chosen() ? c.chosen()->vertex : -1); },
@@ -136,10 +144,21 @@ void bind_contact(nb::module_& m) {
                      "Rank of the region touched, 0 for none.")
         .def_prop_ro("friction_angle", [](const Contact& c) {
             return c.chosen() ? degrees_of(c.chosen()->cosine) : nan; }, "Between -F and the normal, degrees.")
-        .def_prop_ro("candidates", &candidates_of, "Every other candidate, smallest local torque first.")
+        .def_prop_ro("misfit", [](const Contact& c) { return c.answer.misfit; },
+                     "d2 of the best touch, standard deviations squared; also where no point is given.")
+        .def_prop_ro("left_over", [](const Contact& c) { return c.answer.left_over; },
+                     "Torque that the best touch does not explain, N·m; also where no point is given.")
+        .def_prop_ro("arm", [](const Contact& c) { return c.answer.arm; },
+                     "Torque along the force over the force, m: what torsion of the skin would have to reach.")
+        .def_prop_ro("confidence", [](const Contact& c) { return c.answer.confidence; },
+                     "0 to 1: how much likelier this place is than all others together.")
+        .def_prop_ro("second", [](const Contact& c) -> nb::object {
+            return c.answer.has_second ? to_array(c.answer.second.point) : nb::none(); },
+            "(3,) S, m: a touch that joined this one while it was followed, or None.")
+        .def_prop_ro("candidates", &candidates_of, "Every other candidate, likeliest first.")
         .def_prop_ro("covariance", [](const Contact& c) -> nb::object {
             return c.chosen() ? to_array(covariance_of(c)) : nb::none(); },
-            "(3, 3) S, m²: first-order, from the wrench noise; None without a point.")
+            "(3, 3) S, m², along the facet's plane: noise, calibration, model error, mesh; None without a point.")
         .def_prop_ro("sigma_max", [](const Contact& c) {
             if (!c.chosen()) return nan;
             return norm(ellipse_axes(covariance_of(c), c.chosen()->normal)[0]); },
@@ -149,9 +168,6 @@ void bind_contact(nb::module_& m) {
             const auto axes = ellipse_axes(covariance_of(c), c.chosen()->normal);
             return make_array<double>({axes[0].x, axes[0].y, axes[0].z, axes[1].x, axes[1].y, axes[1].z}, {2, 3}); },
             "(2, 3) S, m: half axes of the one-sigma ellipse in the tangent plane, longest first, or None.")
-        .def_prop_ro("linear", [](const Contact& c) {
-            return c.chosen() && is_linear(*c.context, c.wrench, *c.chosen()); },
-            "True when the covariance describes what the noise will do: checked with four further solves.")
         .def_prop_ro("wrench", [](const Contact& c) {
             const Wrench& w = c.wrench;
             return make_array<double>({w.F.x, w.F.y, w.F.z, w.M.x, w.M.y, w.M.z}, {6}); },

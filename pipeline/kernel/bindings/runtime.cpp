@@ -63,17 +63,6 @@ void set_kalman(RuntimeSettings& s, nb::object kalman) {
     s.kalman = {k[0], k[1], k[2], k[3], k[4] != 0.0};
 }
 
-std::shared_ptr<const Model> to_model(const Rows3& vertices, const Faces& faces, const Ints& region) {
-    std::vector<Vec3> points(vertices.shape(0));
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = three(vertices.data() + 3 * i);
-    std::vector<Triangle> triangles(faces.shape(0));
-    for (std::size_t f = 0; f < triangles.size(); ++f)
-        for (std::size_t c = 0; c < 3; ++c) triangles[f][c] = faces.data()[3 * f + c];
-    std::vector<std::int32_t> ranks(region.data(), region.data() + region.shape(0));
-    nb::gil_scoped_release release;
-    return std::make_shared<const Model>(make_model(std::move(points), triangles, std::move(ranks)));
-}
-
 struct Samples {
     Rows6 wrenches;
     Rotations rotations;
@@ -153,9 +142,9 @@ nb::object covariance_or_none(const RuntimeContact& c) {
 void bind_contact_class(nb::module_& m) {
     using C = RuntimeContact;
     nb::class_<C>(m, "RuntimeContact", "What the runtime says of one sample.")
-        .def_prop_ro("reason", [](const C& c) { return c.reason; }, "Reason, or 10: R_WS is no rotation.")
+        .def_prop_ro("reason", [](const C& c) { return c.reason; }, "Reason.")
         .def_prop_ro("reason_name", [](const C& c) { return std::string(reason_name(c.reason)); }, "The same in words.")
-        .def_prop_ro("accepted", [](const C& c) { return accepted(Reason(c.reason)); }, "Safe to act on.")
+        .def_prop_ro("accepted", [](const C& c) { return c.accepted != 0; }, "Safe to act on.")
         .def_prop_ro("time", [](const C& c) { return c.time; }, "s, as given.")
         .def_prop_ro("point", [](const C& c) { return point_or_none(c.point); }, "(3,) S, m, or None.")
         .def_prop_ro("normal", [](const C& c) { return point_or_none(c.normal); }, "(3,) S, outward, or None.")
@@ -170,8 +159,14 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("candidates", [](const C& c) { return c.candidates; }, "How many, the chosen one included.")
         .def_prop_ro("filtered_point", [](const C& c) { return point_or_none(c.filtered_point); },
                      "(3,) S, m: low-passed, held while contact is lost for a moment; None after that.")
-        .def_prop_ro("runner_up_distance", [](const C& c) { return c.runner_up_distance; },
-                     "To the likeliest other candidate, m; NaN when there is none.");
+        .def_prop_ro("misfit", [](const C& c) { return c.misfit; }, "d2 of the best touch, standard deviations squared.")
+        .def_prop_ro("left_over", [](const C& c) { return c.left_over; }, "Torque that it does not explain, N·m.")
+        .def_prop_ro("arm", [](const C& c) { return c.arm; }, "Torque along the force over the force, m.")
+        .def_prop_ro("confidence", [](const C& c) { return c.confidence; }, "0 to 1.")
+        .def_prop_ro("runner_up", [](const C& c) { return point_or_none(c.runner_up); },
+                     "(3,) S, m: the likeliest other place, or None.")
+        .def_prop_ro("second", [](const C& c) { return point_or_none(c.second); },
+                     "(3,) S, m: a touch that joined this one, or None.");
 }
 
 void bind_batch_class(nb::module_& m) {
@@ -196,7 +191,13 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("wrenches", [](const B& b) { return column<double>(b, &C::wrench, {6}); }, "(n, 6) S, N and N·m.")
         .def_prop_ro("covariances", [](const B& b) { return column<double>(b, &C::covariance, {3, 3}); }, "(n, 3, 3) S, m².")
         .def_prop_ro("filtered_points", [](const B& b) { return column<double>(b, &C::filtered_point, {3}); }, "(n, 3) S, m.")
-        .def_prop_ro("runner_up_distances", [](const B& b) { return column<double>(b, &C::runner_up_distance, {}); }, "(n,) m.");
+        .def_prop_ro("accepted", [](const B& b) { return column<std::int32_t>(b, &C::accepted, {}); }, "(n,) int32: 1 where safe to act on.")
+        .def_prop_ro("misfits", [](const B& b) { return column<double>(b, &C::misfit, {}); }, "(n,) standard deviations squared.")
+        .def_prop_ro("left_overs", [](const B& b) { return column<double>(b, &C::left_over, {}); }, "(n,) N·m.")
+        .def_prop_ro("arms", [](const B& b) { return column<double>(b, &C::arm, {}); }, "(n,) m.")
+        .def_prop_ro("confidences", [](const B& b) { return column<double>(b, &C::confidence, {}); }, "(n,) 0 to 1.")
+        .def_prop_ro("runners_up", [](const B& b) { return column<double>(b, &C::runner_up, {3}); }, "(n, 3) S, m.")
+        .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.");
 }
 
 }  // namespace
@@ -206,26 +207,21 @@ void bind_runtime(nb::module_& m) {
     bind_batch_class(m);
     auto runtime = nb::class_<PyRuntime>(m, "Runtime", "What a controller runs at every sample; one stream.");
     runtime.def("__init__", [](PyRuntime* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Vector12 gravity,
-                               nb::object kalman, Rows6 sections, double min_force, double cos_friction,
-                               double ambiguity_distance, double torque_ratio, double rival_sigmas,
-                               double follow_distance, std::int64_t recent_samples, double max_age,
-                               Vector6 saturation, bool region_only) {
+                               nb::object kalman, Rows6 sections, Bonus bonus, double torsion_arm,
+                               double mesh_deviation, bool mesh_curved, CONTACTBENCH_GATES) {
         RuntimeSettings s;
-        s.gates = {min_force, cos_friction, ambiguity_distance, torque_ratio, rival_sigmas, follow_distance,
-                   recent_samples, max_age, {}, region_only};
-        std::copy(saturation.data(), saturation.data() + 6, s.gates.saturation);
+        s.gates = CONTACTBENCH_GIVEN_GATES;
+        s.torsion_arm = torsion_arm;
         copy_finite(noise, &s.noise.s[0][0], "the wrench covariance");
         double g[12];
         copy_finite(gravity, g, "the gravity model");
         s.gravity = {three(g), three(g + 3), three(g + 6), three(g + 9)};
         set_kalman(s, std::move(kalman));
         s.sections = to_sections(sections);
-        new (self) PyRuntime{Runtime(to_model(vertices, faces, region), s), {}};
+        new (self) PyRuntime{Runtime(to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved), s), {}};
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"),
-       nb::arg("gravity"), nb::kw_only(), nb::arg("kalman").none(), nb::arg("sections"), nb::arg("min_force"),
-       nb::arg("cos_friction"), nb::arg("ambiguity_distance"), nb::arg("torque_ratio"), nb::arg("rival_sigmas"),
-       nb::arg("follow_distance"), nb::arg("recent_samples"), nb::arg("max_age"), nb::arg("saturation"),
-       nb::arg("region_only"));
+       nb::arg("gravity"), nb::kw_only(), nb::arg("kalman").none(), nb::arg("sections"), nb::arg("bonus"),
+       nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"), CONTACTBENCH_GATE_NAMES);
     runtime.def("update", [](PyRuntime& s, Vector6 wrench, Matrix3 R_WS, double time) {
         const std::lock_guard lock(s.busy);
         return s.runtime.update(wrench.data(), R_WS.data(), time);

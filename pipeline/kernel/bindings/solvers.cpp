@@ -15,19 +15,21 @@ namespace {
 
 struct Rows {
     explicit Rows(std::size_t n)
-        : points(3 * n), normals(3 * n), forces(3 * n), moments(3 * n), torques(n), faces(n), vertices(n),
-          candidates(n), regions(n), reasons(n) {}
+        : points(3 * n), normals(3 * n), forces(3 * n), moments(3 * n), previous(3 * n, nan), seconds(3 * n),
+          torques(n), misfits(n), left_overs(n), arms(n), confidences(n), faces(n), vertices(n), candidates(n),
+          regions(n), reasons(n) {}
 
     void set(std::size_t i, const Wrench& w, const Answer& a) {
-        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
         Candidate c;
         c.point = c.normal = {nan, nan, nan};
         c.torque = nan;
-        if (a.chosen >= 0) c = a.hits[std::size_t(a.chosen)];
+        if (a.contact()) c = *a.contact();
+        put(seconds, i, a.has_second ? a.second.point : Vec3{nan, nan, nan});
+        misfits[i] = a.misfit, left_overs[i] = a.left_over, arms[i] = a.arm, confidences[i] = a.confidence;
         put(points, i, c.point), put(normals, i, c.normal), put(forces, i, w.F), put(moments, i, w.M);
         torques[i] = c.torque;
         faces[i] = c.face, vertices[i] = c.vertex, regions[i] = c.region;
-        candidates[i] = std::int32_t(a.hits.size());
+        candidates[i] = a.count;
         reasons[i] = std::uint8_t(a.reason);
     }
 
@@ -38,7 +40,9 @@ struct Rows {
         return {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
     }
 
-    std::vector<double> points, normals, forces, moments, torques;
+    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    std::vector<double> points, normals, forces, moments, previous, seconds;
+    std::vector<double> torques, misfits, left_overs, arms, confidences;
     std::vector<std::int32_t> faces, vertices, candidates, regions;
     std::vector<std::uint8_t> reasons;
 };
@@ -46,6 +50,7 @@ struct Rows {
 struct Batch {
     std::shared_ptr<const Solver> context;
     std::shared_ptr<Rows> rows;
+    bool complete = false;  // of the solver itself: a row can be located again, with its candidates
 
     std::size_t size() const { return rows->torques.size(); }
 };
@@ -58,19 +63,32 @@ nb::object view(const Batch& b, std::vector<T> Rows::*member, std::initializer_l
     return nb::cast(nb::ndarray<nb::numpy, const T>((*b.rows.*member).data(), shape.size(), shape.begin(), owner));
 }
 
+// A row with everything there is to know: candidates are not kept, but a locate is pure and gives them again.
 Contact row_contact(const Batch& b, std::size_t i) {
-    Contact c{b.context, {Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)}, {}};
-    c.answer.reason = Reason(b.rows->reasons[i]);
-    if (!has_point(c.answer.reason)) return c;
-    Candidate k;
-    k.point = Rows::get(b.rows->points, i), k.normal = Rows::get(b.rows->normals, i);
-    k.torque = b.rows->torques[i];
+    const Rows& rows = *b.rows;
+    Contact c{b.context, {Rows::get(rows.forces, i), Rows::get(rows.moments, i)}, {}};
+    Answer& a = c.answer;
+    const Reason reason = Reason(rows.reasons[i]);
+    if (b.complete && reason != Reason::stale) {
+        const Vec3 previous = Rows::get(rows.previous, i);
+        a = b.context->locate(c.wrench, finite(previous) ? &previous : nullptr);
+    }
+    a.reason = reason;
+    a.misfit = rows.misfits[i], a.left_over = rows.left_overs[i], a.arm = rows.arms[i];
+    a.confidence = rows.confidences[i];
+    if (!has_point(reason)) return c;
+    if (b.complete && reason != Reason::two_touches) return c;
+    Candidate& k = a.candidates[0] = Candidate{};
+    k.point = Rows::get(rows.points, i), k.normal = Rows::get(rows.normals, i);
+    k.torque = rows.torques[i];
+    k.misfit = rows.misfits[i];
     k.cosine = -dot(k.normal, c.wrench.F) / norm(c.wrench.F);
-    k.face = b.rows->faces[i], k.vertex = b.rows->vertices[i];
-    k.region = b.rows->regions[i];
+    k.face = rows.faces[i], k.vertex = rows.vertices[i];
+    k.region = rows.regions[i];
     k.why = Why::chosen;
-    c.answer.hits.add(k);
-    c.answer.chosen = 0;
+    a.count = std::max(a.count, 1), a.chosen = 0;
+    a.second.point = Rows::get(rows.seconds, i);
+    a.has_second = finite(a.second.point);
     return c;
 }
 
@@ -80,9 +98,9 @@ void visit_covariances(const Batch& b, Use&& use) {
     nb::gil_scoped_release release;
     for (std::size_t i = 0; i < b.size(); ++i) {
         if (!has_point(Reason(b.rows->reasons[i]))) continue;
-        Candidate c;
-        c.point = Rows::get(b.rows->points, i), c.normal = Rows::get(b.rows->normals, i);
-        use(i, contact_covariance(c, Rows::get(b.rows->forces, i), b.context->noise()), c.normal);
+        const Vec3 normal = Rows::get(b.rows->normals, i);
+        const Wrench w{Rows::get(b.rows->forces, i), Rows::get(b.rows->moments, i)};
+        use(i, b.context->covariance(w, Rows::get(b.rows->points, i), normal, b.rows->faces[i]), normal);
     }
 }
 
@@ -109,21 +127,6 @@ struct Main {
     Answer solve(const Wrench& w) const { return context->locate(w); }
 };
 
-struct Scan {
-    std::shared_ptr<const Solver> context;
-    ScanTable table;
-    explicit Scan(const Main& m) : context(m.context), table(m.context->model()) {}
-    Answer solve(const Wrench& w) const {
-        Answer a;
-        a.reason = gate(w, context->gates());
-        if (a.reason != Reason::ok) return a;
-        const Query q = make_query(context->model().frame, w);
-        scan(table, context->model(), q, context->gates().cos_friction, a.hits);
-        choose(a, context->gates(), w.F, nullptr);
-        return a;
-    }
-};
-
 // A rival that knows one answer and no doubt: the gates are the same, the reason is ok or off_surface.
 template <class Find>
 Answer only_answer(const Solver& context, const Wrench& w, Find&& find) {
@@ -134,11 +137,24 @@ Answer only_answer(const Solver& context, const Wrench& w, Find&& find) {
     a.reason = Reason::off_surface;
     if (!find(c)) return a;
     c.why = Why::chosen;
-    a.hits.add(c);
+    a.candidates[0] = c;
+    a.count = 1;
     a.chosen = 0;
     a.reason = Reason::ok;
+    a.confidence = 1.0;
     return a;
 }
+
+struct Scan {
+    std::shared_ptr<const Solver> context;
+    ScanTable table;
+    explicit Scan(const Main& m) : context(m.context), table(m.context->model()) {}
+    Answer solve(const Wrench& w) const {
+        return only_answer(*context, w, [&](Candidate& c) {
+            return table.locate(context->model(), w, context->gates().cos_friction, c);
+        });
+    }
+};
 
 struct Algorithm1 {
     std::shared_ptr<const Solver> context;
@@ -157,18 +173,18 @@ struct Iterative {
     }
 };
 
-template <class Solve>
+template <class Method, class Solve>
 Batch solve_rows(const std::shared_ptr<const Solver>& context, const Rows6& wrenches, Solve&& solve,
                  std::mutex* busy = nullptr) {
     const std::size_t n = wrenches.shape(0);
-    Batch b{context, std::make_shared<Rows>(n)};
+    Batch b{context, std::make_shared<Rows>(n), std::is_same_v<Method, Main>};
     const double* data = wrenches.data();
     nb::gil_scoped_release release;
     // Taken without the interpreter's lock and given back before it is asked for again: no deadlock.
     const auto lock = busy ? std::unique_lock(*busy) : std::unique_lock<std::mutex>();
     for (std::size_t i = 0; i < n; ++i) {
         const Wrench w = to_wrench(data + 6 * i);
-        b.rows->set(i, w, solve(i, w));
+        b.rows->set(i, w, solve(i, w, *b.rows));
     }
     return b;
 }
@@ -206,7 +222,8 @@ void bind_method(nb::class_<Method>& c) {
         return Contact{m.context, wrench, m.solve(wrench)};
     }, nb::arg("wrench"));
     c.def("locate_batch", [](const Method& m, nb::handle rows) {
-        return solve_rows(m.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return m.solve(w); });
+        return solve_rows<Method>(m.context, to_rows(rows),
+                                  [&](std::size_t, const Wrench& w, Rows&) { return m.solve(w); });
     }, nb::arg("wrenches").none(), "Locate each row of (n, 6) on its own, without the interpreter's lock.");
     c.def("time_each", [](const Method& m, nb::handle rows) {
         return time_rows(to_rows(rows), [&](const Wrench& w) { return m.solve(w); });
@@ -215,27 +232,16 @@ void bind_method(nb::class_<Method>& c) {
 
 // ---- construction -----------------------------------------------------------------------------
 
-std::vector<Vec3> to_points(const Rows3& a) {
-    std::vector<Vec3> out(a.shape(0));
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
-    return out;
-}
-
-void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Gates gates) {
-    std::vector<Triangle> triangles(faces.shape(0));
-    for (std::size_t f = 0; f < triangles.size(); ++f)
-        for (std::size_t c = 0; c < 3; ++c) triangles[f][c] = faces.data()[3 * f + c];
-    std::vector<std::int32_t> ranks(region.data(), region.data() + region.shape(0));
+void construct(Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Bonus bonus, double torsion_arm,
+               double mesh_deviation, bool mesh_curved, Gates gates) {
     WrenchCovariance s;
     std::copy(noise.data(), noise.data() + 36, &s.s[0][0]);
     for (const auto& row : s.s)
         for (const double value : row)
             if (!std::isfinite(value)) throw std::invalid_argument("the noise covariance is not finite");
-    std::vector<Vec3> points = to_points(vertices);
-    nb::gil_scoped_release release;
-    auto model = std::make_shared<const Model>(make_model(std::move(points), triangles, std::move(ranks)));
-    auto context = std::make_shared<const Solver>(std::move(model), s, gates);
+    if (!(torsion_arm >= 0.0) || !(torsion_arm <= 1e3)) throw std::invalid_argument("the torsion arm is not a length");
+    auto model = to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved);
+    auto context = std::make_shared<const Solver>(std::move(model), s, torsion_arm, gates);
     new (self) Main{context, *context, {}};
 }
 
@@ -251,7 +257,7 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
     const std::vector<std::int32_t> checked(faces.data(), faces.data() + n);
     for (const std::int32_t face : checked)
         if (face >= std::int32_t(model.normals.size())) throw nb::index_error("face number out of range");
-    return solve_rows(m.context, rows, [&](std::size_t i, const Wrench& w) {
+    return solve_rows<void>(m.context, rows, [&](std::size_t i, const Wrench& w, Rows&) {
         return only_answer(*m.context, w, [&](Candidate& c) {
             const std::int32_t face = checked[i];
             if (face < 0) return false;
@@ -266,31 +272,36 @@ Batch foreign_batch(const Main& m, nb::handle wrenches, Rows3 points, Ints faces
     });
 }
 
-std::vector<std::pair<std::int32_t, std::int32_t>> sorted_names(const Hits& hits) {
-    std::vector<std::pair<std::int32_t, std::int32_t>> names;
-    for (std::size_t i = 0; i < hits.size(); ++i) names.emplace_back(hits[i].face, hits[i].vertex);
-    std::sort(names.begin(), names.end());
-    return names;
+bool same(const Answer& a, const Answer& b) {
+    bool equal = a.reason == b.reason && a.count == b.count && a.chosen == b.chosen;
+    for (std::int32_t i = 0; equal && i < a.count; ++i) {
+        const Candidate &x = a.candidates[i], &y = b.candidates[i];
+        equal = x.face == y.face && x.vertex == y.vertex && x.misfit == y.misfit && norm2(x.point - y.point) == 0.0;
+    }
+    return equal && (a.misfit == b.misfit || (std::isnan(a.misfit) && std::isnan(b.misfit))) &&
+           a.confidence == b.confidence;
 }
 
-std::int64_t search_differences(const Main& m, nb::handle wrenches, double cos_cap) {
+nb::object search_differences(const Main& m, nb::handle wrenches, nb::handle previous) {
     const Rows6 rows = to_rows(wrenches);
     const std::size_t n = rows.shape(0);
     const double* data = rows.data();
-    const Model& model = m.context->model();
-    nb::gil_scoped_release release;
-    const ScanTable table(model);
-    std::int64_t differences = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Wrench w = to_wrench(data + 6 * i);
-        if (!finite(w.F) || !finite(w.M) || !(norm(w.F) > 0.0)) continue;
-        const Query q = make_query(model.frame, w);
-        Hits pruned, all;
-        search(model, q, cos_cap, pruned);
-        scan(table, model, q, cos_cap, all);
-        differences += sorted_names(pruned) != sorted_names(all);
+    Vector3 given;
+    const bool follows = !previous.is_none();
+    if (follows && !nb::try_cast(previous, given)) throw nb::type_error("previous must be three float64 numbers or None");
+    const Vec3 last = follows ? Vec3{given.data()[0], given.data()[1], given.data()[2]} : Vec3{};
+    std::vector<std::int64_t> differ;
+    {
+        nb::gil_scoped_release release;
+        for (std::size_t i = 0; i < n; ++i) {
+            const Wrench w = to_wrench(data + 6 * i);
+            if (!same(m.context->locate(w, follows ? &last : nullptr),
+                      m.context->locate_exhaustively(w, follows ? &last : nullptr)))
+                differ.push_back(std::int64_t(i));
+        }
     }
-    return differences;
+    const std::size_t count = differ.size();
+    return make_array(std::move(differ), {count});
 }
 
 void bind_batch(nb::module_& m) {
@@ -300,10 +311,26 @@ void bind_batch(nb::module_& m) {
             if (i < 0) i += std::int64_t(b.size());
             if (i < 0 || i >= std::int64_t(b.size())) throw nb::index_error("row out of range");
             return row_contact(b, std::size_t(i));
-        }, nb::arg("row"), "One row as a Contact, without the candidates that lost.")
+        }, nb::arg("row"), "One row as a Contact; candidates that lost are worked out again.")
         .def_prop_ro("points", [](const Batch& b) { return view(b, &Rows::points, {b.size(), 3}); }, "(n, 3) S, m.")
         .def_prop_ro("normals", [](const Batch& b) { return view(b, &Rows::normals, {b.size(), 3}); }, "(n, 3) S.")
         .def_prop_ro("torques", [](const Batch& b) { return view(b, &Rows::torques, {b.size()}); }, "(n,) k, N·m.")
+        .def_prop_ro("misfits", [](const Batch& b) { return view(b, &Rows::misfits, {b.size()}); },
+                     "(n,) d2 of the best touch, standard deviations squared; also where there is no point.")
+        .def_prop_ro("left_overs", [](const Batch& b) { return view(b, &Rows::left_overs, {b.size()}); },
+                     "(n,) torque that it does not explain, N·m.")
+        .def_prop_ro("arms", [](const Batch& b) { return view(b, &Rows::arms, {b.size()}); },
+                     "(n,) torque along the force over the force, m.")
+        .def_prop_ro("confidences", [](const Batch& b) { return view(b, &Rows::confidences, {b.size()}); }, "(n,) 0 to 1.")
+        .def_prop_ro("seconds", [](const Batch& b) { return view(b, &Rows::seconds, {b.size(), 3}); },
+                     "(n, 3) S, m: a touch that joined the one that is followed.")
+        .def_prop_ro("accepted", [](const Batch& b) {
+            bool* flags = new bool[b.size() + 1];
+            for (std::size_t i = 0; i < b.size(); ++i) flags[i] = accepted(Reason(b.rows->reasons[i]), b.context->gates());
+            nb::capsule owner(flags, [](void* p) noexcept { delete[] static_cast<bool*>(p); });
+            const std::size_t shape[1] = {b.size()};
+            return nb::cast(nb::ndarray<nb::numpy, bool>(flags, 1, shape, owner));
+        }, "(n,) bool: safe to act on.")
         .def_prop_ro("faces", [](const Batch& b) { return view(b, &Rows::faces, {b.size()}); }, "(n,) int32.")
         .def_prop_ro("vertices", [](const Batch& b) { return view(b, &Rows::vertices, {b.size()}); }, "(n,) int32.")
         .def_prop_ro("reasons", [](const Batch& b) { return view(b, &Rows::reasons, {b.size()}); }, "(n,) uint8, see Reason.")
@@ -315,18 +342,12 @@ void bind_batch(nb::module_& m) {
 
 void bind_main(nb::module_& m) {
     auto solver = nb::class_<Main>(m, "Solver", "The pruned, complete solver over one mesh.");
-    solver.def("__init__", [](Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, double min_force,
-                              double cos_friction, double ambiguity_distance, double torque_ratio, double rival_sigmas,
-                              double follow_distance, std::int64_t recent_samples, double max_age,
-                              Vector6 saturation, bool region_only) {
-        Gates g{min_force, cos_friction, ambiguity_distance, torque_ratio, rival_sigmas, follow_distance,
-                recent_samples, max_age, {}, region_only};
-        std::copy(saturation.data(), saturation.data() + 6, g.saturation);
-        construct(self, vertices, faces, region, noise, g);
+    solver.def("__init__", [](Main* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Bonus bonus,
+                              double torsion_arm, double mesh_deviation, bool mesh_curved, CONTACTBENCH_GATES) {
+        construct(self, vertices, faces, region, noise, bonus, torsion_arm, mesh_deviation, mesh_curved,
+                  CONTACTBENCH_GIVEN_GATES);
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"), nb::kw_only(),
-       nb::arg("min_force"), nb::arg("cos_friction"), nb::arg("ambiguity_distance"), nb::arg("torque_ratio"), nb::arg("rival_sigmas"),
-       nb::arg("follow_distance"), nb::arg("recent_samples"), nb::arg("max_age"), nb::arg("saturation"),
-       nb::arg("region_only"));
+       nb::arg("bonus"), nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"), CONTACTBENCH_GATE_NAMES);
     bind_method(solver);
     solver.def("locate", [](const Main& s, nb::handle w, nb::handle previous) {
         const Wrench wrench = to_wrench(w);
@@ -342,8 +363,9 @@ void bind_main(nb::module_& m) {
         const Rows6 rows = to_rows(wrenches);
         if (previous.shape(0) != rows.shape(0)) throw nb::value_error("previous must have one row per wrench");
         const double* p = previous.data();
-        return solve_rows(s.context, rows, [&](std::size_t i, const Wrench& w) {
+        return solve_rows<Main>(s.context, rows, [&](std::size_t i, const Wrench& w, Rows& out) {
             const Vec3 point{p[3 * i], p[3 * i + 1], p[3 * i + 2]};
+            Rows::put(out.previous, i, point);
             return s.context->locate(w, finite(point) ? &point : nullptr);
         });
     }, nb::arg("wrenches"), nb::arg("previous"),
@@ -364,16 +386,20 @@ void bind_main(nb::module_& m) {
         return Contact{s.context, wrench, s.live.track(wrench, age)};
     }, nb::arg("wrench"), nb::arg("age"), "The same, with the sample's age in seconds.");
     solver.def("track_batch", [](Main& s, nb::handle rows) {
-        return solve_rows(s.context, to_rows(rows), [&](std::size_t, const Wrench& w) { return s.live.track(w); },
-                          &s.busy);
+        return solve_rows<Main>(s.context, to_rows(rows), [&](std::size_t i, const Wrench& w, Rows& out) {
+            if (const Vec3* p = s.live.previous()) Rows::put(out.previous, i, *p);
+            return s.live.track(w);
+        }, &s.busy);
     }, nb::arg("wrenches"), "A stretch of one stream (n, 6), in order.");
     solver.def("track_batch", [](Main& s, nb::handle wrenches, nb::ndarray<const double, nb::shape<-1>, nb::c_contig,
                                                                 nb::device::cpu> ages) {
         const Rows6 rows = to_rows(wrenches);
         if (ages.shape(0) != rows.shape(0)) throw nb::value_error("ages must have one entry per wrench");
         const double* age = ages.data();
-        return solve_rows(
-            s.context, rows, [&](std::size_t i, const Wrench& w) { return s.live.track(w, age[i]); }, &s.busy);
+        return solve_rows<Main>(s.context, rows, [&](std::size_t i, const Wrench& w, Rows& out) {
+            if (const Vec3* p = s.live.previous()) Rows::put(out.previous, i, *p);
+            return s.live.track(w, age[i]);
+        }, &s.busy);
     }, nb::arg("wrenches"), nb::arg("ages"), "The same, with each sample's age in seconds (n,).");
     solver.def("reset", [](Main& s) {
         const std::lock_guard lock(s.busy);
@@ -386,10 +412,10 @@ void bind_main(nb::module_& m) {
     solver.def("locate_exhaustively", [](const Main& s, nb::handle w) {
         const Wrench wrench = to_wrench(w);
         return Contact{s.context, wrench, s.context->locate_exhaustively(wrench)};
-    }, nb::arg("wrench"), "The yardstick: every facet and vertex looked at, same answer.");
-    solver.def("search_differences", &search_differences, nb::arg("wrenches"), nb::arg("cos_cap"),
-               "Count rows whose candidates the pruned search and the exhaustive scan do not agree on, facet for "
-               "facet and vertex for vertex.");
+    }, nb::arg("wrench"), "The yardstick: every facet looked at, same answer.");
+    solver.def("search_differences", &search_differences, nb::arg("wrenches"), nb::arg("previous").none(),
+               "Rows (k,) where the pruned search and every facet one by one disagree in anything: reason, candidates, "
+               "misfit, confidence, to the bit.");
     solver.def("time_tracking", [](Main& s, nb::handle rows) {
         return time_rows(to_rows(rows), [&](const Wrench& w) {
             const std::lock_guard lock(s.busy);
@@ -398,13 +424,26 @@ void bind_main(nb::module_& m) {
     }, nb::arg("wrenches"), "Nanoseconds of each tracked solve (n,).");
     solver.def("foreign_batch", &foreign_batch, nb::arg("wrenches"), nb::arg("points"), nb::arg("faces"),
                nb::arg("torques"), "Contacts found by another method, given this solver's mesh, gates and noise.");
-    solver.def_prop_ro("convex", [](const Main& s) { return s.context->model().convex; },
-                       "True when the mesh is closed and convex: every wrench then has at most one contact.");
     solver.def_prop_ro("closed", [](const Main& s) { return s.context->model().topology.closed(); },
                        "True when every edge joins two facets of matching winding.");
 }
 
 }  // namespace
+
+std::shared_ptr<const Model> to_model(const Rows3& vertices, const Faces& faces, const Ints& region, const Bonus& bonus,
+                                      double mesh_deviation, bool mesh_curved) {
+    std::vector<Vec3> points(vertices.shape(0));
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = {vertices.data()[3 * i], vertices.data()[3 * i + 1], vertices.data()[3 * i + 2]};
+    std::vector<Triangle> triangles(faces.shape(0));
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+        for (std::size_t c = 0; c < 3; ++c) triangles[f][c] = faces.data()[3 * f + c];
+    std::vector<std::int32_t> ranks(region.data(), region.data() + region.shape(0));
+    const std::vector<double> odds(bonus.data(), bonus.data() + bonus.shape(0));
+    nb::gil_scoped_release release;
+    return std::make_shared<const Model>(
+        make_model(std::move(points), triangles, std::move(ranks), odds, {mesh_deviation, mesh_curved}));
+}
 
 void bind_solvers(nb::module_& m) {
     bind_batch(m);

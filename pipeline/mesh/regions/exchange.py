@@ -41,7 +41,7 @@ def mesh_hash(probe: Probe) -> str:
 
 def encode_json(regions: RegionSet, probe: Probe) -> bytes:
     """
-    Write regions as JSON: per region its name, its colour and its facets as runs of [first, count].
+    Write regions as JSON: per region its name, colour and marks, and its facets as runs of [first, count].
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def encode_json(regions: RegionSet, probe: Probe) -> bytes:
         "version": VERSION,
         "mesh": {"sha256": mesh_hash(probe), "facets": len(probe.faces)},
         "regions": [
-            {"name": region.name, "colour": region.colour, "facets": _runs(regions.faces_of(rank))}
+            {**write_region(region), "facets": _runs(regions.faces_of(rank))}
             for rank, region in enumerate(regions.regions, 1)
         ],
     }
@@ -108,11 +108,18 @@ def parse_json(data: bytes) -> dict[str, Any]:
     return document
 
 
+def write_region(region: Region) -> dict[str, Any]:
+    """Return what a file says of one region, its facets apart; touchable ones as files had them before."""
+    marks = {"untouchable": True} if region.untouchable else {}
+    return {"name": region.name, "colour": region.colour, **marks}
+
+
 def read_region(entry: object, rank: int) -> Region:
-    """Return the name and colour of one region of a file; RegionError if it has none."""
+    """Return one region of a file, its facets apart; RegionError without a name or colour, or for another mark."""
     if not isinstance(entry, dict):
         raise RegionError(f"region {rank} of the file is not an object with a name and a colour.")
-    return Region(_of(entry, "name", str), _of(entry, "colour", str))
+    untouchable = "untouchable" in entry and _of(entry, "untouchable", bool)
+    return Region(_of(entry, "name", str), _of(entry, "colour", str), untouchable)
 
 
 def encode_csv(regions: RegionSet) -> bytes:

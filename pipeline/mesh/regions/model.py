@@ -35,7 +35,7 @@ class Change:
     faces : (c,) int32 or None
         Facets whose label changed; None: any may have.
     listed : bool
-        Names, colours or order changed.
+        Names, colours, marks or order changed.
     """
 
     faces: npt.NDArray[np.int32] | None
@@ -110,6 +110,13 @@ class RegionModel:
         """Give a region another colour, ``#rrggbb``."""
         region = replace(self._region(rank), colour=colour)
         self._relist(f"colour {region.name}", self._with(rank, region))
+
+    def set_untouchable(self, rank: int, untouchable: bool) -> None:
+        """Say whether nothing can touch a region."""
+        region = replace(self._region(rank), untouchable=untouchable)
+        self._relist(
+            f"mark {region.name} {'untouchable' if untouchable else 'touchable'}", self._with(rank, region)
+        )
 
     def remove(self, rank: int) -> None:
         """Remove a region; its facets belong to none, and the ranks behind it move up."""

@@ -35,6 +35,8 @@ class Region:
         1 to 64 printable characters; normalised to NFC, without spaces around it.
     colour : str
         ``#rrggbb``; normalised to lower case.
+    untouchable : bool
+        Nothing can touch these facets: a clamp or a drape hides them.
 
     Raises
     ------
@@ -44,6 +46,7 @@ class Region:
 
     name: str
     colour: str
+    untouchable: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "name", _checked_name(self.name))
@@ -108,8 +111,15 @@ class RegionSet:
         """No regions on a mesh of so many facets."""
         return cls((), np.zeros(facet_count, dtype=np.int32))
 
+    @property
+    def untouchable(self) -> tuple[int, ...]:
+        """Ranks of the regions that nothing can touch, as `Probe.untouchable` holds them."""
+        return tuple(rank for rank, region in enumerate(self.regions, 1) if region.untouchable)
+
     @classmethod
-    def from_labels(cls, labels: npt.ArrayLike, regions: Sequence[Region] = ()) -> RegionSet:
+    def from_labels(
+        cls, labels: npt.ArrayLike, regions: Sequence[Region] = (), untouchable: Collection[int] = ()
+    ) -> RegionSet:
         """
         Make a set of labels alone; ranks without a region get one with the next free name and colour.
 
@@ -119,6 +129,8 @@ class RegionSet:
             Ranks, 0 for none, such as `Probe.region`.
         regions : sequence of Region
             The first of them, as far as they are known.
+        untouchable : collection of int
+            Ranks that nothing can touch, among those that `regions` does not know.
 
         Raises
         ------
@@ -133,7 +145,7 @@ class RegionSet:
             )
         known = list(regions)
         while len(known) < highest:
-            known.append(Region(free_name(known), free_colour(known)))
+            known.append(Region(free_name(known), free_colour(known), len(known) + 1 in untouchable))
         return cls(tuple(known), ranks)
 
     def rank_of(self, name: str) -> int:
@@ -151,7 +163,7 @@ class RegionSet:
         return sums[1:count].astype(np.float64)
 
     def with_regions(self, regions: Sequence[Region]) -> RegionSet:
-        """Return the same facets with other names or colours."""
+        """Return the same facets with other names, colours or marks."""
         return replace(self, regions=tuple(regions))
 
 

@@ -169,7 +169,8 @@ def _wrapped(
         # Invented facets have no original near them; a region that vanished is told by its report.
         warnings.simplefilter("ignore", MeshWarning)
         moved = transfer(RegionSet.from_labels(probe.region), probe, shell)
-    return replace(done, probe=shell.with_region(moved.regions.labels), carried=moved.report)
+    carried = shell.with_region(moved.regions.labels, probe.untouchable)
+    return replace(done, probe=carried, carried=moved.report)
 
 
 def _checked(wrapped: Wrapped, name: str) -> Probe:
@@ -217,6 +218,7 @@ def _some_facets(probe: Probe, faces: NDArray[np.int32], kept: NDArray[np.int64]
         invented=probe.invented[kept],
         name=probe.name,
         check_size=False,
+        untouchable=probe.untouchable,
     )
 
 

@@ -184,7 +184,8 @@ class Job:
     def _compared(self, made: Probe, engine: str) -> Attempt:
         if made is not self.probe and (self.probe.region.any() or self.probe.invented.any()):
             nearest = self._nearest_facet(made.vertices, made.faces)
-            made = made.with_region(self.probe.region[nearest]).with_invented(self.probe.invented[nearest])
+            made = made.with_region(self.probe.region[nearest], self.probe.untouchable)
+            made = made.with_invented(self.probe.invented[nearest])
         comparison = self.reference.compare(made)
         deviation = comparison.deviation()
         if deviation is None:
@@ -193,12 +194,12 @@ class Job:
 
     @cached_property
     def _region_share(self) -> float:
-        return float(self.probe.areas[self.probe.region > 0].sum() / self.probe.areas.sum())
+        return float(self.probe.areas[self.probe.preferred].sum() / self.probe.areas.sum())
 
     def _in_region(
         self, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
     ) -> npt.NDArray[np.bool_]:
-        return self.probe.region[self._nearest_facet(self._mesh.back(vertices), faces)] > 0
+        return self.probe.preferred[self._nearest_facet(self._mesh.back(vertices), faces)]
 
     def _nearest_facet(
         self, vertices_m: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]

@@ -125,6 +125,7 @@ class Alignment:
             invented=probe_P.invented,
             name=probe_P.name,
             check_size=False,
+            untouchable=probe_P.untouchable,
         )
 
     def to_json(self) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from pipeline.contact import ContactSolver, Reason
+from pipeline.preparation.alignment.touches.model import TouchModel
 from pipeline.preparation.ladder.errors import LadderError
 from pipeline.preparation.ladder.touches import FEWEST, DrawnTouches, ExpectedTouches, Part, draw_parts
 
@@ -28,7 +29,7 @@ class Difference:
     """
     How the answers on a simplified mesh differ from those on the full one.
 
-    An answer is settled when it is given without doubt: ``ok`` or ``vertex``. Distances are taken over the
+    An answer is settled when it is accepted: ``ok``, ``vertex`` or ``by_region``. Distances are taken over the
     touches that both meshes settle, and the others are counted.
 
     Attributes
@@ -46,7 +47,7 @@ class Difference:
     gained : int
         Settled on the simplified mesh only.
     changed : int
-        Touches with another reason; ``ok`` and ``vertex`` are taken as one.
+        Touches with another reason; those of settled ones are taken as one.
     jumped : int
         Settled by both, yet further apart than what counts as ambiguous: wrong without a warning.
     """
@@ -88,8 +89,8 @@ class PartErrors:
     noise_free : Difference
         Without: what the shape alone does.
     bound : float
-        Noise bound: root mean square error that the noise alone gives on the full mesh, as its solver
-        predicts, m.
+        Noise bound: root mean square error that the sensor's noise alone gives on the full mesh, where it settles a
+        touch and nothing is known of the torsion, m.
     growth : float or None
         How much larger the root mean square error against the true points is than on the full mesh: 0.05 is
         5 % more. Over the touches that both settle alike, without jumps, and that the full mesh places within
@@ -193,13 +194,17 @@ class ContactReference:
 
 def _locate(solver: ContactSolver, drawn: DrawnTouches) -> _Located:
     noisy = solver.locate_batch(drawn.noisy)
-    covariances = noisy.covariances[_settled(noisy)]
-    bound = sqrt(float(np.trace(covariances, axis1=1, axis2=2).mean())) if len(covariances) else 0.0
+    found = _settled(noisy)
+    model = TouchModel(
+        noisy.points[found], noisy.normals[found], drawn.noisy[found], solver.noise.covariance, 0.0
+    )
+    smallest = model.sigmas(np.eye(4))
+    bound = sqrt(float(np.trace(smallest, axis1=1, axis2=2).mean())) if len(smallest) else 0.0
     return _Located(drawn, noisy, solver.locate_batch(drawn.truth.wrenches), bound)
 
 
 def _settled(batch: Batch) -> npt.NDArray[np.bool_]:
-    return np.isin(batch.reasons, (Reason.OK, Reason.VERTEX))
+    return np.array(batch.accepted)
 
 
 def _reasons(batch: Batch) -> str:
@@ -215,7 +220,7 @@ def _difference(full: Batch, other: Batch, jump: float) -> Difference:
     apart = np.linalg.norm(full.points[both] - other.points[both], axis=1)
     pointless = before & ~after & np.isnan(other.points[:, 0])
     # Whether a facet or a vertex answers is a matter of the mesh, not of the touch.
-    reasons = [np.where(batch.reasons == Reason.VERTEX, Reason.OK, batch.reasons) for batch in (full, other)]
+    reasons = [np.where(_settled(batch), Reason.OK, batch.reasons) for batch in (full, other)]
     some = len(apart) > 0
     return Difference(
         settled=int(np.count_nonzero(before)),

@@ -118,7 +118,7 @@ class DrawnTouches:
 
 def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, ...]:
     """
-    Draw touches evenly over the area of each part.
+    Draw touches evenly over the area of each part; none of regions that nothing can touch.
 
     Parameters
     ----------
@@ -131,11 +131,19 @@ def draw_parts(probe: Probe, expected: ExpectedTouches) -> tuple[DrawnTouches, .
     -------
     tuple of DrawnTouches
         The regions first, then the rest; or the whole probe.
+
+    Raises
+    ------
+    LadderError
+        Nothing of the probe can be touched.
     """
-    inside = probe.region > 0
-    parts: list[tuple[Part, npt.NDArray[np.bool_]]] = [("region", inside), ("rest", ~inside)]
+    touchable = ~np.isin(probe.region, probe.untouchable)
+    inside, outside = touchable & (probe.region > 0), probe.region == 0
+    parts: list[tuple[Part, npt.NDArray[np.bool_]]] = [("region", inside), ("rest", outside)]
+    if not touchable.any():
+        raise LadderError("all of the probe is marked untouchable: correct the regions.")
     if not inside.any():
-        parts = [("all", ~inside)]
+        parts = [("all", outside)]
     return tuple(
         _draw(probe, expected, part, mask, number) for number, (part, mask) in enumerate(parts) if mask.any()
     )

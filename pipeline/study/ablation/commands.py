@@ -37,7 +37,7 @@ def ablation(
 ) -> None:
     """Measure what each modelling choice buys, mm, and costs, µs, in each scene: model this, leave that out.
 
-    Needs MuJoCo. Local torque, vertices, smooth normals, the friction gate, drift, the mount's rotation, crosstalk,
+    Needs MuJoCo. Local torque, smooth normals, the friction gate, drift, the mount's rotation, crosstalk,
     a phantom that yields, an arm with dynamics.
     """
     from pipeline.durable import make_folder

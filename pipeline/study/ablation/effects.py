@@ -22,7 +22,6 @@ CHOICES = (*locating.CHOICES, *reading.CHOICES, INERTIA)
 QUIET, FILTERED, RAW = 0.0, FILTERS["kalman"], 1.0
 NOISES = {"none": QUIET, "filtered": FILTERED, "one reading": RAW}
 MOVING = ("platform", "arm")
-_ACCEPTED = 1
 _GROSS_MM = 10.0
 
 
@@ -70,7 +69,7 @@ def effect(
         pair = made.ours.locate_batch(record.felt + drawn), made.ours.locate_batch(kept + drawn)
     elif choice in locating.SMOOTHED:
         flat, points = made.smoothed(choice, record.contacts + drawn)
-        sure = flat.reasons <= _ACCEPTED
+        sure = flat.accepted
         return compared(record.points, flat.points, points, sure, sure)
     else:
         pair = made.pair(choice, record.contacts + drawn)
@@ -79,8 +78,8 @@ def effect(
         record.points,
         without.points,
         with_it.points,
-        without.reasons <= _ACCEPTED,
-        with_it.reasons <= _ACCEPTED,
+        without.accepted,
+        with_it.accepted,
     )
 
 
@@ -129,7 +128,7 @@ def _read(
 ) -> dict[str, Any]:
     read = reading.read(choice, record, amount, noise, rng)
     without, with_it = made.ours.locate_batch(read.without), made.ours.locate_batch(read.made)
-    sure = without.reasons <= _ACCEPTED, with_it.reasons <= _ACCEPTED
+    sure = without.accepted, with_it.accepted
     figures = compared(record.points, without.points, with_it.points, *sure)
     true, taken, found = read.turns
     if choice == reading.MOUNT:

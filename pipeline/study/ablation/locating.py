@@ -1,4 +1,4 @@
-"""Choices of how a wrench is located: local torque, vertices, smooth normals, and the gate on the friction angle."""
+"""Choices of how a wrench is located: local torque, smooth normals, and the gate on the friction angle."""
 
 from __future__ import annotations
 
@@ -20,9 +20,8 @@ if TYPE_CHECKING:
 
     from pipeline.kernel import Batch
 
-LOCAL_TORQUE, VERTICES, SMOOTH, BULGE, FINER, GATE = CHOICES = (
+LOCAL_TORQUE, SMOOTH, BULGE, FINER, GATE = CHOICES = (
     "local torque",
-    "vertices",
     "smooth normals",
     "smooth normals and bulged facets",
     "ten times the facets",
@@ -59,7 +58,6 @@ class Locators:
         sigmas = np.maximum(sigmas_of(noise), _QUIETEST)
         told = WrenchNoise(sigmas[:3], sigmas[3:])
         self.ours = ContactSolver(probe, told)
-        self._facets_only = ContactSolver(_apart(probe), told)
         self._open = ContactSolver(probe, told, Gates(friction_angle=_OPEN_DEG))
         self._finer = ContactSolver(finer, told)
         self._smooth = SmoothNormals(probe)
@@ -70,8 +68,6 @@ class Locators:
         match choice:
             case "local torque":
                 return self.ours.locate_batch(without_axial(wrenches)), ours
-            case "vertices":
-                return self._facets_only.locate_batch(wrenches), ours
             case "ten times the facets":
                 return ours, self._finer.locate_batch(wrenches)
             case _:
@@ -93,7 +89,6 @@ class Locators:
         timers: dict[str, Any] = {
             "ours": (self.ours.time_each, wrenches, _BLOCK),
             LOCAL_TORQUE: (self.ours.time_each, plain, _BLOCK),
-            VERTICES: (self._facets_only.time_each, wrenches, _BLOCK),
             FINER: (self._finer.time_each, wrenches, _BLOCK),
             GATE: (self._open.time_each, wrenches, _BLOCK),
         }
@@ -110,7 +105,7 @@ class Locators:
         medians = {name: timing.median / 1e3 for name, timing in timed.items()}
         ours = medians["ours"]
         return {
-            **{choice: (medians[choice], ours) for choice in (LOCAL_TORQUE, VERTICES, GATE)},
+            **{choice: (medians[choice], ours) for choice in (LOCAL_TORQUE, GATE)},
             FINER: (ours, medians[FINER]),
             **{choice: (ours, ours + 1e6 * float(np.median(taken))) for choice, taken in more.items()},
         }
@@ -127,10 +122,3 @@ def without_axial(wrenches: NDArray[np.float64]) -> NDArray[np.float64]:
     F, M = wrenches[:, :3], wrenches[:, 3:]
     pitch = np.einsum("nd,nd->n", M, F) / np.einsum("nd,nd->n", F, F)
     return np.hstack([F, M - pitch[:, None] * F])
-
-
-def _apart(probe: Probe) -> Probe:
-    """Return the same facets with corners of their own: a vertex that no ring of facets closes can carry no contact."""
-    vertices = probe.vertices[probe.faces].reshape(-1, 3)
-    faces = np.arange(len(vertices), dtype=np.int32).reshape(-1, 3)
-    return Probe.from_arrays(vertices, faces, probe.region, name=probe.name)

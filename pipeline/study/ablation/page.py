@@ -35,8 +35,8 @@ _ALL = (ANYWHERE, *SCENES)
 _SAID = {
     "smooth.png": "Share of the mean error that interpolated normals take away, alone and with facets that bulge as the"
     f" normals say. Dotted: {MATTERS:.0%}, where it begins to matter.",
-    "torque.png": "Share of the mean error that local torque takes away; share of touches that vertices and the"
-    " friction gate locate more.",
+    "torque.png": "Share of the mean error that local torque takes away; share of touches that the friction"
+    " gate locates more.",
     "reading.png": "Mean error with what the sensor does wrong, left out (dashed) and modelled, after the"
     " Kalman filter.",
 }
@@ -136,8 +136,8 @@ def _crossings(rows: Sequence[Row]) -> str:
         lines.append([choice, shown, at, *(by_probe.get(probe, "–") for probe in probes)])
     return (
         f"Where the choice takes away {MATTERS:.0%} of the mean error of touches all over the head, with 0.3 mm of"
-        " torsion where nothing else is said; vertices: where they locate one touch in a thousand more; the gate: where"
-        " it loses one. Smooth normals are on the mesh that is named.\n\n"
+        " torsion where nothing else is said; the gate: where it loses one touch in a"
+        " thousand. Smooth normals are on the mesh that is named.\n\n"
         + table(["choice", "varied", "at", *probes], lines)
     )
 
@@ -168,7 +168,7 @@ def _smooth(rows: Sequence[Row]) -> str:
 
 
 def _gross(rows: Sequence[Row]) -> str:
-    """Return how many sure answers of flat facets miss by 10 mm, by mesh and noise: the doubt knows no mesh error."""
+    """Return how many sure answers of flat facets miss by 10 mm, by mesh and noise."""
     curve = [
         r for r in rows if r["kind"] == "curve" and r["x_name"] == "noise" and r["choice"] == locating.SMOOTH
     ]
@@ -183,8 +183,8 @@ def _gross(rows: Sequence[Row]) -> str:
     if not lines:
         return ""
     return (
-        "Of 10,000 sure answers, how many miss by 10 mm: what is doubted knows the noise, not how far a coarse mesh is"
-        " from the surface, so that a touch on the mesh's rim can pass it by.\n\n"
+        "Of 10,000 sure answers, how many miss by 10 mm. How far a coarse mesh is from the surface is only estimated,"
+        " from how much its facets turn.\n\n"
         + table(["probe", "facets", *(f"noise: {noise}" for noise in NOISES)], lines)
     )
 

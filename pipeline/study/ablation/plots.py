@@ -53,17 +53,16 @@ def _torque(curves: Sequence[Row]) -> list[Panel]:
     for choice, name in (
         (locating.LOCAL_TORQUE, "torsion, mm"),
         (locating.LOCAL_TORQUE, "noise"),
-        (locating.VERTICES, "torsion, mm"),
         (locating.GATE, "force angle up to, deg"),
     ):
         mine = [r for r in curves if r["choice"] == choice and r["x_name"] == name]
         split = "probe" if name == "noise" else "noise_times"
-        rare = choice in (locating.VERTICES, locating.GATE)
-        figure = located_more if rare else share_of
+        gate = choice == locating.GATE
+        figure = located_more if gate else share_of
         lines = _lines(mine, split, lambda v: v if isinstance(v, str) else f"noise: {noise_name(v)}", figure)
         shown = "noise, times that of a reading" if name == "noise" else name
-        what = "share of touches located more" if rare else "share of the error bought"
-        panels.append((choice, shown, what, lines, ANSWERS if rare else MATTERS))
+        what = "share of touches located more" if gate else "share of the error bought"
+        panels.append((choice, shown, what, lines, ANSWERS if gate else MATTERS))
     return panels
 
 

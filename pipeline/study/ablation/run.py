@@ -200,7 +200,6 @@ def _twisted(probe: str, sizes: Sizes, seed: int) -> Iterator[Row]:
         for noise in (QUIET, FILTERED, RAW):
             for choice, facets in (
                 (locating.LOCAL_TORQUE, sizes.facets),
-                (locating.VERTICES, sizes.facets),
                 *product(locating.SMOOTHED, sizes.twisted),
             ):
                 yield _point(choice, made, facets, noise, seed, "torsion, mm", torsion)

@@ -19,7 +19,6 @@ MATTERS = 0.05  # of the error without it
 _SIGMAS, ANSWERS = 2.0, 1e-3
 _LEAST_MM = 0.05  # that a scene must move a contact by
 LOSES = f"{locating.GATE}: touches lost"
-_RARE = (locating.VERTICES, locating.GATE)  # matter to few touches, and much
 _FREE = 0.02  # of what is without it, at most
 NOISE = "filtered"
 
@@ -195,12 +194,11 @@ def crossings(rows: Sequence[Row]) -> list[Crossing]:
     found = []
     for (choice, varied, facets, noise, probe), by_x in groups.items():
         xs = sorted(by_x)
-        rare = choice in _RARE
-        values = [located_more(by_x[x]) if rare else share_of(by_x[x]) for x in xs]
+        level, values = MATTERS, [share_of(by_x[x]) for x in xs]
         if choice == locating.GATE:  # what it can do to a touch is to lose it
-            choice, values = LOSES, [-value for value in values]
+            choice, level, values = LOSES, ANSWERS, [-located_more(by_x[x]) for x in xs]
         at = f"{facets:,} facets" + ("" if noise is None else f", noise {noise_name(noise)}")
-        found.append(Crossing(choice, varied, at, probe, *crossing(xs, values, ANSWERS if rare else MATTERS)))
+        found.append(Crossing(choice, varied, at, probe, *crossing(xs, values, level)))
     return found
 
 

@@ -68,6 +68,11 @@ class _Judged:
                 "%",
                 least=LEAST_SURE,
             ),
+            self._figure(
+                "answered without doubt only because of the region",
+                lambda rows: 100 * float((self._mine.reasons[rows] == Reason.BY_REGION).mean()),
+                "%",
+            ),
         ]
         for angle in (IN_PLANE, ACROSS):
             name = f"{angle} over {PERPENDICULAR}"

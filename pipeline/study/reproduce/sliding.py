@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import Reason, WrenchNoise
+from pipeline.calibration.contact_error import contact_sensitivity
+from pipeline.contact import WrenchNoise
 from pipeline.contact.methods import make
 from pipeline.filtering import KalmanFilter
 from pipeline.simulation.scenes import PressScene, depth_for, hand_motion
@@ -41,11 +42,12 @@ class Slide:
     quiet_mm : (n, 2)
         Located from the true wrench.
     raw_mm : (n, 2)
-        Located from the compensated reading; NaN without an answer that is sure.
+        Located from the compensated reading; NaN without an accepted answer.
     kalman_mm : (n, 2)
         The same after the paper's Kalman filter of wrenches.
     sigma_mm : (2,)
-        Predicted standard deviation of the noise in `raw_mm`, root mean square over the recording.
+        Predicted standard deviation of the noise in `raw_mm`, root mean square over the recording: the sensor's noise
+        alone, at any torsion. What the answers' covariances add for model and mesh is no noise.
     force : (n,)
         True, N.
     depth : float
@@ -74,14 +76,15 @@ def slide(name: str, facets: int, seconds: float, seed: int, progress: Callable[
     net = bench.calibration.model.compensate(R_WS, model.read(times, weight + contacts).wrenches)
     sigma = np.sqrt(bench.settings.noise**2 + bench.settings.resolution**2 / 12)
     # Noise alone: what the calibration leaves is an offset, not part of the spectrum's floor.
-    method = make(OURS, model_of(name, facets), WrenchNoise(sigma[:3], sigma[3:]))
+    noise = WrenchNoise(sigma[:3], sigma[3:])
+    method = make(OURS, model_of(name, facets), noise)
     quiet = method.locate_batch(contacts)
     return Slide(
         1e3 * points[:, :2],
         _sure(quiet),
         _sure(method.locate_batch(net)),
         _sure(method.locate_batch(KalmanFilter(RATE_HZ).filter(net))),
-        1e3 * np.sqrt(np.nanmean(quiet.covariances[:, [0, 1], [0, 1]], axis=0)),
+        1e3 * _sigma(quiet, contacts, noise),
         np.linalg.norm(contacts[:, :3], axis=1),
         float(-motion.offset[2]),
     )
@@ -112,6 +115,13 @@ def _pressed(
     return contacts, points
 
 
+def _sigma(quiet: Batch, contacts: NDArray[np.float64], noise: WrenchNoise) -> NDArray[np.float64]:
+    rows = np.flatnonzero(quiet.accepted)
+    along = [
+        contact_sensitivity(quiet.points[i], quiet.normals[i], contacts[i, None, :3])[0][:2] for i in rows
+    ]
+    return np.asarray(np.sqrt(np.mean([np.diag(J @ noise.covariance @ J.T) for J in along], axis=0)))
+
+
 def _sure(batch: Batch) -> NDArray[np.float64]:
-    good = np.isin(batch.reasons, (Reason.OK, Reason.VERTEX))
-    return np.where(good[:, None], 1e3 * batch.points[:, :2], np.nan)
+    return np.where(batch.accepted[:, None], 1e3 * batch.points[:, :2], np.nan)

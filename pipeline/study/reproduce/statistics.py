@@ -87,8 +87,8 @@ class Located:
 
     @property
     def settled(self) -> NDArray[np.bool_]:
-        """Which are given without doubt, (n,)."""
-        return np.isin(self.reasons, (Reason.OK, Reason.VERTEX))
+        """Which are given without doubt, (n,); the declared region may have decided."""
+        return np.isin(self.reasons, (Reason.OK, Reason.VERTEX, Reason.BY_REGION))
 
     @property
     def answered(self) -> NDArray[np.bool_]:

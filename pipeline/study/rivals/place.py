@@ -34,7 +34,6 @@ WRENCH, RAY, BATCH, COMPILED = (
     "1,000 wrenches, each",
     "compiled",
 )
-ACCEPTED = 1
 _QUIETEST = np.repeat([1e-6, 1e-8], 3)
 _TOGETHER = 1_000
 _FEW = 300  # wrenches of methods that take up to a millisecond each
@@ -115,7 +114,7 @@ def _errors(
 ) -> Iterator[Row]:
     first = built[0].batch(wrenches)
     ours = np.linalg.norm(first.points - truth.points, axis=1)
-    sure = np.where(np.asarray(first.reasons) <= ACCEPTED, ours, np.nan)
+    sure = np.where(first.accepted, ours, np.nan)
     yield erred(FAMILY, SURE, probe, noise, sure, ours, facets=facets)
     for each in built:
         some = _FEW if each.contender.name == _SLOW[1] else len(wrenches)

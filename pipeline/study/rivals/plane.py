@@ -15,7 +15,6 @@ from pipeline.study.ablation.effects import NOISES
 from pipeline.study.ablation.locating import sigmas_of
 from pipeline.study.reproduce.touching import model_of
 from pipeline.study.rivals.interleave import medians
-from pipeline.study.rivals.place import ACCEPTED
 from pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed
 
 if TYPE_CHECKING:
@@ -109,7 +108,7 @@ def plane_rows(touches: int, rounds: int, seed: int) -> Iterator[Row]:
             found = solver.locate_batch(wrenches)
             ours = np.linalg.norm(found.points - truth.points, axis=1)
             yield erred(FAMILY, OURS, subject, noise, ours, ours)
-            sure = np.where(np.asarray(found.reasons) <= ACCEPTED, ours, np.nan)
+            sure = np.where(found.accepted, ours, np.nan)
             yield erred(FAMILY, SURE, subject, noise, sure, ours)
             if theirs:
                 points = BotaPlane(top).locate_batch(wrenches)

@@ -9,6 +9,7 @@ import numpy as np
 from pipeline.calibration import GravityModel
 from pipeline.contact import ContactSolver
 from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_trials import EXACT
 from pipeline.study.stability import builds, theory
 from pipeline.study.stability.amplification import OPEN, QUIET
 from pipeline.study.stability.rounding import DOUBLE, SINGLE
@@ -59,7 +60,7 @@ def _biased(
     untouched = np.concatenate([weight, np.cross(_ARM_M.astype(np.longdouble), weight)])
     untouched += np.concatenate([model.force_bias, model.torque_bias])
     readings = (long + untouched).astype(np.float64)
-    solver = ContactSolver(body.probe(), QUIET, OPEN)
+    solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
     answers = {
         DOUBLE: solver.locate_batch(model.compensate(np.eye(3), readings)).points,
         WIRE: solver.locate_batch(model.compensate(np.eye(3), readings.astype(np.float32))).points,

@@ -180,7 +180,14 @@ def _packed(solver: ContactSolver, wrenches: NDArray[np.float64]) -> bytes:
     probe, gates = solver.probe, solver.gates
     if gates.region_only or probe.region.any() or np.isfinite(gates.saturation).any():
         raise InputError("builds are compared without regions and saturation: leave them out.")
-    numbers = [*solver.noise.covariance.ravel(), *_gates(gates)]
+    model = solver.model
+    numbers = [
+        *solver.covariance.ravel(),
+        *_gates(gates),
+        model.torsion_arm,
+        model.mesh_deviation,
+        model.mesh_curved,
+    ]
     return b"".join(
         np.ascontiguousarray(values, dtype).tobytes()
         for values, dtype in (
@@ -198,9 +205,12 @@ def _gates(gates: Gates) -> list[float]:
     names = (
         "min_force",
         "cos_friction",
+        "implausible_misfit",
+        "rival_cost",
         "ambiguity_distance",
-        "torque_ratio",
-        "rival_sigmas",
+        "behind_cost",
+        "behind_distance",
+        "follow_cost",
         "follow_distance",
     )
     return [float(given[name]) for name in names]

@@ -8,6 +8,7 @@ import numpy as np
 
 from pipeline.contact import ContactSolver, Gates
 from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_trials import EXACT
 from pipeline.study.stability import theory
 from pipeline.study.stability.amplification import OPEN, QUIET
 from pipeline.study.stability.rounding import DOUBLE, both_precisions, measure
@@ -113,7 +114,7 @@ def _jumps(body: Body, pitch_mm: float, samples: int, rng: np.random.Generator) 
     pitch = 1e-3 * pitch_mm
     k = pitch * _dot(f, f) / _dot(n1, f)
     side = 1e-9 * np.cross(np.cross(n1, b - a), f)
-    solver = ContactSolver(body.probe(), QUIET, OPEN)
+    solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
     one, other = (
         solver.locate_batch(np.hstack([f, middle + k[:, None] * n1 + step]).astype(np.float64))
         for step in (side, -side)

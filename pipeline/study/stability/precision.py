@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, WrenchNoise
+from pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
+from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from pipeline.study.stability import builds, probes, theory
 from pipeline.study.stability.rows import Row, Where
 
@@ -70,7 +71,8 @@ def _on_one(name: str, samples: int, rng: np.random.Generator, workshop: Worksho
     """Turn, twist and scale the wrench on a probe of 1,000 facets."""
     body, title = probes.body_of(name, 1000), probes.title_of(name)
     rows: list[Row] = []
-    for low, high in ((60.0, 75.0), (75.0, 85.0), (85.0, 89.0), (89.0, 89.9), (89.9, 89.99)):
+    more: Where
+    for low, high in ((60.0, 75.0), (75.0, 85.0), (85.0, 89.0), (89.0, 89.9)):
         touches = theory.touch(body, samples, rng, angle=(low, high))
         steep = high > _CONE.friction_angle
         gates = Gates(friction_angle=min(high + 0.5, 89.999)) if steep else _CONE
@@ -78,14 +80,17 @@ def _on_one(name: str, samples: int, rng: np.random.Generator, workshop: Worksho
         rows += _compared(case, body, touches.wrenches, gates, workshop, judged=not steep, x=high, axis=ANGLE)
     for arm in (1e-3, 1e-2, 1e-1, 1.0):
         touches = theory.touch(body, samples, rng, arm=arm)
-        case = f"{title}, {LARGE}"
-        rows += _compared(case, body, touches.wrenches, _CONE, workshop, judged=False, x=arm, axis=PITCH)
+        case, model = f"{title}, {LARGE}", TouchModel(torsion_arm=arm)  # else nothing would explain it
+        more = {"x": arm, "axis": PITCH}
+        rows += _compared(case, body, touches.wrenches, _CONE, workshop, judged=False, model=model, **more)
     touches = theory.touch(body, samples, rng)
     for power in (-18, -12, -6, 0, 6, 12, 18):
-        gates, noise = Gates(min_force=0.0), WrenchNoise(0.0, 0.0)
-        case, wrenches = f"{title}, any force, no gate, no noise", 10.0**power * touches.wrenches / 9.0
-        more: Where = {"judged": abs(power) <= 12, "x": 10.0**power, "axis": FORCE}
-        rows += _compared(case, body, wrenches, gates, workshop, noise=noise, **more)
+        # What is left out of the wrench's model stays in proportion: under a weak force nothing else would be seen.
+        gates, noise, size = Gates(min_force=0.0), WrenchNoise(0.0, 0.0), 10.0**power / 9.0
+        model = TouchModel(model_error=WrenchNoise(DEFAULT_FORCE_N * size, DEFAULT_TORQUE_NM * size))
+        case, wrenches = f"{title}, any force, no gate, no noise", size * touches.wrenches
+        more = {"judged": abs(power) <= 12, "x": 10.0**power, "axis": FORCE}
+        rows += _compared(case, body, wrenches, gates, workshop, noise=noise, model=model, **more)
     return rows
 
 
@@ -98,9 +103,10 @@ def _compared(
     *,
     judged: bool,
     noise: WrenchNoise | None = None,
+    model: TouchModel | None = None,
     **more: Any,
 ) -> list[Row]:
-    solver = ContactSolver(body.probe(), noise or WrenchNoise(), gates)
+    solver = ContactSolver(body.probe(), noise or WrenchNoise(), gates, model)
     batch = solver.locate_batch(wrenches)
     double, single = builds.kernel_rows(batch), workshop.solve(builds.SINGLE, solver, wrenches)[0]
     off = 1e3 * np.linalg.norm(single["point"] - double["point"], axis=1)

@@ -8,8 +8,9 @@ import numpy as np
 
 from pipeline.contact import ContactSolver, methods
 from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_trials import EXACT
 from pipeline.study.stability import builds, theory
-from pipeline.study.stability.amplification import COSINE, OPEN, QUIET
+from pipeline.study.stability.amplification import COSINE, COSINES, OPEN, QUIET
 from pipeline.study.stability.rows import Row
 
 if TYPE_CHECKING:
@@ -43,12 +44,12 @@ def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = Fal
         No large meshes.
     """
     rows: list[Row] = []
-    for power in range(8):
-        rng = np.random.default_rng((seed, power))
-        angle = np.full(samples, np.degrees(np.arccos(10.0**-power)))
+    for i, cosine in enumerate(COSINES):
+        rng = np.random.default_rng((seed, i))
+        angle = np.full(samples, np.degrees(np.arccos(cosine)))
         touches = theory.touch(hm.ellipsoid(), samples, rng, angle=angle)
         case = "ellipsoid, force turned towards the facet"
-        rows += _rows(case, hm.ellipsoid(), touches, workshop, x=10.0**-power, axis=COSINE)
+        rows += _rows(case, hm.ellipsoid(), touches, workshop, x=cosine, axis=COSINE)
     for subdivisions in (1, 2, 3) if quick else (1, 2, 3, 4, 5, 6):
         body, rng = hm.ellipsoid(subdivisions), np.random.default_rng((seed, 20 + subdivisions))
         touches = theory.touch(body, samples, rng)
@@ -71,7 +72,7 @@ def both_precisions(
     body: Body, touches: Touches, workshop: Workshop | None, gates: Gates = OPEN
 ) -> dict[str, Rows]:
     """Return the answers where no noise is expected, as :data:`builds.ROW`: of the kernel, and in single precision."""
-    solver = ContactSolver(body.probe(), QUIET, gates)
+    solver = ContactSolver(body.probe(), QUIET, gates, EXACT)
     answers = {DOUBLE: builds.kernel_rows(solver.locate_batch(touches.wrenches))}
     if workshop is not None:
         answers[SINGLE] = workshop.solve(builds.SINGLE, solver, touches.wrenches)[0]

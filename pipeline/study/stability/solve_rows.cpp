@@ -3,8 +3,9 @@
 // Built by builds.py with one compiler and set of options after another, so that the bits can be compared.
 // With -DCONTACTBENCH_SINGLE every double of the solver is a float: its own sources in single precision.
 //
-// IN   int64 vertices, facets, wrenches; double noise[36], min_force, cos_friction, ambiguity_distance,
-//      torque_ratio, rival_sigmas, follow_distance; double vertices[][3]; int32 facets[][3];
+// IN   int64 vertices, facets, wrenches; double covariance[36], min_force, cos_friction,
+//      implausible_misfit, rival_cost, ambiguity_distance, behind_cost, behind_distance, follow_cost, follow_distance,
+//      torsion_arm, mesh_deviation, mesh_curved; double vertices[][3]; int32 facets[][3];
 //      double wrenches[][6]
 // OUT  a Row for each wrench, each solved on its own; then a Row for each, tracked as one stream
 #include <algorithm>
@@ -47,7 +48,8 @@ struct Row {
 
 struct Header {
     std::int64_t vertices, facets, wrenches;
-    Wide noise[36], min_force, cos_friction, ambiguity_distance, torque_ratio, rival_sigmas, follow_distance;
+    Wide covariance[36], min_force, cos_friction, implausible_misfit, rival_cost, ambiguity_distance, behind_cost,
+        behind_distance, follow_cost, follow_distance, torsion_arm, mesh_deviation, mesh_curved;
 };
 
 template <class T>
@@ -61,18 +63,18 @@ contactbench::Vec3 vector(const Wide* v) { return {Real(v[0]), Real(v[1]), Real(
 
 Row row(const contactbench::Answer& a, const contactbench::Solver& solver, const contactbench::Wrench& w) {
     Row r;
-    r.reason = std::int32_t(a.reason), r.candidates = std::int32_t(a.hits.size());
+    r.reason = std::int32_t(a.reason), r.candidates = a.count;
     r.face = r.vertex = -1;
     const Wide nan = std::numeric_limits<Wide>::quiet_NaN();
     std::fill(r.point, r.point + 3, nan), std::fill(r.normal, r.normal + 3, nan);
     std::fill(r.covariance, r.covariance + 9, nan), r.torque = nan;
     if (a.chosen < 0) return r;
-    const contactbench::Candidate& c = a.hits[std::size_t(a.chosen)];
+    const contactbench::Candidate& c = a.candidates[a.chosen];
     r.face = c.face, r.vertex = c.vertex, r.torque = c.torque;
     const Real point[3] = {c.point.x, c.point.y, c.point.z}, normal[3] = {c.normal.x, c.normal.y, c.normal.z};
     std::copy(point, point + 3, r.point), std::copy(normal, normal + 3, r.normal);
     if (!contactbench::has_point(a.reason)) return r;
-    const contactbench::Mat3 s = contactbench::contact_covariance(c, w.F, solver.noise());
+    const contactbench::Mat3 s = solver.covariance(w, c.point, c.normal, c.face);
     std::copy(&s.m[0][0], &s.m[0][0] + 9, r.covariance);
     return r;
 }
@@ -91,13 +93,17 @@ void solve(const char* in, const char* out) {
     std::vector<contactbench::Triangle> faces;
     for (std::size_t i = 0; i < corners.size(); i += 3) faces.push_back({corners[i], corners[i + 1], corners[i + 2]});
     contactbench::WrenchCovariance noise;
-    for (int i = 0; i < 36; ++i) noise.s[i / 6][i % 6] = Real(h.noise[i]);
+    for (int i = 0; i < 36; ++i) noise.s[i / 6][i % 6] = Real(h.covariance[i]);
     contactbench::Gates gates;
     gates.min_force = Real(h.min_force), gates.cos_friction = Real(h.cos_friction);
-    gates.ambiguity_distance = Real(h.ambiguity_distance), gates.torque_ratio = Real(h.torque_ratio);
-    gates.rival_sigmas = Real(h.rival_sigmas), gates.follow_distance = Real(h.follow_distance);
-    const auto model = std::make_shared<const contactbench::Model>(contactbench::make_model(vertices, faces, {}));
-    contactbench::Solver solver(model, noise, gates);
+    gates.implausible_misfit = Real(h.implausible_misfit), gates.rival_cost = Real(h.rival_cost);
+    gates.ambiguity_distance = Real(h.ambiguity_distance);
+    gates.behind_cost = Real(h.behind_cost), gates.behind_distance = Real(h.behind_distance);
+    gates.follow_cost = Real(h.follow_cost), gates.follow_distance = Real(h.follow_distance);
+    const contactbench::MeshTerms terms{Real(h.mesh_deviation), h.mesh_curved != 0};
+    const auto model =
+        std::make_shared<const contactbench::Model>(contactbench::make_model(vertices, faces, {}, {}, terms));
+    contactbench::Solver solver(model, noise, Real(h.torsion_arm), gates);
 
     std::vector<Row> rows;
     const auto each = [&](auto&& answer) {

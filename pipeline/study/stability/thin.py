@@ -9,6 +9,7 @@ import numpy as np
 from pipeline.contact import ContactSolver
 from pipeline.errors import InputError
 from pipeline.study import hard_meshes as hm
+from pipeline.study.hard_trials import EXACT
 from pipeline.study.stability import builds, probes, theory
 from pipeline.study.stability.amplification import OPEN, QUIET
 from pipeline.study.stability.rounding import DOUBLE, ERROR, SINGLE
@@ -69,7 +70,7 @@ def _thin(
     more: Where = {"x": height, "axis": HEIGHT}
     try:
         touches = theory.touch(body, samples, rng, among=thin, angle=(0.0, 45.0))
-        solver = ContactSolver(body.probe(), QUIET, OPEN)
+        solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
     except InputError:
         return [Row.count(PART, kind, DOUBLE, REFUSED, 1, 1, **more)]
     rows = []

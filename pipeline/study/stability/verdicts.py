@@ -86,11 +86,11 @@ def _amplification(rows: Sequence[Row]) -> str:
     fits = [x for x, value in predicted.items() if value <= _FIRST_ORDER_HOLDS * measured[x]]
     return (
         f"A small error of the wrench moves the point as first-order theory says, to {_said(rows, figure=am.OFF)} %,"
-        " from cosines of the friction angle of 1 to 1e-7 and from forces of 100 to 1e-6 N: as 1 / cosine and as 1 /"
-        f" force. On {name} an error of 1 % moves it by up to {number(10 * along.median)} mm (median) along the"
-        f" normal, {number(10 * slanted.median)} mm at 75 degrees and {number(10 * slanted.worst)} mm at worst."
-        f" With the default noise, first order holds within 10 % down to {number(min(fits, default=_NONE))} N; the"
-        " gate for low forces is at 0.5 N."
+        f" from cosines of the friction angle of 1 to {min(am.COSINES):g} and from forces of 100 to 1e-6 N: as 1 /"
+        f" cosine and as 1 / force. On {name} an error of 1 % moves it by up to {number(10 * along.median)} mm"
+        f" (median) along the normal, {number(10 * slanted.median)} mm at 75 degrees and"
+        f" {number(10 * slanted.worst)} mm at worst. With the default noise, first order holds within 10 %"
+        f" down to {number(min(fits, default=_NONE))} N; the gate for low forces is at 0.5 N."
     )
 
 
@@ -106,7 +106,7 @@ def _rounding(rows: Sequence[Row]) -> str:
         f"An answer is off by at most {' and '.join(parts)} (stated: {ro.MOST_ROUNDOFFS:g}), up to {finest:,.0f}"
         f" facets. In double that is {_said(ordinary, figure=ro.ERROR, by=ro.DOUBLE)} mm for ordinary touches, up to"
         f" 10 m from the sensor, and {_said(rows, figure=ro.ERROR, by=ro.DOUBLE, case=steep)} mm for a force that"
-        f" grazes the facet at a cosine of 1e-7. The 4 x 4 elimination of Algorithm 1 is off by up to"
+        f" grazes the facet at a cosine of {min(am.COSINES):g}. The 4 x 4 elimination of Algorithm 1 is off by up to"
         f" {_said(rows, figure=ro.RATIO, by=ro.ALGORITHM1)} of the same roundoffs."
     )
 
@@ -178,10 +178,11 @@ def _units(rows: Sequence[Row]) -> str:
         f"In µm, mm, m and km, and with forces from 1e-9 to 1e9 of a newton, {_said(rows, figure=units.REASON)} % of"
         " answers get another reason, and points are off by, unscaled, of the probe's size, at most"
         f" {' and '.join(parts)} precision. Lengths or forces times a power of two change {bits:.0f} answers by any"
-        " bit. The solver's own tolerances have no unit: of the probe's size, 1e-14 (a facet without area), 1e-13 (an"
-        " axis through a vertex) and 1e-12 (convex or not), and a cosine of 1e-9 (edge-on). Those with a unit are the"
-        " gates (0.5 N, 5 mm, 10 mm, saturation), the noise, and what a probe may measure (5 mm to 2 m, within 1e9"
-        f" m): with gates left in metres, {_said(rows, figure=units.FORGOTTEN)} % of answers get another reason."
+        " bit. The solver's own tolerances have no unit: of the probe's size, 1e-14 (a facet without area) and 1e-6 (a"
+        " deviation that is always expected), and a cosine of 1e-3 (edge-on). Those with a unit are the gates (0.5 N,"
+        " 5 mm, 10 mm, saturation), the 3 mm from which on a surface lies behind another, the noise, the torsion arm,"
+        " the mesh's deviation, and what a probe may measure (5 mm to 2 m, within 1e9 m): with gates left in metres,"
+        f" {_said(rows, figure=units.FORGOTTEN)} % of answers get another reason."
     )
 
 

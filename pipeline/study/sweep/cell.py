@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from functools import lru_cache
-from math import cos, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -93,12 +92,9 @@ def gates_for(angle: float) -> Gates:
     """
     Return the gates of somebody who knows that touches may be this steep, degrees.
 
-    Nothing is gated away that is asked for. Of one wrench a touch at this angle has up to 1 / cos(angle) times the
-    local torque of another candidate: with less than that for `torque_ratio`, it could lose unnoticed.
+    Nothing is gated away that is asked for.
     """
-    usual = Gates()
-    ratio = max(usual.torque_ratio, 1.05 / cos(radians(angle)))
-    return Gates(friction_angle=max(usual.friction_angle, min(angle + 15.0, 89.0)), torque_ratio=ratio)
+    return Gates(friction_angle=max(Gates().friction_angle, min(angle + 15.0, 89.0)))
 
 
 def touches_of(cell: Cell) -> tuple[Touches, NDArray[np.float64]]:

@@ -8,6 +8,7 @@ from pipeline.durable import write_durably
 from pipeline.errors import InputError
 from pipeline.study.sweep.pictures import astray, draw
 from pipeline.study.sweep.plan import Plan
+from pipeline.study.sweep.run import faults_of
 from pipeline.study.sweep.tables import speed_table, tables
 from pipeline.study.sweep.targets import is_noisy, plain, usual
 
@@ -24,16 +25,13 @@ _SAID = {
     "force.png": "Error against force, touches within 45°, with the bound that the sensor's noise sets. Where few"
     " answers are sure (little force), they are a selection that can lie below it.",
     "angle.png": "Error against the angle between force and normal, at a middle force, with the bound.",
-    "Targets": "The bound is that of methods without a bias. The wrench axis has one: it takes the local torque for"
-    " zero, which is a good guess where noise hides that torque (little force, little torsion) and then saves some per"
-    " cent of the error; with more force or torsion it is the larger error. Its time here is that of one Embree ray,"
+    "Targets": "The bound is that of methods that know nothing of the local torque. Contactbench takes it for small (a"
+    " standard deviation of 1 mm times the force) and can lie below the bound; the wrench axis takes it for zero, which"
+    " with more force or torsion is the larger error. The axis' time here is that of one Embree ray,"
     " without the point, the other candidates and the reason that contactbench's includes.",
-    "Steep touches, without noise": "Of several candidates contactbench takes the one with the smallest local torque,"
-    " which for one wrench is the one with the smallest angle between force and normal. Where touches are as steep as"
-    " these, the true candidate is often the steeper one; the wrench axis takes the first that it meets, which then is"
-    " right more often, and is wrong more often where touches are not steep. The wrench does not tell which; friction"
-    " does: 60 degrees need a coefficient of 1.7. Such answers are called ambiguous if `Gates.torque_ratio` allows for"
-    " the steepest touch, as it does here.",
+    "Steep touches, without noise": "The line of force of a steep touch often runs through another surface, too. Both"
+    " then explain the wrench, and the answer is ambiguous: its point is on the surface that the force meets first. The"
+    " wrench does not tell which is right.",
     "The local torque: solved for, or taken for zero": "Sure answers on the right part of the probe, up to 45 degrees,"
     " finest mesh. Below 1 a method is better than any without a bias can be: it knows something of the torque"
     " beforehand.",
@@ -73,10 +71,11 @@ def make(results: Results, folder: Path) -> str:
     parts.append(
         f"<details><summary>Every method on every mesh</summary>\n\n{speed_table(usual(noisy or rows))}\n\n</details>"
     )
-    if failed := sorted(
-        {f"{row['method']} on {plain(row['probe'])}: {row['failed']}" for row in rows if row["failed"]}
+    for heading, items in (
+        ("Left out", results.about.get("left_out", ())),
+        ("Not computed", faults_of(rows)),
     ):
-        parts.append("Could not be done: " + "; ".join(failed))
+        parts += [f"{heading}:\n\n" + "\n".join(f"- {item}" for item in items)] if items else []
     return "\n\n".join(parts)
 
 

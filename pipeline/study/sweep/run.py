@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 from pipeline.errors import InputError
 from pipeline.study.results import environment, write_results
-from pipeline.study.sweep.bodies import file_facets, packed_mesh
+from pipeline.study.sweep.bodies import file_facets, mesh_of, packed_mesh
 from pipeline.study.sweep.cell import forget, gates_for, run_cell
 from pipeline.study.sweep.plan import identity, label
 from pipeline.study.sweep.store import Store
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
 
     from pipeline.study.sweep.plan import Cell, Plan
@@ -36,12 +36,18 @@ class Swept:
         The Parquet file; None: it was cancelled before all was done.
     cells, computed, failed : int
         All of them, those computed now, and those that could not be.
+    left_out : tuple of str
+        Meshes that a file cannot be made into, and why.
+    faults : tuple of str
+        What could not be computed, and why.
     """
 
     results: Path | None
     cells: int
     computed: int
     failed: int
+    left_out: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()
 
 
 def run(
@@ -84,7 +90,7 @@ def run(
     InputError
         The folder or the scheduler cannot be used.
     """
-    cells = _distinct(plan)
+    cells, left_out = _distinct(plan)
     count = workers or os.cpu_count() or 1
     with Store(out) as store:
         todo = [cell for cell in cells if store.rows.get(cell.key, {"failed": "not yet"})["failed"]]
@@ -96,23 +102,48 @@ def run(
                 progress(done, len(cells))
         rows = [store.rows[cell.key] for cell in cells if cell.key in store.rows]
     computed = done - (len(cells) - len(todo))
-    failed = sum(bool(row["failed"]) for row in rows)
+    failed, faults = sum(bool(row["failed"]) for row in rows), tuple(faults_of(rows))
     if done < len(cells):
-        return Swept(None, len(cells), computed, failed)
+        return Swept(None, len(cells), computed, failed, left_out, faults)
     facts = environment(workers=count, scheduler="a cluster" if scheduler else "this machine")
-    file = write_results(out, KIND, command, rows, facts, _about(plan))
-    return Swept(file, len(cells), computed, failed)
+    file = write_results(out, KIND, command, rows, facts, _about(plan) | {"left_out": list(left_out)})
+    return Swept(file, len(cells), computed, failed, left_out, faults)
 
 
-def _distinct(plan: Plan) -> list[Cell]:
-    """Return the cells of a plan; of meshes finer than a file's own only the coarsest, because all are the file's."""
-    finest = {}
+def faults_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Return what could not be computed, each reason once with the methods and probes that it stopped."""
+    found: dict[str, set[str]] = {}
+    for row in rows:
+        if row["failed"]:
+            found.setdefault(row["failed"], set()).add(f"{row['method']} on {row['probe']}")
+    return [f"{', '.join(sorted(who))}: {reason}" for reason, who in found.items()]
+
+
+def _distinct(plan: Plan) -> tuple[list[Cell], tuple[str, ...]]:
+    """
+    Return the cells of a plan, and which meshes a file cannot be made into, and why.
+
+    Of meshes finer than a file's own there is only the coarsest, because all are the file's.
+    """
+    some: dict[str, tuple[int, int]] = {}
+    left_out = []
     for probe in plan.probes:
         identity(probe)  # says what is wrong with a name that is no probe
         own = file_facets(probe)
         enough = [facets for facets in plan.facets if own is not None and facets >= own]
-        finest[probe] = min(enough, default=max(plan.facets))
-    return [cell for cell in plan.cells() if cell.facets <= finest[cell.probe]]
+        finest = min(enough, default=max(plan.facets))
+        coarsest = min(plan.facets)
+        for facets in [] if own is None else sorted(f for f in plan.facets if f < finest):
+            coarsest = facets
+            try:
+                mesh_of(probe, facets)
+            except InputError as error:
+                left_out.append(f"{label(probe)} at {facets:,} facets: {error}")
+                coarsest = finest
+            else:
+                break
+        some[probe] = coarsest, finest
+    return [c for c in plan.cells() if some[c.probe][0] <= c.facets <= some[c.probe][1]], tuple(left_out)
 
 
 def _about(plan: Plan) -> dict[str, Any]:
@@ -133,7 +164,7 @@ def tasks_of(cells: list[Cell]) -> list[list[Cell]]:
 
 
 def _heaviest_first(cell: Cell) -> tuple[int, str, str, str, float]:
-    return -cell.facets, cell.probe, cell.noise, cell.filter, gates_for(cell.angle).torque_ratio
+    return -cell.facets, cell.probe, cell.noise, cell.filter, gates_for(cell.angle).friction_angle
 
 
 def run_task(cells: list[Cell], timed: bool) -> list[dict[str, Any]]:

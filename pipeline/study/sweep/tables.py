@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pipeline.study.sweep.growth import Power
 
 _AXIS = "wrench_axis"
-_REASONS = ("ok", "vertex", "ambiguous", "off_surface", "tangential", "low_force")
+_REASONS = ("ok", "vertex", "ambiguous", "implausible", "off_surface", "tangential", "low_force")
 
 
 def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:

@@ -16,16 +16,23 @@ if TYPE_CHECKING:
 
 
 @cache
-def example(facets: int = 1_000, *, rate: float = 1_000.0, verified: bool = True) -> RuntimeConfig:
+def example(
+    facets: int = 1_000, *, rate: float = 1_000.0, verified: bool = True, clamped: bool = False
+) -> RuntimeConfig:
     """Return the example; made once."""
-    return example_config(facets, rate=rate, verified=verified)
+    return example_config(facets, rate=rate, verified=verified, clamped=clamped)
 
 
 def example_bundle(
-    folder: Path, facets: int = 1_000, *, rate: float = 1_000.0, verified: bool = True
+    folder: Path,
+    facets: int = 1_000,
+    *,
+    rate: float = 1_000.0,
+    verified: bool = True,
+    clamped: bool = False,
 ) -> RuntimeConfig:
     """Write the example to a folder, or a zip file if its name ends in .zip, and return it."""
-    config = example(facets, rate=rate, verified=verified)
+    config = example(facets, rate=rate, verified=verified, clamped=clamped)
     config.write(folder)
     return config
 
@@ -41,8 +48,19 @@ OLD_GAINS = {
 }
 
 
+def of_version_2(files: dict[str, bytes], **changes: object) -> dict[str, bytes]:
+    """Return a bundle as contactbench wrote it before version 3: touches were ranked by rules."""
+    content = json.loads(files["contactbench.json"])
+    del content["touch"]
+    new = ("implausible_misfit", "rival_odds", "first_odds", "follow_odds", "accept_by_region")
+    old = {name: value for name, value in content["gates"].items() if name not in new}
+    content["gates"] = {**old, "torque_ratio": 1.5, "rival_sigmas": 3.0}
+    for region in content["regions"]:
+        del region["odds"], region["untouchable"]
+    content |= {"version": 2, **changes}
+    return seal({**files, "contactbench.json": json.dumps(content).encode()})
+
+
 def of_version_1(files: dict[str, bytes], controller: object = OLD_GAINS) -> dict[str, bytes]:
     """Return a bundle as contactbench wrote it before version 2: with one gain for both turns."""
-    content = json.loads(files["contactbench.json"])
-    content |= {"version": 1, "controller": controller}
-    return seal({**files, "contactbench.json": json.dumps(content).encode()})
+    return of_version_2(files, version=1, controller=controller)

@@ -34,7 +34,7 @@ def sha256(file):
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
-def verification(folder, *, passed=True, mean=0.4, **settings):
+def verification(folder, *, passed=True, mean=0.4, model_error=None, **settings):
     file = folder / "verification.json"
     content = {
         "schema": "contactbench.verification",
@@ -47,6 +47,7 @@ def verification(folder, *, passed=True, mean=0.4, **settings):
         "diagnosis": {"text": "Noise explains most of the error."},
         "limits": {"mean_m": 0.001, "max_m": 0.002, "p99_s": 0.001},
         "settings": settings,
+        "model_error": model_error,
         "sources": {
             role: sha256(folder / name)
             for role, name in (("calibration", "calibration.json"), ("probe", "probe.ply"))
@@ -239,6 +240,58 @@ def test_a_verification_without_sources_counts_for_nothing(bench):
     assert "does not say with which calibration" in " ".join(made.stderr.split())
 
 
+def test_the_model_error_is_the_verified_one_or_the_default(bench):
+    made = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert "model error is the default" in made.stderr
+    assert RuntimeConfig.load(bench / "b").model.touch.model_error.model_dump() == {
+        "force_N": [0.05] * 3,
+        "torque_Nm": [0.001] * 3,
+        "measured": False,
+    }
+    verification(bench, model_error={"force_N": 0.2, "torque_Nm": 0.003})
+    made = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert "model error" not in made.stderr
+    assert RuntimeConfig.load(bench / "b").model.touch.model_error.model_dump() == {
+        "force_N": [0.2] * 3,
+        "torque_Nm": [0.003] * 3,
+        "measured": True,
+    }
+    for wrong in ({"force_N": 0.2}, {"force_N": -0.2, "torque_Nm": 0.003}, 3):
+        verification(bench, model_error=wrong)
+        refused = invoke("export", *files_of(bench), "--out", bench / "b")
+        assert refused.exit_code == 2
+        assert "the verification lacks a figure" in refused.stderr
+
+
+def test_what_is_said_of_a_touch_reaches_the_bundle(bench):
+    options = ("--torsion-arm-mm", 3, "--not-by-region")
+    made = invoke("export", *files_of(bench), *options, "--out", bench / "b", "--json")
+    assert made.exit_code == 0, made.stderr
+    model = RuntimeConfig.load(bench / "b").model
+    assert (model.touch.torsion_arm_m, model.gates.accept_by_region) == (0.003, False)
+    assert json.loads(made.stdout)["touch"]["torsion_arm_m"] == 0.003
+    assert invoke("export", *files_of(bench), "--out", bench / "b").exit_code == 0
+    model = RuntimeConfig.load(bench / "b").model
+    assert (model.touch.torsion_arm_m, model.gates.accept_by_region) == (0.001, True)
+    long = invoke("export", *files_of(bench), "--torsion-arm-mm", 101, "--out", bench / "b")
+    assert long.exit_code == 2
+    assert "--torsion-arm-mm" in long.stderr
+
+
+def test_the_deviation_of_the_mesh_is_that_of_its_simplifications(bench):
+    sidecar = bench / "probe.json"
+    document = json.loads(sidecar.read_text())
+    steps = [{"step": "simplify", "result": {"deviation": {"rms_mm": rms}}} for rms in (0.03, 0.04)]
+    sidecar.write_text(json.dumps(document | {"history": [steps[0], {"step": "align"}, steps[1]]}))
+    assert invoke("export", *files_of(bench), "--out", bench / "b").exit_code == 0
+    assert RuntimeConfig.load(bench / "b").model.touch.mesh_deviation_m == pytest.approx(5e-5, rel=1e-12)
+    for wrong in ({"step": "simplify"}, {"step": "simplify", "result": {"deviation": {"rms_mm": -1}}}):
+        sidecar.write_text(json.dumps(document | {"history": [steps[0], wrong]}))
+        refused = invoke("export", *files_of(bench), "--out", bench / "b")
+        assert refused.exit_code == 2
+        assert "step 2 of its history, simplify" in " ".join(refused.stderr.split())
+
+
 def test_what_nobody_said_is_said(bench):
     made = invoke("export", *files_of(bench), "--out", bench / "b")
     for said in (made.stderr, invoke("check", bench / "b").stderr):
@@ -264,7 +317,7 @@ def test_settings_from_a_file_reach_everything(bench):
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [("x", "not JSON"), ('{"gain":1}', "gain"), ('{"gates":{"torque_ratio":0.5}}', "torque_ratio"),
+    [("x", "not JSON"), ('{"gain":1}', "gain"), ('{"gates":{"rival_odds":0.5}}', "rival_odds"),
      ('{"limits":{}}', "limits.max_force_N"), ('{"gates":{"no":1}}', "no")],
 )  # fmt: skip
 def test_wrong_settings_are_refused(bench, text, words):

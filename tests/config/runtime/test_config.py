@@ -22,10 +22,10 @@ from pipeline.config.runtime.config import checksum
 from pipeline.config.runtime.differ import differences
 from pipeline.config.runtime.pack import KNOWN, read_bundle
 from pipeline.config.runtime.swap import write_folder
-from pipeline.contact import Gates, WrenchNoise
+from pipeline.contact import Gates, TouchModel, WrenchNoise
 from pipeline.filtering import LowPass
 from pipeline.mesh import Probe
-from pipeline.mesh.regions import RegionSet
+from pipeline.mesh.regions import Region, RegionSet
 from pipeline.mesh.sidecar import ProbeFile
 from pipeline.study import bundle_example
 from pipeline.study.bundle_mutations import seal
@@ -100,14 +100,14 @@ def test_noise_of_a_wrench_is_what_the_filter_leaves_and_the_calibration_adds():
 
 
 def test_planes_come_in_the_order_of_priority():
-    config = example()
+    config = example(clamped=True)
     rows = config.files["planes.csv"].decode().split()[1:]
     table = np.array([[float(cell) for cell in row.split(",")] for row in rows])
     index, region = table[:, 0].astype(int), table[:, 5]
     assert sorted(index) == list(range(len(config.probe.faces)))
-    first = int((config.probe.region == 1).sum())
-    assert (region[:first] == 1).all()
-    assert (region[first:] == 0).all()
+    counts = [int((config.probe.region == rank).sum()) for rank in (1, 0, 2)]
+    assert min(counts) > 0
+    assert region.tolist() == [1] * counts[0] + [0] * counts[1] + [2] * counts[2]  # 2: the clamp hides it
     corners = table[:, 6:].reshape(-1, 3, 3)
     assert (corners == config.probe.vertices[config.probe.faces[index]]).all()
     heights = np.einsum("ij,ikj->ik", table[:, 1:4], corners)
@@ -120,7 +120,8 @@ def test_planes_come_in_the_order_of_priority():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"version": 3}, "version is 3"),
+        ({"version": 4}, "version is 4"),
+        ({"version": 2}, "version 2 cannot be carried over"),
         ({"version": 1}, "version 1 cannot be carried over"),
         ({"version": 0}, "no version 0"),
         ({"schema": "x"}, "schema is 'x'"),
@@ -143,6 +144,21 @@ def test_planes_come_in_the_order_of_priority():
         ({"filters__wrench__q": 0.0}, "filters.wrench.q is 0.0"),
         ({"gates__friction_angle_rad": 75.0}, "gates.friction_angle_rad is 75.0"),
         ({"gates__saturation": [1.0] * 5}, "gates.saturation"),
+        ({"gates__rival_odds": 0.5}, "gates.rival_odds is 0.5"),
+        ({"gates__first_odds": 2e9}, "gates.first_odds"),
+        ({"gates__implausible_misfit": 100.0}, "gates.implausible_misfit is 100.0"),
+        ({"gates__torque_ratio": 1.5}, "gates.torque_ratio"),
+        ({"touch__torsion_arm_m": 1.0}, "touch.torsion_arm_m is 1.0"),
+        ({"touch__mesh_deviation_m": -1e-5}, "touch.mesh_deviation_m"),
+        ({"touch__model_error__force_N": [0.1, 0.1, 101.0]}, "touch.model_error.force_N.2 is 101.0"),
+        ({"touch__model_error__torque_Nm": [0.1, 0.1]}, "touch.model_error.torque_Nm"),
+        ({"regions__0__odds": 0.0}, "regions.0.odds is 0.0"),
+        ({"regions__0__odds": 0.5}, "regions.0.odds is 0.5, but its untouchable is false"),
+        ({"regions__0__untouchable": True}, "regions.0.odds is 1000, but its untouchable is true"),
+        (
+            {"regions__0__untouchable": True, "regions__0__odds": 0.001},
+            r"regions says that \[1\] are untouchable, the mesh says \[\]",
+        ),
         ({"probe__facets": 1000}, "probe.facets is 1000, but the mesh has 1002"),
         ({"probe__bounds_S_m__0": [-40.0, -25.0, 0.0]}, "probe.bounds_S_m"),
         ({"probe__file": "../probe.ply"}, "probe.file is '../probe.ply'"),
@@ -300,6 +316,8 @@ def test_reasons_refuse_an_export(rebuild):
         ("mount", (1.0, 1.0, 0.0, 0.0), "quaternion_ES has the length"),
         ("gates", Gates(max_age=float("inf")), "gates.max_age_s is inf"),
         ("operator", "\ud800", "provenance.operator"),
+        ("model", TouchModel(torsion_arm=1.0), "touch.torsion_arm_m is 1.0"),
+        ("model", TouchModel(model_error=WrenchNoise(0.1, 0.001, np.eye(6))), "touch.model_error.*extra"),
     ],
 )
 def test_nonsense_is_not_built(rebuild, name, value, words):
@@ -309,6 +327,46 @@ def test_nonsense_is_not_built(rebuild, name, value, words):
 
     with pytest.raises(ConfigError, match=words):
         rebuild(change)
+
+
+def test_the_model_of_a_touch_is_written_down():
+    part = example(clamped=True).model.touch
+    assert part.model_dump() == {
+        "torsion_arm_m": 0.002,
+        "model_error": {
+            "force_N": [0.04, 0.05, 0.06],
+            "torque_Nm": [0.001, 0.0012, 0.0009],
+            "measured": True,
+        },
+        "mesh_deviation_m": 5e-5,
+        "mesh_curved": True,
+    }
+    usual = example().model.touch
+    assert usual.model_error.model_dump() == {
+        "force_N": [0.05] * 3,
+        "torque_Nm": [0.001] * 3,
+        "measured": False,
+    }
+    assert usual.torsion_arm_m == 0.001
+
+
+def test_odds_of_regions_are_those_that_the_solver_takes(rebuild):
+    gates = Gates(region_odds=300.0, untouchable_odds=50.0)
+
+    def change(calibration, probe_file, named):
+        probe = probe_file.probe
+        labels = np.arange(len(probe.faces)) % 6
+        regions = [Region(f"r{rank}", "#123456", untouchable=rank in (1, 3)) for rank in range(1, 6)]
+        named["gates"] = gates
+        return calibration, ProbeFile(probe, RegionSet.from_labels(labels, regions), "S")
+
+    config = rebuild(change)
+    assert [each.odds for each in config.model.regions] == [0.02, 300.0, 0.02, 30.0, 10.0]
+    assert config.probe.untouchable == (1, 3)
+    assert RuntimeConfig.from_files(config.encoded()).probe.untouchable == (1, 3)
+    odds = np.array([1.0, *(each.odds for each in config.model.regions)])
+    expected = gates.bonus(config.probe.region, config.probe.untouchable)
+    assert np.allclose(2 * np.log(odds)[config.probe.region], expected, rtol=1e-14, atol=0)
 
 
 def test_without_filters_the_noise_is_that_of_a_reading(rebuild):

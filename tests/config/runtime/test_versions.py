@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from config.runtime.bundles import OLD_GAINS, example, of_version_1
+from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2
 
 from pipeline.config.runtime import ConfigError, RuntimeConfig
 from pipeline.config.runtime import migrate as migrations
@@ -20,13 +20,13 @@ def test_an_older_version_is_carried_over(monkeypatch):
         return {**content, "gravity": gravity, "gates": {**content["gates"], "region_only": False}}
 
     monkeypatch.setitem(migrations.STEPS, 0, from_0)
-    content = {**example().model.to_json(), "controller": OLD_GAINS}
+    content = json.loads(of_version_1(example().encoded())["contactbench.json"])
     weight = content["gravity"].pop("gravity_W_N")
     content["gravity"]["mass_W_kg"] = [each / 9.80665 for each in weight]
     del content["gates"]["region_only"]
     old = encode_json({**content, "version": 0})
     model = decode_json(old, "old")
-    assert model.version == 2
+    assert model.version == 3
     assert model.controller.force.damping_Nspm == 80.0
     assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
     del content["gravity"]["mass_W_kg"]
@@ -34,7 +34,7 @@ def test_an_older_version_is_carried_over(monkeypatch):
         decode_json(encode_json({**content, "version": 0}), "old")
 
 
-def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_2():
+def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_3():
     found = RuntimeConfig.from_files(of_version_1(example().encoded()))
     # What was left open then, as it was taken then: it stays, whatever the defaults become.
     assert found.model.controller.model_dump() == {
@@ -72,7 +72,7 @@ def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_2():
     }
     again = RuntimeConfig.from_files(found.encoded())
     assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 2
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 3
     bare = RuntimeConfig.from_files(of_version_1(example().encoded(), None))
     assert bare.model.controller is None
 
@@ -95,3 +95,58 @@ def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_2():
 def test_a_wrong_controller_of_version_1_is_refused(controller, words):
     with pytest.raises(ConfigError, match=words):
         RuntimeConfig.from_files(of_version_1(example().encoded(), controller))
+
+
+def test_a_bundle_of_version_2_gets_the_model_of_a_touch_and_is_written_as_version_3():
+    part = example().model.regions[0].model_dump(exclude={"odds", "untouchable"})
+    empty = [{**part, "rank": rank, "name": f"empty {rank}", "facets": 0} for rank in (2, 3, 4)]
+    found = RuntimeConfig.from_files(of_version_2(example().encoded(), regions=[part, *empty]))
+    # As it was taken when version 3 came: it stays, whatever the defaults become.
+    assert found.model.touch.model_dump() == {
+        "torsion_arm_m": 0.001,
+        "model_error": {"force_N": [0.05] * 3, "torque_Nm": [0.001] * 3, "measured": False},
+        "mesh_deviation_m": 0.0,
+        "mesh_curved": True,
+    }
+    before = example().model.gates.model_dump()
+    assert found.model.gates.model_dump() == {
+        **{name: before[name] for name in ("min_force_N", "friction_angle_rad", "ambiguity_distance_m")},
+        **{name: before[name] for name in ("follow_distance_m", "recent_samples", "max_age_s", "saturation")},
+        "implausible_misfit": 10.827566170662935,
+        "rival_odds": 100.0,
+        "first_odds": 7.38905609893065,
+        "follow_odds": 1000.0,
+        "region_only": False,
+        "accept_by_region": True,
+    }
+    assert [(each.odds, each.untouchable) for each in found.model.regions] == [
+        (1000.0, False),
+        (100.0, False),
+        (10.0, False),
+        (10.0, False),
+    ]
+    assert found.model.noise == example().model.noise
+    assert found.model.controller == example().model.controller
+    again = RuntimeConfig.from_files(found.encoded())
+    assert again.model == found.model
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 3
+
+
+def old_gates(**changes):
+    return json.loads(of_version_2(example().encoded())["contactbench.json"])["gates"] | changes
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"gates": {name: value for name, value in old_gates().items() if name != "rival_sigmas"}},
+        {"gates": old_gates(rival_odds=100.0)},
+        {"gates": []},
+        {"touch": {}},
+        {"regions": example().model.to_json()["regions"]},
+        {"regions": 3},
+    ],
+)
+def test_what_version_2_never_was_is_refused(changes):
+    with pytest.raises(ConfigError, match="version 2 cannot be carried over"):
+        RuntimeConfig.from_files(of_version_2(example().encoded(), **changes))

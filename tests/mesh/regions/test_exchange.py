@@ -41,11 +41,24 @@ def some(probe: Probe, rng: np.random.Generator) -> RegionSet:
 def test_json_gives_back_what_went_in(cube: FacetGraph, data: Any) -> None:
     names = data.draw(st.lists(NAMES, max_size=5, unique_by=lambda text: Region(text, "#000000").name))
     colours = st.from_regex(r"#[0-9a-f]{6}", fullmatch=True)
-    listed = tuple(Region(name, data.draw(colours)) for name in names)
+    listed = tuple(Region(name, data.draw(colours), data.draw(st.booleans())) for name in names)
     seed = data.draw(st.integers(0, 2**32 - 1))
     labels = np.random.default_rng(seed).integers(0, len(names) + 1, cube.facet_count).astype(np.int32)
     regions = RegionSet(listed, labels)
     assert same(decode_json(encode_json(regions, cube.probe), cube.probe), regions)
+
+
+def test_a_mark_is_written_only_where_there_is_one(cube: FacetGraph) -> None:
+    regions = RegionSet(
+        (Region("Lens", "#e69f00"), Region("Clamp", "#000000", True)), RegionSet.empty(768).labels
+    )
+    document = json.loads(encode_json(regions, cube.probe))
+    lens, clamp = document["regions"]
+    assert "untouchable" not in lens  # as files were before there were marks
+    assert clamp["untouchable"] is True
+    clamp["untouchable"] = "yes"
+    with pytest.raises(RegionError, match="'untouchable' is str in the JSON file, where bool belongs"):
+        decode_json(json.dumps(document).encode(), cube.probe)
 
 
 def test_csv_gives_back_the_labels(cube: FacetGraph, tmp_path: Path, rng: np.random.Generator) -> None:

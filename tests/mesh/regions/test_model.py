@@ -275,3 +275,24 @@ def test_there_are_at_most_255_regions() -> None:
         model.add()
     with pytest.raises(RegionError, match="more than 255"):
         model.add()
+
+
+def test_a_mark_is_one_step_and_moves_with_its_region() -> None:
+    model = model_of(0, 1, 2)
+    told: list[Any] = []
+    model.subscribe(told.append)
+    model.set_untouchable(2, True)
+    model.set_untouchable(2, True)  # changes nothing
+    assert [(t.faces.tolist(), t.listed) for t in told] == [([], True)]
+    assert model.undo_text == "mark b untouchable"
+    assert model.snapshot().untouchable == (2,)
+    model.reorder([2, 1])
+    assert model.snapshot().untouchable == (1,)
+    model.undo()
+    model.undo()
+    assert model.snapshot().untouchable == ()
+    assert model.undo_text is None
+    model.redo()
+    assert model.snapshot().untouchable == (2,)
+    with pytest.raises(RegionError, match="rank 3"):
+        model.set_untouchable(3, True)

@@ -67,3 +67,11 @@ def test_areas_and_ranks() -> None:
     assert made.rank_of(" b ") == 2
     with pytest.raises(RegionError, match="choose one of: a, b"):
         made.rank_of("c")
+
+
+def test_ranks_that_nothing_can_touch() -> None:
+    regions = (Region("Lens", "#e69f00"), Region("Clamp", "#000000", untouchable=True))
+    made = RegionSet.from_labels([0, 2, 4, 3], regions, untouchable=(1, 4))
+    # What is known of a region counts more than what the labels' file says of its number.
+    assert made.untouchable == (2, 4)
+    assert RegionSet.from_labels([1]).untouchable == ()

@@ -27,10 +27,11 @@ def test_lost_touches_make_it_infinite() -> None:
     probe = ball(1280)
     away = Probe.from_arrays(probe.vertices + [0.5, 0, 0], probe.faces)
     assert contact_error_criterion(probe, QUICK)(away) == math.inf
-    # Half the ball is left: what is settled on it is where it was, but half of the touches are lost.
+    # Half the ball is left: what is settled on it is where it was, or at the rim, if noise may have put it beyond; but
+    # half of the touches are lost.
     half = Probe.from_arrays(probe.vertices, probe.faces[probe.normals[:, 2] > 0])
     assert contact_error_criterion(probe, QUICK)(half) == math.inf
-    assert contact_error_criterion(probe, QUICK, failed=1.0)(half) < 1e-3
+    assert contact_error_criterion(probe, QUICK, "mean", failed=1.0)(half) < 0.3e-3
 
 
 def test_the_fewest_facets_keep_the_limit_and_a_tighter_one_needs_more() -> None:

@@ -72,7 +72,8 @@ def test_a_perpendicular_touch_is_at_the_marker_and_a_tilted_one_sticks(truth: T
             moment = scene.settle()
             assert moment is not None
             assert np.linalg.norm(moment.point_S - scene.marker_S) < 2e-5
-            angle = np.degrees(np.arccos(-moment.contact[:3] @ moment.normal_S / moment.force))
+            cosine = -moment.contact[:3] @ moment.normal_S / moment.force
+            angle = np.degrees(np.arccos(min(cosine, 1.0)))  # rounding can pass 1
             assert angle == pytest.approx(tilt, abs=3.0)  # the surface turns between facets
 
 

@@ -121,4 +121,4 @@ def test_crossings_are_by_probe_mesh_and_noise_and_the_gate_loses():
 
 def test_what_a_reading_is_varied_by_is_named():
     assert verdicts.unit_of(reading.DRIFT) == "4 K"
-    assert verdicts.unit_of(locating.VERTICES) == ""
+    assert verdicts.unit_of(locating.GATE) == ""

@@ -82,6 +82,16 @@ def test_touches_in_doubt_count_and_may_not_be_many(probe: ProbeResult) -> None:
     assert figure(report, f"{PERPENDICULAR}, mean").measured == pytest.approx((20 + 5 * 0.2) / 6)
 
 
+def test_touches_that_only_the_region_decides_are_no_doubt_but_told(probe: ProbeResult) -> None:
+    mine = probe.located[OURS]
+    reasons = np.full_like(mine.reasons, Reason.OK)
+    reasons[:2] = Reason.BY_REGION
+    report = told(replace(probe, located={**probe.located, OURS: replace(mine, reasons=reasons)}))
+    assert figure(report, "answered without doubt").measured == 100
+    by_region = figure(report, "answered without doubt only because of the region")
+    assert by_region.measured == pytest.approx(100 * 2 / 18)
+
+
 def test_where_the_tip_rests_is_told_as_it_is(probe: ProbeResult) -> None:
     off = distances_mm(probe.touched.points, probe.touched.targets)
     for index, angle in enumerate(ANGLES):

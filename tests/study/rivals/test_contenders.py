@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.calibration.poses import stack
-from pipeline.contact import ContactSolver
+from pipeline.contact import ContactSolver, TouchModel
 from pipeline.errors import InputError
 from pipeline.simulation.weighing import draw_weighing
 from pipeline.study.reproduce.touching import model_of
@@ -60,7 +60,8 @@ def test_the_flat_face_is_the_top_of_a_closed_block():
     assert (points[:, 2] == block.vertices[:, 2].max()).all()
     forces = np.broadcast_to([1.0, 2.0, -10.0], points.shape)
     wrenches = np.hstack([forces, np.cross(points, forces) + 0.01 * normals])
-    assert ContactSolver(block).locate_batch(wrenches).points == pytest.approx(points, abs=1e-9)
+    any_torsion = ContactSolver(block, model=TouchModel(torsion_arm=1_000.0))
+    assert any_torsion.locate_batch(wrenches).points == pytest.approx(points, abs=1e-9)
 
 
 def test_bota_finds_contacts_on_a_plane_if_it_is_there():

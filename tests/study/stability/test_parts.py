@@ -43,7 +43,7 @@ def test_amplification_is_first_order() -> None:
     rows = amplification.run(SAMPLES, 1)
     assert not missed(rows)
     assert {row.x for row in of_part(rows, amplification.PART, figure=amplification.GROWS)} == {
-        10.0**-power for power in range(8)
+        *amplification.COSINES
     }
     along, slanted = (
         max(r.worst for r in rows if r.figure == amplification.CONDITION and r.x == angle)
@@ -57,7 +57,7 @@ def test_a_wrong_prediction_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(theory, "moved", lambda *a: 1.02 * right(*a))
     broken = missed(amplification.run(SAMPLES, 1))
     assert {row.figure for row in broken} == {amplification.OFF}
-    assert len(broken) == 17
+    assert len(broken) == len(amplification.COSINES) + 9
 
 
 def test_rounding_stays_within_the_condition() -> None:
@@ -101,7 +101,8 @@ def test_units_change_nothing_but_gates_that_are_forgotten_do() -> None:
     assert not missed(rows)
     forgotten = {row.x: row.worst for row in rows if row.figure == units.FORGOTTEN}
     assert forgotten[1.0] == 0.0
-    assert forgotten[1e3] > 0.0
+    # In mm what is the same touch is left to its deviations; in km every touch of the probe is within 5 "mm".
+    assert forgotten[1e-3] > 0.0
 
 
 def test_a_bias_costs_what_the_reading_rounds_to() -> None:
@@ -115,6 +116,19 @@ def test_exact_arithmetic_agrees() -> None:
     rows = exact.run(12, 1)
     assert not missed(rows)
     assert sum(row.worst for row in rows if row.figure == exact.OTHERWISE) > 0
+    convex = {row.case for row in rows if row.figure == exact.SPREAD}
+    assert convex == {row.case for row in rows if row.case.startswith("ellipsoid")}
+
+
+def test_exact_arithmetic_notices_a_lost_answer_and_one_where_there_is_none() -> None:
+    body, rng = hm.ellipsoid(), np.random.default_rng(0)
+    inside, gaps = (hm.press(*hm.places(body, 5, rng, place), rng, pitch=0.03) for place in ("facet", "cone"))
+    away = Bent(body.vertices, body.faces, -0.99)
+    lost = {row.figure: row.worst for row in missed(exact._compared("case", away, inside))}
+    assert lost[exact.NONE] == 5.0
+    assert lost[exact.DEPTH] > 1e-3
+    assert not missed(exact._compared("case", body, gaps))
+    assert not {exact.ERROR, exact.LONG} & {row.figure for row in exact._compared("case", body, gaps)}
 
 
 def test_exact_arithmetic_notices_a_mesh_that_is_off_by_a_picometre() -> None:

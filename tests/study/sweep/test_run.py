@@ -205,9 +205,10 @@ def test_wrong_folders_and_schedulers_are_named(tmp_path):
 
 
 def test_errors_are_those_of_the_answers(rows):
-    """The bound of a cell is what the solver states on a fine mesh, and sure answers keep to it."""
+    """Sure answers keep to the bound; where it is steep, to know that torsion is small is worth a third of it."""
     fine = [
         r for r in rows if r["facets"] == 1200 and r["method"] == "contactbench" and r["noise"] == "paper"
     ]
-    assert all(0.8 < row["over_bound"] < 1.6 for row in fine if row["force"] < 20)
+    assert all(0.8 < row["over_bound"] < 1.6 for row in fine if row["force"] < 20 and row["angle"] <= 30)
+    assert all(0.6 < row["over_bound"] < 1.0 for row in fine if row["force"] < 20 and row["angle"] > 30)
     assert all(np.isclose(row["answered"], 1.0, atol=0.05) for row in fine)

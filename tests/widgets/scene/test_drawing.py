@@ -114,6 +114,58 @@ def test_invented_facets_are_hatched(bench):
     assert 0.05 < part.mean() < 0.7
 
 
+def dark_share(bench, before, low, high):
+    """Return the share of a part of the front that has become darker."""
+    ratio = bench.scene.stage.ratio
+    a, b = bench.place(low) * ratio, bench.place(high) * ratio
+    darker = before.sum(axis=2) - bench.scene.picture().astype(int).sum(axis=2) > 100
+    return darker[int(b.y()) : int(a.y()), int(a.x()) : int(b.x())].mean()
+
+
+def test_untouchable_facets_are_crossed_out(bench):
+    probe = bench.scene.probe_layer.probe
+    before = bench.scene.picture().astype(int)
+    front = [-0.015, -0.015, 0.005], [0.015, -0.015, 0.055]
+    region = np.where(np.isin(np.arange(12), (4, 5)), 2, 1)
+    bench.scene.show_probe(probe.with_region(region, untouchable=(2,)))
+    bench.settle()
+    bench.qtbot.wait(50)
+    bench.settle()
+    crossed = dark_share(bench, before, *front)
+    assert 0.05 < crossed < 0.8
+    bench.scene.show_untouchable(np.array([4], np.int32))  # half of it
+    bench.settle()
+    assert dark_share(bench, before, *front) == pytest.approx(crossed / 2, rel=0.25)
+    bench.scene.show_untouchable(np.array([], np.int32))
+    bench.settle()
+    assert dark_share(bench, before, *front) < 0.01
+
+
+def test_where_it_could_be_as_well_is_a_hollow_ring_with_words(bench):
+    scene = bench.scene
+    point, rival = np.array([0.01, -0.015, 0.03]), np.array([-0.012, -0.015, 0.045])
+    scene.show_contact(point, np.eye(3) * 1e-8, np.array([0.0, -1.0, 0.0]))
+    bench.settle()
+    before = scene.picture().astype(int)
+    scene.show_contact(
+        point, np.eye(3) * 1e-8, np.array([0.0, -1.0, 0.0]), rival[None], ("here too", "behind")
+    )
+    bench.settle()
+    changed = np.abs(scene.picture().astype(int) - before).sum(axis=2) > 100
+    place = bench.place(rival) * scene.stage.ratio
+    x, y = int(place.x()), int(place.y())
+    assert not changed[y - 1 : y + 2, x - 1 : x + 2].any()  # hollow
+    assert changed[y, x - 40 : x].any()
+    assert changed[y - 40 : y, x + 14 :].sum() > 200  # the words
+    assert scene._contact._caption._drawn[0] == "here too"
+    scene.show_contact(point, None, None, rival[None] * [1, -1, 1], ("here too", "behind"))
+    bench.settle()
+    assert scene._contact._caption._drawn[0] == "behind"
+    scene.show_contact(None)
+    bench.settle()
+    assert not scene._contact._caption.actor.GetVisibility()
+
+
 def test_the_contact_is_as_large_as_its_doubt(bench):
     scene = bench.scene
     point = np.array([0.0, -0.015, 0.03])

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "candidate.hpp"
+#include "answer.hpp"
 
 namespace contactbench {
 

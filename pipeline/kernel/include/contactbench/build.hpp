@@ -10,29 +10,33 @@
 
 namespace contactbench {
 
-// What a leaf is sieved with in single precision before the exact tests: the corners of its eight
-// facets, and the vertices it answers for. Every vertex with a closed fan is owned by exactly one
-// leaf, one that holds a facet of its fan, so facets and vertices are found in the same descent.
+// Eight facets in single precision: what is looked at before a facet in full.
 struct alignas(64) Leaf {
-    float corner[3][3][lanes] = {};                        // [corner][axis][lane]
-    float px[lanes] = {}, py[lanes] = {}, pz[lanes] = {};  // vertices
-    float ax[lanes] = {}, ay[lanes] = {}, az[lanes] = {};  // axis of the cone of the fan's normals
-    float cos2_a[lanes];
-    std::int32_t vertex[lanes];
+    float corner[3][3][lanes] = {};  // [corner][axis][lane]
+    float normal[3][lanes] = {};
+    float spread[lanes] = {}, bend[lanes] = {}, bonus[lanes] = {};
+};
 
-    Leaf() {  // empty places never pass the cone test, whatever u
-        std::fill(cos2_a, cos2_a + lanes, 4.0f);
-        std::fill(vertex, vertex + lanes, -1);
-    }
+// One facet in full: normalised corners, the lowest vertex number first, winding kept.
+struct Facet {
+    Vec3 corner[3], normal;
+    MeshError<double> error;
+    double bonus = 0.0;  // 2 ln(odds) of a touch here
 };
 
 struct Hierarchy {
-    std::vector<Node> nodes;          // nodes[0] is the root
-    std::vector<Leaf> leaves;         // each stands for eight slots
-    std::vector<FacetEdges> edges;    // by slot
-    std::vector<std::int32_t> face;   // slot -> face number of the input, -1 for padding
-    std::vector<Triangle> triangle;   // slot -> vertices, lowest first
+    std::vector<Node> nodes;         // nodes[0] is the root
+    std::vector<Leaf> leaves;        // each stands for eight slots
+    std::vector<Facet> facets;       // by slot
+    std::vector<std::int32_t> face;  // slot -> face number of the input, -1 for padding
+    std::vector<Triangle> triangle;  // slot -> vertices, lowest first
 };
+
+// The facet with its lowest vertex number first, winding kept.
+inline Triangle lowest_first(const Triangle& t) {
+    const std::size_t i = std::size_t(std::min_element(t.begin(), t.end()) - t.begin());
+    return {t[i], t[(i + 1) % 3], t[(i + 2) % 3]};
+}
 
 namespace detail {
 
@@ -41,7 +45,7 @@ struct Cone {
 };
 
 // Smallest cone about the mean direction. Wider than a half space is stored as "everything":
-// cos = 0 and a huge sine make both cone tests of node_mask pass for any query.
+// a huge sine says so to node_bound.
 inline Cone bound_directions(const std::vector<Vec3>& normals) {
     Vec3 sum;
     for (const Vec3& n : normals) sum = sum + n;
@@ -66,9 +70,9 @@ inline float half_extent(double lo, double hi, float centre) {
 class Builder {
 public:
     Builder(const std::vector<Triangle>& faces, const std::vector<Vec3>& normalised,
-            const std::vector<Vec3>& normals, const std::vector<std::int32_t>& region,
-            const Topology& topology)
-        : faces_(faces), points_(normalised), normals_(normals), region_(region), topology_(topology) {}
+            const std::vector<Vec3>& normals, const std::vector<MeshError<double>>& errors,
+            const std::vector<double>& bonus)
+        : faces_(faces), points_(normalised), normals_(normals), errors_(errors), bonus_(bonus) {}
 
     Hierarchy build() {
         const std::size_t n = faces_.size();
@@ -81,7 +85,6 @@ public:
                                           points_[std::size_t(faces_[f][2])]);
         sort_range(0, n, child_capacity((n + lanes - 1) / lanes));
         fill_blocks();
-        own_vertices();
         out_.nodes.emplace_back();
         make_node(0, 0, out_.leaves.size());
         return std::move(out_);
@@ -133,67 +136,26 @@ private:
     void fill_blocks() {
         const std::size_t blocks = (order_.size() + lanes - 1) / lanes;
         out_.leaves.resize(blocks);
-        out_.edges.resize(blocks * lanes);
+        out_.facets.resize(blocks * lanes);
         out_.face.assign(blocks * lanes, -1);
         out_.triangle.assign(blocks * lanes, Triangle{-1, -1, -1});
         for (std::size_t i = 0; i < order_.size(); ++i) {
-            const std::size_t f = std::size_t(order_[i]);
+            const std::size_t f = std::size_t(order_[i]), l = i % lanes;
             out_.face[i] = std::int32_t(f);
             out_.triangle[i] = lowest_first(faces_[f]);
-            out_.edges[i] = facet_edges(out_.triangle[i], points_.data());
+            Facet& facet = out_.facets[i];
+            Leaf& leaf = out_.leaves[i / lanes];
             for (std::size_t c = 0; c < 3; ++c) {
-                const Vec3& p = points_[std::size_t(out_.triangle[i][c])];
-                auto& corner = out_.leaves[i / lanes].corner[c];
-                corner[0][i % lanes] = float(p.x);
-                corner[1][i % lanes] = float(p.y);
-                corner[2][i % lanes] = float(p.z);
+                const Vec3& p = facet.corner[c] = points_[std::size_t(out_.triangle[i][c])];
+                leaf.corner[c][0][l] = float(p.x), leaf.corner[c][1][l] = float(p.y), leaf.corner[c][2][l] = float(p.z);
             }
+            const Vec3& n = facet.normal = normals_[f];
+            leaf.normal[0][l] = float(n.x), leaf.normal[1][l] = float(n.y), leaf.normal[2][l] = float(n.z);
+            facet.error = errors_[f];
+            facet.bonus = bonus_[f];
+            leaf.spread[l] = float(facet.error.spread), leaf.bend[l] = float(facet.error.bend);
+            leaf.bonus[l] = float(facet.bonus);
         }
-    }
-
-    // Greedy: the first block around the vertex that still has a place. A block has eight and meets
-    // about four new vertices; in a crowd the vertex gets a further block of its own (no facets).
-    void own_vertices() {
-        std::vector<std::int32_t> block_of(faces_.size());
-        for (std::size_t i = 0; i < order_.size(); ++i)
-            block_of[std::size_t(order_[i])] = std::int32_t(i / lanes);
-        owned_.assign(out_.leaves.size(), 0);
-        for (std::size_t v = 0; v < points_.size(); ++v) {
-            const auto [first, last] = topology_.fan(std::int32_t(v));
-            for (auto h = first; h != last; ++h)
-                if (take(std::size_t(block_of[std::size_t(*h / 3)]), v)) break;
-            if (first != last && !taken_) append_block(v);
-            taken_ = false;
-        }
-    }
-
-    bool take(std::size_t block, std::size_t vertex) {
-        if (owned_[block] == lanes) return false;
-        Leaf& b = out_.leaves[block];
-        const int l = owned_[block]++;
-        const Cone cone = bound_directions(fan_normals(std::int32_t(vertex)));
-        const Vec3& p = points_[vertex];
-        b.px[l] = float(p.x), b.py[l] = float(p.y), b.pz[l] = float(p.z);
-        b.ax[l] = cone.ax, b.ay[l] = cone.ay, b.az[l] = cone.az;
-        b.cos2_a[l] = cone.cos_a > 0.0f ? cone.cos_a * cone.cos_a : -4.0f;  // no cone: passes always
-        b.vertex[l] = std::int32_t(vertex);
-        return taken_ = true;
-    }
-
-    void append_block(std::size_t vertex) {
-        out_.leaves.emplace_back();
-        out_.edges.resize(out_.leaves.size() * lanes);
-        owned_.push_back(0);
-        out_.face.insert(out_.face.end(), lanes, -1);
-        out_.triangle.insert(out_.triangle.end(), lanes, Triangle{-1, -1, -1});
-        take(out_.leaves.size() - 1, vertex);
-    }
-
-    std::vector<Vec3> fan_normals(std::int32_t vertex) const {
-        const auto [first, last] = topology_.fan(vertex);
-        std::vector<Vec3> normals;
-        for (auto h = first; h != last; ++h) normals.push_back(normals_[std::size_t(*h / 3)]);
-        return normals;
     }
 
     static void split(Range r, std::size_t capacity, std::vector<Range>& parts) {
@@ -225,24 +187,18 @@ private:
         constexpr double inf = std::numeric_limits<double>::infinity();
         Vec3 lo{inf, inf, inf}, hi{-inf, -inf, -inf};
         std::vector<Vec3> normals;
-        std::int32_t rank = std::numeric_limits<std::int32_t>::max();
-        const auto include = [&](const Vec3& p) {
-            lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
-            hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
-        };
+        double spread = 0.0, bend = 0.0, bonus = -inf;
         for (std::size_t i = blocks.first * lanes; i < blocks.second * lanes; ++i) {
             if (out_.face[i] < 0) continue;
-            for (std::int32_t v : out_.triangle[i]) include(points_[std::size_t(v)]);
-            normals.push_back(normals_[std::size_t(out_.face[i])]);
-            const std::int32_t region = region_[std::size_t(out_.face[i])];
-            if (region > 0) rank = std::min(rank, region);
-        }
-        for (std::size_t b = blocks.first; b < blocks.second; ++b)
-            for (std::int32_t v : out_.leaves[b].vertex) {
-                if (v < 0) continue;
-                include(points_[std::size_t(v)]);
-                for (const Vec3& n : fan_normals(v)) normals.push_back(n);
+            const Facet& f = out_.facets[i];
+            for (const Vec3& p : f.corner) {
+                lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+                hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
             }
+            normals.push_back(f.normal);
+            spread = std::max(spread, f.error.spread), bend = std::max(bend, f.error.bend);
+            bonus = std::max(bonus, f.bonus);
+        }
         Node& n = out_.nodes[node];
         n.cx[lane] = float(0.5 * (lo.x + hi.x));
         n.cy[lane] = float(0.5 * (lo.y + hi.y));
@@ -250,22 +206,21 @@ private:
         n.ex[lane] = half_extent(lo.x, hi.x, n.cx[lane]);
         n.ey[lane] = half_extent(lo.y, hi.y, n.cy[lane]);
         n.ez[lane] = half_extent(lo.z, hi.z, n.cz[lane]);
-        n.rank[lane] = float(rank);
         const Cone cone = bound_directions(normals);
         n.ax[lane] = cone.ax, n.ay[lane] = cone.ay, n.az[lane] = cone.az;
-        n.cos_a[lane] = cone.cos_a, n.cos2_a[lane] = cone.cos_a * cone.cos_a, n.sin_a[lane] = cone.sin_a;
-        n.radius[lane] = half_extent(0.0, std::hypot(n.ex[lane], n.ey[lane], n.ez[lane]), 0.0f);
+        n.cos_a[lane] = cone.cos_a, n.sin_a[lane] = cone.sin_a;
+        n.spread[lane] = float(spread * (1.0 + 1e-6)), n.bend[lane] = float(bend * (1.0 + 1e-6));
+        n.bonus[lane] = float(bonus + 1e-6 * std::fabs(bonus));
     }
 
     const std::vector<Triangle>& faces_;
     const std::vector<Vec3>& points_;
     const std::vector<Vec3>& normals_;
-    const std::vector<std::int32_t>& region_;
-    const Topology& topology_;
-    std::vector<std::int32_t> order_, owned_;
+    const std::vector<MeshError<double>>& errors_;
+    const std::vector<double>& bonus_;
+    std::vector<std::int32_t> order_;
     std::vector<Vec3> centroid_;
     Hierarchy out_;
-    bool taken_ = false;
 };
 
 }  // namespace detail

@@ -1,7 +1,7 @@
 // A probe, ready to be searched: geometry, neighbours, regions and the hierarchy over them.
 //
 // Contract
-//   units      vertices in S-frame metres; `region` ranks facets: 0 none, 1 first priority, 2 next.
+//   units      vertices in S-frame metres; `region` numbers facets: 0 none; `bonus` is 2 ln(odds) of a touch on each.
 //   errors     std::invalid_argument for bad indices, vertices that are not finite, facets without
 //              area, or a region list of the wrong length.
 //   complexity O(n log n) time, about 450 bytes a facet. Immutable afterwards: share it freely
@@ -22,7 +22,7 @@ struct Model {
     Topology topology;
     Hierarchy tree;
     double reach = 0.0;     // largest distance of a facet's corner from the sensor origin, m
-    bool convex = false;    // closed and convex: at most one contact answers any wrench
+    double least_bonus = 0.0, most_bonus = 0.0;
 };
 
 namespace detail {
@@ -40,54 +40,61 @@ inline Frame bounding_frame(const std::vector<Vec3>& points, const std::vector<T
     return {lo + half, std::max({half.x, half.y, half.z})};
 }
 
-inline bool in_one_piece(const Model& m, const std::vector<Triangle>& faces) {
-    std::vector<char> seen(faces.size(), 0);
-    std::vector<std::size_t> stack{0};
-    std::size_t count = 1;
-    for (seen[0] = 1; !stack.empty();) {
-        const std::size_t f = stack.back();
-        stack.pop_back();
+// Sharper edges than this are edges of the probe; others are where facets stand for a curved surface.
+inline constexpr double sharpest_cosine = 0.7660444431189780;  // of 40 degrees
+
+// What a facet of a curved surface leaves open, told from how far its normal turns to its neighbours'. Where the normal
+// turns evenly by theta from the middle of one facet to that of the next, it is off by half of that at the edge, and the
+// surface arches over the chord by theta / 8 of its width. Curvature is least even where facets are large, on roundings,
+// so the bound itself is taken for the normal, and 0.7 of the arch for the surface: with the root mean squares of an
+// even curvature (0.35 theta, 0.3 of the arch) the 95 % ellipse held 89 % on 500 facets; so it holds 92 to 96.
+inline std::vector<MeshError<double>> curvature_errors(const Model& m, const std::vector<Triangle>& faces) {
+    std::vector<MeshError<double>> errors(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto middle = [&](std::size_t g) {
+            return (1.0 / 3.0) * (m.normalised[std::size_t(faces[g][0])] + m.normalised[std::size_t(faces[g][1])] +
+                                  m.normalised[std::size_t(faces[g][2])]);
+        };
+        double turn = 0.0, arch = 0.0;
         for (std::size_t c = 0; c < 3; ++c) {
-            const std::size_t g = std::size_t(m.topology.twin(std::int32_t(3 * f + c))) / 3;
-            if (!seen[g]) seen[g] = 1, ++count, stack.push_back(g);
+            const std::int32_t twin = m.topology.twin(std::int32_t(3 * f + c));
+            if (twin == Topology::none) continue;
+            const std::size_t g = std::size_t(twin) / 3;
+            const double cosine = dot(m.normals[f], m.normals[g]);
+            if (cosine < sharpest_cosine) continue;
+            const double theta = std::acos(std::min(1.0, cosine));
+            turn = std::max(turn, theta);
+            arch = std::max(arch, theta * norm(middle(f) - middle(g)));
         }
+        errors[f].bend = 0.5 * turn * (0.5 * turn);
+        errors[f].spread = 0.7 / 8.0 * arch * (0.7 / 8.0 * arch);
     }
-    return count == faces.size();
-}
-
-// How often the surface winds around the middle of its box: 1 for a body that is wound once.
-inline double winding_number(const Model& m, const std::vector<Triangle>& faces) {
-    double total = 0.0;
-    for (const Triangle& t : faces) {
-        const Vec3 a = m.normalised[std::size_t(t[0])], b = m.normalised[std::size_t(t[1])],
-                   c = m.normalised[std::size_t(t[2])];
-        const double la = norm(a), lb = norm(b), lc = norm(c);
-        // Solid angle of a triangle: van Oosterom and Strackee, 1983.
-        total += 2.0 * std::atan2(dot(a, cross(b, c)),
-                                  la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-    }
-    return total / (4.0 * M_PI);
-}
-
-// Convex when the surface is closed, no facet rises above another's plane across their common edge, and
-// it is wound once (two pieces, or a star wound twice, also look convex from every edge).
-inline bool is_convex(const Model& m, const std::vector<Triangle>& faces) {
-    if (!m.topology.closed()) return false;
-    for (std::size_t h = 0; h < 3 * faces.size(); ++h) {
-        const std::size_t t = std::size_t(m.topology.twin(std::int32_t(h)));
-        const Vec3 apex = m.normalised[std::size_t(faces[t / 3][(t % 3 + 2) % 3])];
-        const Vec3 base = m.normalised[std::size_t(faces[h / 3][h % 3])];
-        if (dot(m.normals[h / 3], apex - base) > 1e-12) return false;
-    }
-    return in_one_piece(m, faces) && std::fabs(winding_number(m, faces) - 1.0) < 0.5;
+    return errors;
 }
 
 }  // namespace detail
 
+// What is known of how far the mesh is from the true surface.
+struct MeshTerms {
+    double deviation = 0.0;  // m, root mean square along the normal, everywhere
+    bool curved = true;      // facets stand for a curved surface where they turn by little
+};
+
 inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>& faces,
-                        std::vector<std::int32_t> region) {
+                        std::vector<std::int32_t> region, const std::vector<double>& bonus = {},
+                        const MeshTerms& terms = {}) {
     check_triangles(faces, vertices.size());
     if (region.empty()) region.assign(faces.size(), 0);
+    std::vector<double> odds = bonus;
+    if (odds.empty()) odds.assign(faces.size(), 0.0);
+    if (odds.size() != faces.size())
+        throw std::invalid_argument("bonus has " + std::to_string(odds.size()) + " entries for " +
+                                    std::to_string(faces.size()) + " facets");
+    for (std::size_t f = 0; f < odds.size(); ++f)
+        if (!(std::fabs(odds[f]) <= 100.0))
+            throw std::invalid_argument("facet " + std::to_string(f) + " has odds beyond e^50");
+    if (!(terms.deviation >= 0.0) || !std::isfinite(terms.deviation))
+        throw std::invalid_argument("the deviation of the mesh is not a length");
     if (region.size() != faces.size())
         throw std::invalid_argument("region has " + std::to_string(region.size()) + " entries for " +
                                     std::to_string(faces.size()) + " facets");
@@ -117,11 +124,15 @@ inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>&
         for (std::int32_t v : faces[f]) m.reach = std::max(m.reach, norm(m.vertices[std::size_t(v)]));
     }
     m.topology = Topology(faces, m.vertices.size());
-    m.tree = detail::Builder(faces, m.normalised, m.normals, m.region, m.topology).build();
+    auto errors = terms.curved ? detail::curvature_errors(m, faces) : std::vector<MeshError<double>>(faces.size());
+    const double deviation = terms.deviation / m.frame.scale;
+    for (MeshError<double>& e : errors) e.spread += deviation * deviation;
+    m.tree = detail::Builder(faces, m.normalised, m.normals, errors, odds).build();
     m.slot.assign(faces.size(), -1);
     for (std::size_t s = 0; s < m.tree.face.size(); ++s)
         if (m.tree.face[s] >= 0) m.slot[std::size_t(m.tree.face[s])] = std::int32_t(s);
-    m.convex = detail::is_convex(m, faces);
+    m.least_bonus = *std::min_element(odds.begin(), odds.end());
+    m.most_bonus = *std::max_element(odds.begin(), odds.end());
     return m;
 }
 

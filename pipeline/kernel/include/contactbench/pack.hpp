@@ -26,21 +26,54 @@ typedef std::int64_t Int4 __attribute__((vector_size(32)));
 CONTACTBENCH_INLINE Float8 load8(const float* p) { return *reinterpret_cast<const Float8*>(p); }
 CONTACTBENCH_INLINE Double4 load4(const double* p) { return *reinterpret_cast<const Double4*>(p); }
 
+// Spelled out where GCC would take two instructions for one.
+#if defined(__AVX__)
+CONTACTBENCH_INLINE Float8 larger(Float8 a, Float8 b) { return Float8(_mm256_max_ps(__m256(b), __m256(a))); }
+CONTACTBENCH_INLINE Float8 smaller(Float8 a, Float8 b) { return Float8(_mm256_min_ps(__m256(b), __m256(a))); }
+CONTACTBENCH_INLINE Float8 magnitude(Float8 a) {
+    return Float8(_mm256_andnot_ps(_mm256_set1_ps(-0.0f), __m256(a)));
+}
+CONTACTBENCH_INLINE Float8 root(Float8 a) { return Float8(_mm256_sqrt_ps(__m256(a))); }
+#else
 CONTACTBENCH_INLINE Float8 larger(Float8 a, Float8 b) { return a < b ? b : a; }
 CONTACTBENCH_INLINE Float8 smaller(Float8 a, Float8 b) { return b < a ? b : a; }
-
 CONTACTBENCH_INLINE Float8 magnitude(Float8 a) { return larger(a, -a); }
+CONTACTBENCH_INLINE Float8 root(Float8 a) {
+    Float8 out{};
+    for (int l = 0; l < lanes; ++l) out[l] = std::sqrt(a[l]);
+    return out;
+}
+#endif
 
-// Bit l is set when lane l's sign bit is clear: -0 counts as negative, on every processor.
-CONTACTBENCH_INLINE unsigned nonnegative(Float8 a) {
+typedef std::int32_t Int8 __attribute__((vector_size(32)));
+
+// Bit l is set when lane l is true.
+CONTACTBENCH_INLINE unsigned mask_of(Int8 a) {
 #if defined(__AVX__)
-    return unsigned(~_mm256_movemask_ps(__m256(a))) & 0xffu;
+    return unsigned(_mm256_movemask_ps(__m256(a)));
 #else
     unsigned mask = 0;
-    for (int l = 0; l < lanes; ++l) mask |= unsigned(!std::signbit(a[l])) << l;
+    for (int l = 0; l < lanes; ++l) mask |= unsigned(a[l] & 1) << l;
     return mask;
 #endif
 }
+
+CONTACTBENCH_INLINE Float8 select(Int8 which, Float8 a, Float8 b) { return which ? a : b; }
+
+// The same names for one number, so that a formula is written once.
+CONTACTBENCH_INLINE double larger(double a, double b) { return a < b ? b : a; }
+CONTACTBENCH_INLINE double smaller(double a, double b) { return b < a ? b : a; }
+CONTACTBENCH_INLINE double root(double a) { return std::sqrt(a); }
+CONTACTBENCH_INLINE double select(bool which, double a, double b) { return which ? a : b; }
+
+template <class R>
+struct Scalar {
+    using type = double;
+};
+template <>
+struct Scalar<Float8> {
+    using type = float;
+};
 
 // Bit l is set when lane l is all ones, as a comparison leaves it.
 CONTACTBENCH_INLINE unsigned truth_mask(Int4 a) {

@@ -8,7 +8,7 @@
 // Contract: wrench and result in S, SI. A handful of 3x3 solves; no allocation.
 #pragma once
 
-#include "candidate.hpp"
+#include "answer.hpp"
 
 namespace contactbench {
 

@@ -25,21 +25,21 @@ struct GravityLoad {
 
 struct RuntimeSettings {
     GravityLoad gravity;
-    WrenchCovariance noise;
+    WrenchCovariance noise;  // all of it: sensor after its filter, calibration, model error
+    double torsion_arm = 1e-3;  // m
     Gates gates;
     bool filter_wrench = false;
     KalmanSettings kalman;
     std::vector<Section> sections;  // of the location's low-pass; none: not filtered
 };
 
-// Reasons beyond those of `Reason`, in the same numbering.
-inline constexpr std::int32_t not_a_rotation = 10;
-
 inline const char* reason_name(std::int32_t reason) {
     static constexpr const char* names[] = {"ok",          "vertex",         "ambiguous", "low_force",
                                             "tangential",  "off_surface",    "outside_region", "saturated",
-                                            "stale",       "not_finite",     "not_a_rotation"};
-    return reason >= 0 && reason <= not_a_rotation ? names[reason] : "unknown";
+                                            "stale",       "not_finite",     "not_a_rotation", "by_region",
+                                            "implausible", "two_touches"};
+    static_assert(sizeof names / sizeof *names == reason_count);
+    return reason >= 0 && reason < reason_count ? names[reason] : "unknown";
 }
 
 namespace detail {
@@ -50,7 +50,8 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 struct RuntimeContact {
     std::int32_t reason = std::int32_t(Reason::off_surface);
     std::int32_t face = -1, vertex = -1, region = 0;
-    std::int32_t candidates = 0, reserved = 0;
+    std::int32_t candidates = 0;
+    std::int32_t accepted = 0;  // 1: a controller may use it
     double time = detail::unknown;
     double point[3] = {detail::unknown, detail::unknown, detail::unknown};
     double normal[3] = {detail::unknown, detail::unknown, detail::unknown};
@@ -60,9 +61,14 @@ struct RuntimeContact {
     double covariance[9] = {detail::unknown, detail::unknown, detail::unknown, detail::unknown, detail::unknown,
                             detail::unknown, detail::unknown, detail::unknown, detail::unknown};
     double filtered_point[3] = {detail::unknown, detail::unknown, detail::unknown};
-    double runner_up_distance = detail::unknown;  // to the likeliest of the other candidates
+    double misfit = detail::unknown;     // d2 of the best touch, in standard deviations squared
+    double left_over = detail::unknown;  // N*m that it does not explain
+    double arm = detail::unknown;        // m: M . F / |F|^2
+    double confidence = 0.0;             // 0 to 1
+    double runner_up[3] = {detail::unknown, detail::unknown, detail::unknown};  // the likeliest other place
+    double second[3] = {detail::unknown, detail::unknown, detail::unknown};     // a touch that joined this one
 };
-static_assert(sizeof(RuntimeContact) == 6 * 4 + 27 * 8);
+static_assert(sizeof(RuntimeContact) == 6 * 4 + 36 * 8);
 
 // Each column and row of unit length and at right angles to within 1e-3, and not a mirror.
 inline bool is_rotation(const double R[9]) {
@@ -87,10 +93,7 @@ public:
     Runtime(std::shared_ptr<const Model> model, const RuntimeSettings& settings)
         : gravity_(settings.gravity), gates_(settings.gates), filter_wrench_(settings.filter_wrench),
           kalman_(settings.kalman), low_pass_(settings.sections),
-          solver_(model, settings.noise, unsaturated(settings.gates)) {
-        // Address space rather than memory: a page that no candidate ever reaches is never touched.
-        answer_.hits.reserve(model->normals.size() + model->vertices.size() + 1);
-    }
+          solver_(model, settings.noise, settings.torsion_arm, unsaturated(settings.gates)) {}
 
     RuntimeContact update(const double wrench[6], const double R_WS[9], double time) noexcept {
         RuntimeContact out;
@@ -151,7 +154,7 @@ private:
         for (int i = 0; i < 9; ++i) known &= std::isfinite(R_WS[i]);
         if (!known) return std::int32_t(Reason::not_finite);
         if (running_ && !(time > last_time_)) return std::int32_t(Reason::stale);
-        return is_rotation(R_WS) ? std::int32_t(Reason::ok) : not_a_rotation;
+        return std::int32_t(is_rotation(R_WS) ? Reason::ok : Reason::not_a_rotation);
     }
 
     bool filter(const Wrench& w, double dt) noexcept {
@@ -171,34 +174,24 @@ private:
     }
 
     void describe(RuntimeContact& out) const noexcept {
-        out.candidates = std::int32_t(answer_.hits.size());
-        if (answer_.chosen < 0) return;
-        const Candidate& c = answer_.hits[std::size_t(answer_.chosen)];
-        put(out.point, c.point);
-        put(out.normal, c.normal);
-        out.torque_about_normal = c.torque;
-        out.face = c.face, out.vertex = c.vertex, out.region = c.region;
-        const Mat3 s = contact_covariance(c, filtered_.F, solver_.noise());
+        out.candidates = answer_.count;
+        out.misfit = answer_.misfit, out.left_over = answer_.left_over, out.arm = answer_.arm;
+        out.confidence = answer_.confidence;
+        out.accepted = accepted(Reason(out.reason), gates_);
+        const Candidate* c = answer_.contact();
+        if (!c) return;
+        put(out.point, c->point);
+        put(out.normal, c->normal);
+        out.torque_about_normal = c->torque;
+        out.face = c->face, out.vertex = c->vertex, out.region = c->region;
+        const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face);
         std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
-        if (const Candidate* other = runner_up()) out.runner_up_distance = norm(other->point - c.point);
-    }
-
-    // Nearest to being chosen: the smallest |k| of the others.
-    const Candidate* runner_up() const noexcept {
-        const Candidate* best = nullptr;
-        for (std::size_t i = 0; i < answer_.hits.size(); ++i) {
-            const Candidate& c = answer_.hits[i];
-            if (std::int32_t(i) == answer_.chosen) continue;
-            if (!best || std::fabs(c.torque) < std::fabs(best->torque) ||
-                (std::fabs(c.torque) == std::fabs(best->torque) &&
-                 (c.face != best->face ? c.face < best->face : c.vertex < best->vertex)))
-                best = &c;
-        }
-        return best;
+        if (const Candidate* other = runner_up(answer_)) put(out.runner_up, other->point);
+        if (answer_.has_second) put(out.second, answer_.second.point);
     }
 
     void follow_point(RuntimeContact& out) noexcept {
-        if (accepted(Reason(out.reason))) {
+        if (out.accepted) {
             const Vec3 point{out.point[0], out.point[1], out.point[2]};
             held_ = low_pass_.update(point);
             holding_ = true;

@@ -1,125 +1,344 @@
-// All candidates of a wrench: exhaustively, or through the hierarchy. Both give the same set.
+// The touch that explains a wrench best: over all facets one by one, or through the hierarchy. Both give the same.
 //
-// Contract: `cos_cap` drops candidates whose friction angle is larger; 0 keeps every pushing one.
-// exhaust is O(n); search is O(log n + answers) for a bounded pitch. No allocation (see Hits).
+// A `Hunt` says what is looked for; the likeliest touch first, then, away from what was found, the next. The first
+// descent keeps the bounds of what it opened (`Opened`), and later hunts go on from there.
+//
+// Contract: exhaust is O(n); search is O(log n) where the wrench is precise against the size of the probe. Nothing
+// allocates. Of equal touches the one on the facet of the lowest number is taken.
 #pragma once
 
-#include "candidate.hpp"
+#include "answer.hpp"
 
 namespace contactbench {
 
+struct Hunt {
+    double cos_friction = 0.0;
+    double most_misfit = HUGE_VAL;  // d2 of a touch
+    double limit = HUGE_VAL;        // of misfit - follow - max(prior, least_prior)
+    double least_prior = -HUGE_VAL;
+    double follow_cost = 0.0, follow_distance = 0.0;
+    const Vec3* previous = nullptr;  // S, m
+    const Candidate* away = nullptr;  // not within its own radius of one of these
+    double radius[Answer::capacity];  // m
+    int away_count = 0;
+};
+
 namespace detail {
 
-// Which facets of the leaf may accept the wrench, in single precision: the moments m - p x f at the
-// corners dotted with the edges, each allowed to be off by the worst rounding of this sum, and by what
-// a wrench within `reach` may change.
-CONTACTBENCH_INLINE unsigned facet_sieve(const Leaf& leaf, const NodeQuery& q) {
-    Float8 p[3][3], moment[3][3];
-    for (int c = 0; c < 3; ++c) {
-        for (int i = 0; i < 3; ++i) p[c][i] = load8(leaf.corner[c][i]);
-        moment[c][0] = q.qx + (p[c][2] * q.oy - p[c][1] * q.oz);
-        moment[c][1] = q.qy + (p[c][0] * q.oz - p[c][2] * q.ox);
-        moment[c][2] = q.qz + (p[c][1] * q.ox - p[c][0] * q.oy);
+struct Found {
+    double key = HUGE_VAL;
+    Candidate touch;  // slot < 0: none
+};
+
+inline void judge_facet(const Model& m, std::size_t slot, const Query& q, const Hunt& hunt, Found& best) {
+    const Facet& facet = m.tree.facets[slot];
+    if (!(-dot(facet.normal, q.f) >= hunt.cos_friction)) return;
+    const FacetFit fit = fit_facet(facet.corner, facet.normal, facet.error, q);
+    if (!(fit.d2 <= hunt.most_misfit)) return;
+    const std::int32_t face = m.tree.face[slot];
+    const double prior = std::max(facet.bonus, hunt.least_prior);
+    double key = fit.d2 - prior;
+    if (!(key - hunt.follow_cost <= hunt.limit)) return;
+    const Triangle& t = m.tree.triangle[slot];
+    const auto corner = [&](std::size_t c) { return fit.weight[c] * m.vertices[std::size_t(t[c])]; };
+    const Vec3 point = corner(0) + (corner(1) + corner(2));
+    double follow = 0.0;
+    if (hunt.previous && norm(point - *hunt.previous) <= hunt.follow_distance) follow = hunt.follow_cost;
+    key -= follow;
+    if (!(key <= hunt.limit) || key > best.key || (key == best.key && face > best.touch.face)) return;
+    for (int i = 0; i < hunt.away_count; ++i)
+        if (apart(hunt.away[i], point) <= hunt.radius[i]) return;
+    best.key = key;
+    Candidate& c = best.touch;
+    c = Candidate{};
+    c.point = point;
+    c.normal = facet.normal;
+    c.cosine = fit.cosine;
+    c.misfit = fit.d2;
+    c.torque = fit.torsion * q.force * m.frame.scale;
+    c.prior = facet.bonus;
+    c.follow = follow;
+    c.face = face;
+    c.slot = std::int32_t(slot);
+    c.region = m.region[std::size_t(face)];
+    for (std::size_t i = 0; i < 3; ++i)
+        if (fit.weight[i] == 1.0) c.vertex = t[i];
+}
+
+// What is near a touch, in the search's own numbers: see apart().
+struct Near {
+    float x, y, z, sx, sy, sz;  // centre and slope, normalised
+    float inner, outer;         // radii less and more what rounding may do
+};
+
+inline Near near_touch(const Model& m, Vec3 centre, Vec3 slope, double radius) {
+    const Vec3 c = (1.0 / m.frame.scale) * (centre - m.frame.centre);
+    const float r = float(radius / m.frame.scale);
+    return {float(c.x), float(c.y), float(c.z), float(slope.x), float(slope.y), float(slope.z),
+            std::max(r * (1.0f - 1e-5f) - 2.0f * slack, 0.0f), r * (1.0f + 1e-5f) + 2.0f * slack};
+}
+
+inline float rounded_up(double x) { return x < 1e30 ? float(x + 1e-6 * std::fabs(x) + 1e-6) : 1e30f; }
+
+// What a descent looked at: the eight children of a node that were not opened themselves, or the facets of a leaf
+// (node < 0), with their bounds.
+struct Opened {
+    struct Place {
+        Bounds bounds;
+        std::int32_t node;
+        unsigned lanes;
+    };
+    static constexpr int capacity = 128;
+    Place place[capacity];
+    int count = 0;
+    bool all = true;  // nothing was forgotten
+
+    Place* add(const Bounds& bounds, std::int32_t node) {
+        if (count == capacity) return all = false, nullptr;
+        place[count] = {bounds, node, 0xffu};
+        return &place[count++];
     }
-    Float8 worst = Float8{} - 1e30f;
-    for (int c = 0; c < 3; ++c) {
-        const int d = (c + 1) % 3;
-        const Float8 x = p[d][0] - p[c][0], y = p[d][1] - p[c][1], z = p[d][2] - p[c][2];
-        const Float8 length = magnitude(x) + magnitude(y) + magnitude(z);
-        const Float8 size = magnitude(moment[c][0]) + magnitude(moment[c][1]) + magnitude(moment[c][2]);
-        const Float8 w = moment[c][0] * x + moment[c][1] * y + moment[c][2] * z;
-        worst = larger(worst, w - ((q.margin + q.reach) * length + slack * size));
+};
+
+class Descent {
+public:
+    Descent(const Model& m, const Query& q, const Form<float>& form, const NodeQuery& node, const Hunt& hunt, Found& best)
+        : m_(m), q_(q), form_(form), hunt_(hunt), node_(node), best_(best), most_misfit_(rounded_up(hunt.most_misfit)),
+          least_prior_(float(std::max(hunt.least_prior, -1e30))),
+          follow_cost_(hunt.previous ? rounded_up(hunt.follow_cost) : 0.0f) {
+        for (int i = 0; i < hunt.away_count; ++i) away_[i] = near_touch(m, hunt.away[i].point, hunt.away[i].slope, hunt.radius[i]);
+        if (hunt.previous) follow_ = near_touch(m, *hunt.previous, {}, hunt.follow_distance);
+        if (hunt.away_count == 0) return;
+        const Vec3 c = (1.0 / m.frame.scale) * (hunt.away[0].point - m.frame.centre);
+        wa_ = float(q.form.ma - dot(c, q.b)), wb_ = float(q.form.mb + dot(c, q.a));
+        depth_ = float(dot(c, q.f));
     }
-    return nonnegative(-worst);
-}
 
-// Which of the leaf's vertices could have the required normal in their cone.
-CONTACTBENCH_INLINE unsigned vertex_sieve(const Leaf& b, const NodeQuery& q) {
-    const Float8 px = load8(b.px), py = load8(b.py), pz = load8(b.pz);
-    const Float8 vx = q.mx + (py * q.fz - pz * q.fy);
-    const Float8 vy = q.my + (pz * q.fx - px * q.fz);
-    const Float8 vz = q.mz + (px * q.fy - py * q.fx);
-    const Float8 ax = load8(b.ax), ay = load8(b.ay), az = load8(b.az);
-    const Float8 size2 = (vx * vx + vy * vy + vz * vz) + q.h2;
-    const Float8 along = (ax * vx + ay * vy + az * vz) + q.h * (ax * q.nx + ay * q.ny + az * q.nz) + q.margin;
-    return nonnegative(along * magnitude(along) - load8(b.cos2_a) * size2);
-}
-
-inline void test_facet(const Model& model, std::size_t slot, const Query& q, double cos_cap, Hits& hits) {
-    EdgeMoments moments;
-    if (!accepts(model.tree.edges[slot], model.tree.triangle[slot], q, moments)) return;
-    const Candidate c = facet_contact(model, slot, moments.w, q);
-    if (c.cosine >= std::max(cos_cap, least_cosine)) hits.add(c);
-}
-
-inline void test_vertex(const Model& model, std::int32_t v, const Query& q, double cos_cap, Hits& hits) {
-    Candidate c;
-    if (vertex_contact(model, v, q, c) && c.cosine >= cos_cap) hits.add(c);
-}
-
-inline void test_leaf(const Model& model, std::size_t index, const Query& q, const NodeQuery& nq,
-                      double cos_cap, Hits& hits) {
-    const Leaf& leaf = model.tree.leaves[index];
-    for (unsigned mask = facet_sieve(leaf, nq); mask != 0; mask &= mask - 1) {
-        const std::size_t slot = index * lanes + std::size_t(std::countr_zero(mask));
-        if (model.tree.face[slot] >= 0) test_facet(model, slot, q, cos_cap, hits);
+    // From the root; what is looked at is kept.
+    void from_root(Opened* opened) {
+        opened_ = opened;
+        open(0);
+        run();
     }
-    for (unsigned mask = vertex_sieve(leaf, nq); mask != 0; mask &= mask - 1) {
-        const std::int32_t v = leaf.vertex[std::countr_zero(mask)];
-        if (v >= 0) test_vertex(model, v, q, cos_cap, hits);
-    }
-}
 
-// Leaves met in a descent wait here while their cache lines are on the way.
-struct LeafQueue {
-    static constexpr int capacity = 16;
-    std::int32_t item[capacity];
-    int size = 0;
+    void from(const Opened& opened) {
+        for (int i = 0; i < opened.count; ++i) {
+            const Opened::Place& p = opened.place[i];
+            if (p.node < 0) {
+                judge_facets(std::size_t(~p.node), p.bounds);
+                continue;
+            }
+            const Node& node = m_.tree.nodes[std::size_t(p.node)];
+            const Float8 prior = larger(load8(node.bonus), Float8{} + least_prior_) + follow_cost_;
+            if ((mask_of(p.bounds.d2 - prior <= cut()) & p.lanes) == 0) continue;
+            push(p.node, node, node_keys(node, p.bounds), p.lanes, nullptr);
+        }
+        run();
+    }
+
+private:
+    struct Place {
+        float key;
+        std::int32_t node, lane;
+        Opened::Place* from;
+    };
+
+    // Keys beyond this are of no use: single precision, rounded up.
+    float cut() const { return rounded_up(std::min(best_.key, hunt_.limit)); }
+
+    // The least key first, wherever it is in the tree: going down the first good branch to its end would look at all
+    // that is better than the best so far, which is bad at first.
+    void run() {
+        while (size_ > 0) {
+            std::pop_heap(heap_, heap_ + size_, later);
+            const Place p = heap_[--size_];
+            if (p.key > cut()) {
+                size_ = 0;
+                return;
+            }
+            visit(p);
+        }
+    }
+
+    static bool later(const Place& a, const Place& b) { return a.key > b.key; }
+
+    void visit(const Place& p) {
+        const std::int32_t child = m_.tree.nodes[std::size_t(p.node)].child[p.lane];
+        if (p.from) p.from->lanes &= ~(1u << p.lane);
+        if (child < 0) judge_leaf(std::size_t(~child));
+        else open(child);
+    }
+
+    void open(std::int32_t index) {
+        const Node& node = m_.tree.nodes[std::size_t(index)];
+        const Bounds bounds = node_bound(node, node_);
+        push(index, node, node_keys(node, bounds), 0xffu, opened_ ? opened_->add(bounds, index) : nullptr);
+    }
+
+    // Lower bounds of the key in each child; 1e38 where there can be nothing.
+    CONTACTBENCH_INLINE Float8 node_keys(const Node& n, const Bounds& bounds) const {
+        const Float8 cx = load8(n.cx), cy = load8(n.cy), cz = load8(n.cz);
+        const Float8 ex = load8(n.ex), ey = load8(n.ey), ez = load8(n.ez), zero{}, never = zero + 1e38f;
+        Float8 d2 = bounds.d2;
+        for (int i = 0; i < hunt_.away_count; ++i) {
+            const Near& b = away_[i];
+            const Float8 x = cx - b.x, y = cy - b.y, z = cz - b.z, down = x * b.sx + y * b.sy + z * b.sz;
+            const Float8 from_centre = root(larger(x * x + y * y + z * z - down * down, zero));
+            d2 = select(from_centre + root(ex * ex + ey * ey + ez * ez) < b.inner, never, d2);
+        }
+        if (hunt_.away_count > 0) {
+            const NodeQuery& q = node_;
+            d2 = larger(d2, beyond(magnitude(cx * q.fx + cy * q.fy + cz * q.fz - depth_) +
+                                       (ex * q.gx + ey * q.gy + ez * q.gz), bounds));
+        }
+        Float8 key = d2 - larger(load8(n.bonus), zero + least_prior_);
+        if (follow_cost_ > 0.0f) {
+            const Float8 x = larger(magnitude(cx - follow_.x) - ex, zero), y = larger(magnitude(cy - follow_.y) - ey, zero),
+                         z = larger(magnitude(cz - follow_.z) - ez, zero);
+            key = select(x * x + y * y + z * z <= follow_.outer * follow_.outer, key - follow_cost_, key);
+        }
+        return select(bounds.faces_force & (d2 <= most_misfit_), key, never);
+    }
+
+    // A lower bound of d2 away from the likeliest touch, for what reaches no further than `along` from it along
+    // the force: what is away from it is away across the force or along it, and across is off w*.
+    CONTACTBENCH_INLINE Float8 beyond(Float8 along, const Bounds& bounds) const {
+        const Float8 far = along + node_.margin, across = root(larger(away_[0].inner * away_[0].inner - far * far, Float8{}));
+        const Float8 a = bounds.wa - wa_, b = bounds.wb - wb_;
+        const Float8 miss = larger(across - (root(a * a + b * b) + bounds.near + 2.0f * node_.margin), Float8{});
+        return miss * miss / bounds.V * (1.0f - 2e-3f);
+    }
+
+    void push(std::int32_t index, const Node& node, Float8 keys, unsigned lanes_left, Opened::Place* kept) {
+        for (unsigned mask = mask_of(keys <= cut()) & lanes_left; mask != 0; mask &= mask - 1) {
+            const int l = std::countr_zero(mask);
+            if (node.child[l] == empty_child) continue;
+            const Place place{keys[l], index, l, kept};
+            if (size_ == capacity) {  // as deep as the tree at most
+                visit(place);
+                continue;
+            }
+            heap_[size_++] = place;
+            std::push_heap(heap_, heap_ + size_, later);
+        }
+    }
+
+    void judge_leaf(std::size_t index) {
+        const Leaf& leaf = m_.tree.leaves[index];
+        Float8 p[3][3], n[3];
+        for (int c = 0; c < 3; ++c) {
+            n[c] = load8(leaf.normal[c]);
+            for (int i = 0; i < 3; ++i) p[c][i] = load8(leaf.corner[c][i]);
+        }
+        const Bounds bounds =
+            bound_facets(p, n, {load8(leaf.spread), load8(leaf.bend)}, form_, node_.cos_t, 4.0f * node_.margin);
+        if (opened_) opened_->add(bounds, ~std::int32_t(index));
+        judge_facets(index, bounds);
+    }
+
+    void judge_facets(std::size_t index, const Bounds& bounds) {
+        const Leaf& leaf = m_.tree.leaves[index];
+        const Float8 never = Float8{} + 1e38f;
+        Float8 d2 = bounds.d2;
+        const Float8 prior = larger(load8(leaf.bonus), Float8{} + least_prior_) + follow_cost_;
+        if (mask_of(bounds.faces_force & (d2 - prior <= cut()) & (d2 <= most_misfit_)) == 0) return;
+        if (hunt_.away_count > 0) d2 = away(leaf, bounds);
+        Float8 key = select(bounds.faces_force & (d2 <= most_misfit_), d2 - prior, never);
+        for (unsigned left = mask_of(key <= cut()); left != 0;) {
+            int l = std::countr_zero(left);
+            for (unsigned mask = left & (left - 1); mask != 0; mask &= mask - 1)
+                if (key[std::countr_zero(mask)] < key[l]) l = std::countr_zero(mask);
+            if (key[l] > cut()) return;
+            left &= ~(1u << l);
+            const std::size_t slot = index * lanes + std::size_t(l);
+            if (m_.tree.face[slot] >= 0) judge_facet(m_, slot, q_, hunt_, best_);
+        }
+    }
+
+    // The bounds of d2 once more, away from what was found: a facet that is all near it has its best touch there.
+    CONTACTBENCH_INLINE Float8 away(const Leaf& leaf, const Bounds& bounds) const {
+        Float8 p[3][3], d2 = bounds.d2, along{};
+        for (int c = 0; c < 3; ++c) {
+            for (int i = 0; i < 3; ++i) p[c][i] = load8(leaf.corner[c][i]);
+            along = larger(along, magnitude(p[c][0] * node_.fx + p[c][1] * node_.fy + p[c][2] * node_.fz - depth_));
+        }
+        d2 = larger(d2, beyond(along, bounds));
+        for (int i = 0; i < hunt_.away_count; ++i) {
+            const Near& b = away_[i];
+            Float8 farthest{};
+            for (int c = 0; c < 3; ++c) {
+                const Float8 x = p[c][0] - b.x, y = p[c][1] - b.y, z = p[c][2] - b.z;
+                const Float8 down = x * b.sx + y * b.sy + z * b.sz;
+                farthest = larger(farthest, x * x + y * y + z * z - down * down);
+            }
+            d2 = select(farthest < b.inner * b.inner, Float8{} + 1e38f, d2);
+        }
+        return d2;
+    }
+
+    const Model& m_;
+    const Query& q_;
+    const Form<float>& form_;
+    const Hunt& hunt_;
+    const NodeQuery& node_;
+    Found& best_;
+    float most_misfit_, least_prior_, follow_cost_;
+    float wa_ = 0.0f, wb_ = 0.0f, depth_ = 0.0f;  // of the likeliest touch: w, and how far along the force
+    Near away_[Answer::capacity], follow_{};
+    static constexpr int capacity = 512;
+    Place heap_[capacity];
+    int size_ = 0;
+    Opened* opened_ = nullptr;
 };
 
 }  // namespace detail
 
-// Every facet, then every vertex, one by one and without any sieve: the yardstick for `search`.
-inline void exhaust(const Model& model, const Query& q, double cos_cap, Hits& hits) {
-    for (std::size_t s = 0; s < model.tree.face.size(); ++s)
-        if (model.tree.face[s] >= 0) detail::test_facet(model, s, q, cos_cap, hits);
-    for (std::size_t v = 0; v < model.vertices.size(); ++v)
-        detail::test_vertex(model, std::int32_t(v), q, cos_cap, hits);
-}
+// Every facet, one by one and without any bound: the yardstick for `Search`.
+class Exhaustion {
+public:
+    Exhaustion(const Model& m, const Query& q, double) : m_(m), q_(q) {}
 
-// Beyond this moment (in mesh sizes per unit force) single-precision bounds are too coarse to prune.
-inline constexpr double far_moment = 1e3;
+    detail::Found first(const Hunt& hunt, std::int32_t) { return next(hunt); }
+    detail::Found next(const Hunt& hunt) const {
+        detail::Found best;
+        for (std::size_t s = 0; s < m_.tree.face.size(); ++s)
+            if (m_.tree.face[s] >= 0) detail::judge_facet(m_, s, q_, hunt, best);
+        return best;
+    }
 
-inline bool prunable(const Query& q) { return norm2(q.m) < far_moment * far_moment; }
+private:
+    const Model& m_;
+    const Query& q_;
+};
 
-// Tests every leaf that `source(leaf_callback)` names. `nq` must belong to `q` and `cos_cap`.
-template <class Source>
-inline void test_leaves(const Model& model, const Query& q, const NodeQuery& nq, double cos_cap, Hits& hits,
-                        Source&& source) {
-    detail::LeafQueue queue;
-    const auto drain = [&] {
-        for (int i = 0; i < queue.size; ++i)
-            detail::test_leaf(model, std::size_t(queue.item[i]), q, nq, cos_cap, hits);
-        queue.size = 0;
-    };
-    source([&](std::int32_t leaf) {
-        if (queue.size == detail::LeafQueue::capacity) drain();
-        queue.item[queue.size++] = leaf;
-        const char* lines = reinterpret_cast<const char*>(&model.tree.leaves[std::size_t(leaf)]);
-        for (std::size_t i = 0; i < sizeof(Leaf); i += 64) __builtin_prefetch(lines + i);
-    });
-    drain();
-}
+// Through the hierarchy.
+class Search {
+public:
+    Search(const Model& m, const Query& q, double cos_friction)
+        : m_(m), q_(q), form_(in_single(q.form)), node_(make_node_query(q, cos_friction)) {}
 
-inline void search(const Model& model, const Query& q, double cos_cap, Hits& hits) {
-    if (!prunable(q)) return exhaust(model, q, cos_cap, hits);
-    const NodeQuery nq = make_node_query(q, cos_cap);
-    test_leaves(model, q, nq, cos_cap, hits, [&](auto&& leaf) {
-        NodeStack stack;
-        stack.item[stack.size++] = 0;
-        const auto test = [&](const Node& n) { return node_mask(n, nq); };
-        descend(model.tree.nodes.data(), stack, test, leaf);
-    });
-}
+    // `hint`: a slot that is looked at first, or -1; it changes the time, never the answer.
+    detail::Found first(const Hunt& hunt, std::int32_t hint) {
+        detail::Found best;
+        if (hint >= 0) detail::judge_facet(m_, std::size_t(hint), q_, hunt, best);
+        detail::Descent(m_, q_, form_, node_, hunt, best).from_root(&opened_);
+        return best;
+    }
+
+    detail::Found next(const Hunt& hunt) const {
+        detail::Found best;
+        detail::Descent descent(m_, q_, form_, node_, hunt, best);
+        if (opened_.all) descent.from(opened_);
+        else descent.from_root(nullptr);
+        return best;
+    }
+
+private:
+    const Model& m_;
+    const Query& q_;
+    Form<float> form_;
+    NodeQuery node_;
+    detail::Opened opened_;
+};
 
 }  // namespace contactbench

@@ -1,42 +1,53 @@
 // From a wrench to a contact, with a reason: everything above put together.
 //
+// The likeliest touch is the one of least cost among those that explain the wrench (d2 <= implausible_misfit): d2 less
+// the prior of its facet (regions, untouchable facets) and of being near the last contact. Then, away from it, the next
+// likely ones, while they are worth a thought. Among these, what lies behind another costs more, and `decide` says what
+// they are worth together.
+//
 // Contract
 //   units      S frame, N, N*m, m, s.
 //   locate     const and thread-safe. The same wrench and previous contact give the same answer,
 //              bit for bit, whatever came before.
 //   track      one stream, not thread-safe. Equal to locate with the last accepted contact as
-//              `previous`, as long as that is recent; see tracking.hpp for why.
-//   cost       O(log n) for a bounded pitch; no allocation but for more than four candidates.
+//              `previous`, as long as that is recent; but where a second touch has joined it, it says so.
+//   cost       O(log n) where the wrench is precise against the probe's size; no allocation.
 #pragma once
 
 #include <memory>
 
-#include "rivals.hpp"
-#include "tracking.hpp"
+#include "second_touch.hpp"
 
 namespace contactbench {
 
+// Axes further than this many mesh sizes away miss the probe; single-precision bounds are too coarse to say by how much.
+inline constexpr double far_moment = 1e3;
+
+// Steeper than this, whether the force pushes is rounding.
+inline constexpr double steepest_cosine = 1e-3;
+
 class Solver {
 public:
-    Solver(std::shared_ptr<const Model> model, const WrenchCovariance& noise, const Gates& gates)
-        : model_(std::move(model)), noise_(noise), gates_(gates), force_noise_(noise.force_bound()),
-          torque_noise_(noise.torque_bound()) {}
+    Solver(std::shared_ptr<const Model> model, const WrenchCovariance& noise, double torsion_arm, const Gates& gates)
+        : model_(std::move(model)), uncertainty_(noise, torsion_arm, model_->frame),
+          doubled_(twice(noise), torsion_arm, model_->frame), gates_(gates) {}
 
     const Model& model() const { return *model_; }
-    const WrenchCovariance& noise() const { return noise_; }
+    const Uncertainty& uncertainty() const { return uncertainty_; }
     const Gates& gates() const { return gates_; }
 
     // `previous`: where contact was last accepted (S, m), or null.
     Answer locate(const Wrench& w, const Vec3* previous = nullptr) const {
-        const auto pruned = [&](const Query& q, double cap, Hits& hits) { search(*model_, q, cap, hits); };
-        return answer(w, previous, pruned);
+        Answer a;
+        answer<Search>(w, previous, -1, a);
+        return a;
     }
 
-    // The yardstick: the same answer with every candidate found without the hierarchy. (Rivals are looked
-    // for as in locate: they are near misses, not candidates.)
+    // The yardstick: the same answer with every facet looked at.
     Answer locate_exhaustively(const Wrench& w, const Vec3* previous = nullptr) const {
-        const auto all = [&](const Query& q, double cap, Hits& hits) { exhaust(*model_, q, cap, hits); };
-        return answer(w, previous, all);
+        Answer a;
+        answer<Exhaustion>(w, previous, -1, a);
+        return a;
     }
 
     // `age`: seconds since the sample was taken.
@@ -46,17 +57,24 @@ public:
         return a;
     }
 
-    // The same into `a`, whatever it held: a controller keeps one whose hits have room for every facet and
-    // vertex and one rival, and then no sample allocates.
+    // The same into `a`, whatever it held.
     void track(const Wrench& w, double age, Answer& a) {
-        a.hits.clear();
-        a.chosen = -1;
+        a.clear();
         a.reason = Reason::stale;
-        if (age <= gates_.max_age) follow(w, a);
-        if (accepted(a.reason)) {
-            last_ = a.hits[std::size_t(a.chosen)].point;
+        if (age <= gates_.max_age) answer<Search>(w, previous(), hint_, a);
+        if (a.count > 0) hint_ = a.candidates[a.chosen < 0 ? 0 : a.chosen].slot;
+        // What is being followed, and what has joined it; see second_touch.hpp.
+        const auto alone = [&](const Wrench& step, Answer& out) {
+            out.clear();
+            Solver::answer<Search>(doubled_, step, nullptr, -1, out);
+        };
+        pair_.observe(w, gates_, previous() != nullptr, a, alone);
+        if (accepted(a.reason, gates_)) {
+            last_ = a.contact()->point;
             touched_ = true;
             misses_ = 0;
+        } else if (a.reason == Reason::two_touches) {
+            misses_ = 0;  // the first is still there
         } else if (touched_ && misses_ < std::numeric_limits<std::int64_t>::max()) {
             ++misses_;
         }
@@ -66,100 +84,117 @@ public:
     const Vec3* previous() const { return touched_ && misses_ <= gates_.recent_samples ? &last_ : nullptr; }
 
     void reset() {
-        tracker_.reset();
         touched_ = false;
+        hint_ = -1;
+        pair_.reset();
+    }
+
+    // Of a point on a plane, whoever found it there; S, m^2.
+    Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face) const {
+        const Query q = make_query(model_->frame, w, uncertainty_);
+        return covariance(q, point, normal, face);
     }
 
 private:
-    // `search(query, cos_cap, hits)` finds the candidates.
-    template <class Search>
-    Answer answer(const Wrench& w, const Vec3* previous, Search&& search) const {
-        Answer a;
-        answer(w, previous, search, a);
-        return a;
+    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face) const {
+        return plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
     }
 
-    // `a` comes without candidates.
-    template <class Search>
-    void answer(const Wrench& w, const Vec3* previous, Search&& search, Answer& a) const {
+    double depth_of(const Query& q, Vec3 point) const {
+        return dot((1.0 / model_->frame.scale) * (point - model_->frame.centre), q.f);
+    }
+
+    // Of no face: none, for who found the point knows another surface.
+    MeshError<double> mesh_error(std::int32_t face) const {
+        if (face < 0) return {};
+        return model_->tree.facets[std::size_t(model_->slot[std::size_t(face)])].error;
+    }
+
+    // `a` comes cleared.
+    template <class Finder>
+    void answer(const Wrench& w, const Vec3* previous, std::int32_t hint, Answer& a) const {
+        answer<Finder>(uncertainty_, w, previous, hint, a);
+    }
+
+    template <class Finder>
+    void answer(const Uncertainty& uncertainty, const Wrench& w, const Vec3* previous, std::int32_t hint,
+                Answer& a) const {
         a.reason = gate(w, gates_);
         if (a.reason != Reason::ok) return;
-        const Query q = make_query(model_->frame, w);
-        search(q, gates_.cos_friction, a.hits);
-        choose(a, gates_, w.F, previous);
-        if (a.hits.size() == 0) look_past_the_cone(q, search, a);
-        if (accepted(a.reason) && !model_->convex) look_for_rival(q, previous, a);
-    }
-
-    void follow(const Wrench& w, Answer& a) {
-        bool covered = false;
-        Query query;
-        const auto find = [&](const Query& q, double cap, Hits& hits) {
-            query = q;
-            // The cut was made for the friction cone; past it only a search from the root will do.
-            covered = cap == gates_.cos_friction && tracker_.covers(q);
-            if (covered)
-                search_from(tracker_.cut(), *model_, q, cap, hits);
-            else
-                search(*model_, q, cap, hits);
-        };
-        answer(w, previous(), find, a);
-        if (covered) {
-            tracker_.served();
-        } else if (a.chosen >= 0) {
-            const Candidate& c = a.hits[std::size_t(a.chosen)];
-            const double turn = force_noise_ / query.force;
-            const double shift = std::hypot(torque_noise_ / query.force, turn * norm(c.point)) / model_->frame.scale;
-            tracker_.follow(*model_, query, gates_.cos_friction, c, turn, shift);
-        }
-    }
-
-    // Nothing inside the friction cone: say whether the axis grazes the probe or misses it. On a closed mesh
-    // *something* always answers: far off, a silhouette vertex all but edge-on. That is a miss, not a touch.
-    template <class Search>
-    static void look_past_the_cone(const Query& q, Search&& search, Answer& a) {
-        constexpr double cos_miss = 0.0174524064372835;  // of 89 degrees
-        search(q, cos_miss, a.hits);
-        for (std::size_t i = 0; i < a.hits.size(); ++i) a.hits[i].why = Why::friction;
-        if (a.hits.size() > 0) a.reason = Reason::tangential;
-    }
-
-    void look_for_rival(const Query& q, const Vec3* previous, Answer& a) const {
-        Candidate& c = a.hits[std::size_t(a.chosen)];
-        if (!rivals_known(q, noise_, gates_.rival_sigmas)) {
-            a.reason = Reason::ambiguous;
+        const Query q = make_query(model_->frame, w, uncertainty);
+        a.arm = model_->frame.scale * q.form.h;
+        a.reason = Reason::implausible;
+        if (!(norm2(q.m) < far_moment * far_moment)) {
+            // What the torsion alone costs, wherever the touch were.
+            const Form<double>& o = q.form;
+            a.misfit = std::max(gates_.implausible_misfit, o.h * o.h / (o.ff + o.arm2));
             return;
         }
-        // Nearer than what the noise of the axis may do on one patch, it is the same contact.
-        const double shift = detail::rival_shift(*model_, noise_, gates_.rival_sigmas, q.force) * model_->frame.scale;
-        // For one wrench |k| is inversely proportional to the cosine.
-        const RivalSearch how{gates_.rival_sigmas, 2.0 * gates_.ambiguity_distance + shift,
-                              std::max(gates_.cos_friction, c.cosine / gates_.torque_ratio)};
-        // Contact was here a moment ago: whatever is too far away to be followed is no rival.
-        const double moved = previous ? norm(c.point - *previous) : HUGE_VAL;
-        if (moved + gates_.follow_distance <= how.clearance) return;
-        Candidate rival;
-        if (!find_rival(*model_, q, c, noise_, how, rival)) return;
-        const std::int32_t mine = region_rank(c), theirs = region_rank(rival);
-        const bool followed = moved <= gates_.follow_distance &&
-                              norm(rival.point - *previous) > gates_.follow_distance;
-        if (!followed && theirs < mine) {  // what the operator expects to touch, missed by no more than noise
-            c.why = Why::region;
-            rival.why = Why::chosen;
-            a.chosen = std::int32_t(a.hits.size());
-            a.reason = Reason::ambiguous;
-        } else if (!followed) {
-            a.reason = Reason::ambiguous;
+        Hunt hunt;
+        hunt.cos_friction = std::max(gates_.cos_friction, steepest_cosine);
+        hunt.most_misfit = gates_.implausible_misfit;
+        hunt.previous = previous;
+        hunt.follow_cost = previous ? gates_.follow_cost : 0.0;
+        hunt.follow_distance = gates_.follow_distance;
+        Finder finder(*model_, q, hunt.cos_friction);
+        detail::Found found = finder.first(hunt, hint);
+        if (found.touch.slot < 0) return miss<Finder>(w, q, hunt, a);
+        // Without the prior, or with it: whatever is a rival either way.
+        hunt.limit = found.key + gates_.rival_cost;
+        hunt.least_prior = found.touch.prior;
+        bool hidden = false;
+        while (a.count < Answer::capacity) {
+            Candidate& c = a.candidates[a.count++] = found.touch;
+            c.slope = q.f + c.cosine * c.normal;
+            c.across = sigma_across(model_->frame, q, c.normal, depth_of(q, c.point), mesh_error(c.face));
+            hunt.away = a.candidates;
+            hunt.radius[hunt.away_count++] = detail::own_radius(c, gates_);
+            // What the line of force meets before the likeliest touch makes that less likely, and rivals more.
+            if (!hidden && detail::hides(c, a.candidates[0], gates_, q.f))
+                hidden = true, hunt.limit += gates_.behind_cost;
+            found = finder.next(hunt);
+            if (found.touch.slot < 0) break;
         }
-        a.hits.add(rival);
+        a.left_over = left_over(w, a.candidates[decide(a, gates_, q.f)]);
+    }
+
+    // Without the torsion that a touch may have: a larger one is left over, too.
+    double left_over(const Wrench& w, const Candidate& c) const {
+        const double most = std::sqrt(gates_.implausible_misfit) * uncertainty_.torsion_arm * norm(w.F);
+        return norm(w.M - cross(c.point, w.F) - std::min(std::max(c.torque, -most), most) * c.normal);
+    }
+
+    // Nothing explains the wrench: say by how much the best touch fails, and whether one beyond the friction cone would do.
+    template <class Finder>
+    void miss(const Wrench& w, const Query& q, Hunt hunt, Answer& a) const {
+        constexpr double cos_grazing = 0.0174524064372835;  // of 89 degrees
+        hunt.most_misfit = HUGE_VAL;
+        hunt.previous = nullptr;
+        hunt.follow_cost = 0.0;
+        // The prior has no say in how well a touch explains a wrench.
+        hunt.least_prior = model_->most_bonus;
+        detail::Found best = Finder(*model_, q, hunt.cos_friction).first(hunt, -1);
+        if (best.touch.slot < 0) a.reason = Reason::off_surface;
+        else a.misfit = best.touch.misfit, a.left_over = left_over(w, best.touch);
+        if (hunt.cos_friction <= cos_grazing) return;
+        hunt.cos_friction = cos_grazing;
+        hunt.most_misfit = gates_.implausible_misfit;
+        if (Finder(*model_, q, cos_grazing).first(hunt, -1).touch.slot >= 0) a.reason = Reason::tangential;
+    }
+
+    static WrenchCovariance twice(WrenchCovariance c) {
+        for (auto& row : c.s)
+            for (double& value : row) value *= 2.0;
+        return c;
     }
 
     std::shared_ptr<const Model> model_;
-    WrenchCovariance noise_;
+    Uncertainty uncertainty_;
+    Uncertainty doubled_;  // of the difference of two wrenches
     Gates gates_;
-    double force_noise_, torque_noise_;
-    Tracker tracker_;
     Vec3 last_;
+    SecondTouch pair_;
+    std::int32_t hint_ = -1;
     bool touched_ = false;
     std::int64_t misses_ = 0;
 };

@@ -68,7 +68,7 @@ void print_one(const char* name, double value) {
 void print(const cb_contact& c) {
     std::fputs("{\"time\":", stdout);
     print_number(c.time);
-    std::printf(",\"reason\":\"%s\"", cb_reason_name(c.reason));
+    std::printf(",\"reason\":\"%s\",\"accepted\":%s", cb_reason_name(c.reason), c.accepted ? "true" : "false");
     print_array("point_S_m", c.point, 3);
     print_array("filtered_point_S_m", c.filtered_point, 3);
     print_array("normal_S", c.normal, 3);
@@ -78,7 +78,12 @@ void print(const cb_contact& c) {
     print_array("covariance_S_m2", c.covariance, 9);
     std::printf(",\"face\":%d,\"vertex\":%d,\"region\":%d,\"candidates\":%d", int(c.face), int(c.vertex),
                 int(c.region), int(c.candidates));
-    print_one("runner_up_m", c.runner_up_distance);
+    print_one("confidence", c.confidence);
+    print_one("misfit", c.misfit);
+    print_one("left_over_Nm", c.left_over);
+    print_one("arm_m", c.arm);
+    print_array("runner_up_S_m", c.runner_up, 3);
+    print_array("second_S_m", c.second, 3);
     std::fputs("}\n", stdout);
 }
 

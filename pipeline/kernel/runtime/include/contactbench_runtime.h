@@ -25,8 +25,8 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "1.1.0"
-#define CB_BUNDLE_VERSION 2 /* of contactbench.json; older ones are read, too */
+#define CB_RUNTIME_VERSION "2.0.0"
+#define CB_BUNDLE_VERSION 3 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
 
@@ -45,21 +45,24 @@ enum {
     CB_ERROR_PROCESSOR = 10 /* the library was built for a newer one */
 };
 
-/* Why a contact was, or was not, given: cb_contact.reason. Act only where cb_update returned CB_OK and the reason is
- * CB_OK_FACET or CB_VERTEX. */
+/* Why a contact was, or was not, given: cb_contact.reason. Act only where cb_contact.accepted is 1: for CB_OK_FACET and
+ * CB_VERTEX, and for CB_BY_REGION unless the bundle says otherwise (gates.accept_by_region). */
 enum {
     CB_NO_ANSWER = -1, /* no sample was looked at: cb_update was not called, or failed */
     CB_OK_FACET = 0,
     CB_VERTEX = 1,
-    CB_AMBIGUOUS = 2, /* another contact cannot be ruled out; the likeliest is given */
+    CB_AMBIGUOUS = 2,      /* another place is nearly as likely; the likeliest is given */
     CB_LOW_FORCE = 3,
-    CB_TANGENTIAL = 4,
-    CB_OFF_SURFACE = 5,
-    CB_OUTSIDE_REGION = 6,
+    CB_TANGENTIAL = 4,     /* only a touch beyond the friction cone would explain the wrench */
+    CB_OFF_SURFACE = 5,    /* no facet faces the force */
+    CB_OUTSIDE_REGION = 6, /* the likeliest place is in no region, and gates.region_only is set */
     CB_SATURATED = 7,      /* a raw channel is at its limit; the filters hold */
     CB_STALE = 8,          /* the time did not increase; the sample was not used (but see cb_reset) */
     CB_NOT_FINITE = 9,     /* NaN or infinity in the sample; it was not used. Also for what a sensor flags: give NaN */
-    CB_NOT_A_ROTATION = 10 /* R_WS is off by more than 1e-3; the sample was not used */
+    CB_NOT_A_ROTATION = 10, /* R_WS is off by more than 1e-3; the sample was not used */
+    CB_BY_REGION = 11,      /* sure only because of the declared regions */
+    CB_IMPLAUSIBLE = 12,    /* no single touch explains the wrench: `misfit`, `left_over` and `arm` say by how much */
+    CB_TWO_TOUCHES = 13     /* a second touch has joined the one that was followed: `point` and `second` */
 };
 
 /* Start as CB_ERROR_INIT, or give NULL. `message` names the file, the field and the remedy. Where `size` is not
@@ -74,22 +77,30 @@ typedef struct {
 typedef struct {
     uint32_t size;
     int32_t reason;
+    int32_t accepted;     /* 1: act on it; 0: do not, whatever else is there */
     int32_t face, vertex; /* vertex: when the contact is on one */
     int32_t region;       /* rank, 0 for none */
     int32_t candidates;   /* the chosen one included */
+    int32_t reserved;
     double time;
-    double point[3], normal[3];       /* outward */
-    double torque_about_normal;       /* local torque k on the probe, k * normal */
-    double force[3], torque[3];       /* on the probe, about the origin of S: compensated, filtered */
-    double covariance[9];             /* of `point`, m^2 */
-    double filtered_point[3];         /* low-passed; held while contact is lost for a moment */
-    double runner_up_distance;        /* to the likeliest other candidate */
+    double point[3], normal[3]; /* outward */
+    double torque_about_normal; /* local torque k on the probe, k * normal */
+    double force[3], torque[3]; /* on the probe, about the origin of S: compensated, filtered */
+    double covariance[9];       /* of `point`, m^2 */
+    double filtered_point[3];   /* low-passed; held while contact is lost for a moment */
+    double misfit;       /* of the best touch, in standard deviations squared: about 1 where the model is right */
+    double left_over;    /* torque that the best touch does not explain, N*m */
+    double arm;          /* torque along the force over the force, m: for one touch, a few mm at most */
+    double confidence;   /* 0 to 1: that this place is touched and no other */
+    double runner_up[3]; /* the likeliest other place */
+    double second[3];    /* of CB_TWO_TOUCHES, the touch that joined */
 } cb_contact;
 
 #define CB_ERROR_INIT {sizeof(cb_error), CB_OK, ""}
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
-        sizeof(cb_contact), CB_NO_ANSWER, -1, -1, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0}, 0.0     \
+        sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}                                                                        \
     }
 
 /* Set `size` to sizeof(cb_info). */
@@ -127,7 +138,7 @@ typedef struct {
 /* Returns NULL after a failure, with `error` filled in. */
 CB_API cb_runtime* cb_open(const char* bundle_folder, cb_error* error);
 /* One raw reading Fx Fy Fz Mx My Mz. Returns CB_OK when `contact` was filled in: its reason says the rest. After a
- * failure its reason is CB_NO_ANSWER, and nothing else of it was written. */
+ * failure its reason is CB_NO_ANSWER, `accepted` is 0, and nothing else of it was written. */
 CB_API int cb_update(cb_runtime* runtime, const double wrench[6], const double R_WS[9], double time,
                      cb_contact* contact);
 /* R_WS from the flange's orientation R_WE, by the mounting that the bundle holds; CB_ERROR_VALUE where it holds

@@ -25,9 +25,14 @@ constexpr bool needs_avx2 = true;
 constexpr bool needs_avx2 = false;
 #endif
 
-// `reason` has the same place in every version of the struct: it can be told whatever the size says.
+using contactbench::Reason;
+static_assert(CB_OK_FACET == int(Reason::ok) && CB_NOT_A_ROTATION == int(Reason::not_a_rotation) &&
+              CB_BY_REGION == int(Reason::by_region) && CB_IMPLAUSIBLE == int(Reason::implausible) &&
+              CB_TWO_TOUCHES == int(Reason::two_touches) && CB_TWO_TOUCHES + 1 == contactbench::reason_count);
+
+// `reason` and `accepted` have the same place in every version of the struct: they can be told whatever the size says.
 int nothing(cb_contact* contact) noexcept {
-    if (contact) contact->reason = CB_NO_ANSWER;
+    if (contact) contact->reason = CB_NO_ANSWER, contact->accepted = 0;
     return CB_ERROR_ARGUMENT;
 }
 
@@ -44,16 +49,18 @@ void copy_text(char (&to)[N], const std::string& from) noexcept {
 
 void copy(double* to, const double* from, int n) noexcept { std::copy(from, from + n, to); }
 
-// Member by member: the two structs are equal today, and each may grow on its own.
+// Member by member: each of the two structs may grow on its own.
 void fill(cb_contact& out, const RuntimeContact& c) noexcept {
-    out.reason = c.reason, out.face = c.face, out.vertex = c.vertex;
-    out.region = c.region, out.candidates = c.candidates;
+    out.reason = c.reason, out.accepted = c.accepted;
+    out.face = c.face, out.vertex = c.vertex;
+    out.region = c.region, out.candidates = c.candidates, out.reserved = 0;
     out.time = c.time;
     copy(out.point, c.point, 3), copy(out.normal, c.normal, 3);
     out.torque_about_normal = c.torque_about_normal;
     copy(out.force, c.wrench, 3), copy(out.torque, c.wrench + 3, 3);
     copy(out.covariance, c.covariance, 9), copy(out.filtered_point, c.filtered_point, 3);
-    out.runner_up_distance = c.runner_up_distance;
+    out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
+    copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
 }
 
 template <std::size_t N>

@@ -43,6 +43,19 @@ void check_probe(const ProbeMesh& mesh, const Config& c) {
     for (std::size_t i = 0; i < c.regions.size(); ++i)
         if (counts[i + 1] != c.regions[i].facets)
             refuse_file(CB_ERROR_MESH, c.probe_file, "not the facets that regions[" + std::to_string(i) + "] counts");
+    std::string untouchable;
+    for (const RegionRow& region : c.regions)
+        if (region.untouchable) (untouchable += ' ') += std::to_string(region.rank);
+    if (mesh.untouchable != untouchable)
+        refuse_file(CB_ERROR_MESH, c.probe_file, "not the untouchable regions that regions lists");
+}
+
+// 2 ln(odds) of a touch on each facet.
+std::vector<double> bonus_of(const ProbeMesh& mesh, const Config& c) {
+    std::vector<double> bonus(mesh.region.size(), 0.0);
+    for (std::size_t f = 0; f < bonus.size(); ++f)
+        if (mesh.region[f] > 0) bonus[f] = c.regions[std::size_t(mesh.region[f]) - 1].bonus;
+    return bonus;
 }
 
 // Of a closed surface: positive when its facets face outwards. About the middle of the box, for the digits.
@@ -70,9 +83,10 @@ Bundle load_bundle(const std::string& folder) {
     check_planes(files.at(planes_name), mesh, bundle.config);
     check_gravity_files(files, bundle.config.settings.gravity);
     const bool outward = signed_volume(mesh, bundle.config) > 0.0;
+    const std::vector<double> bonus = bonus_of(mesh, bundle.config);
     try {
-        bundle.model = std::make_shared<const Model>(
-            make_model(std::move(mesh.vertices), mesh.faces, std::move(mesh.region)));
+        bundle.model = std::make_shared<const Model>(make_model(std::move(mesh.vertices), mesh.faces,
+                                                                std::move(mesh.region), bonus, bundle.config.mesh));
     } catch (const std::invalid_argument& error) {
         refuse_file(CB_ERROR_MESH, bundle.config.probe_file, error.what());
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "fields.hpp"
 #include "physics.hpp"
@@ -95,10 +96,29 @@ void read_noise(const Json& json, Config& c, const std::vector<double>& calibrat
     check_noise(force, torque, c.settings, calibration);
 }
 
+// After the noise was checked: its model error comes on top.
+void read_touch(const Json& json, Config& c) {
+    const Fields f(json, "touch", {"torsion_arm_m", "model_error", "mesh_deviation_m", "mesh_curved"});
+    c.settings.torsion_arm = f.number("torsion_arm_m", {0.0, 0.1});
+    c.mesh = {f.number("mesh_deviation_m", {0.0, 0.1}), f.flag("mesh_curved")};
+    const Fields error(f.at("model_error"), "touch.model_error", {"force_N", "torque_Nm", "measured"});
+    error.flag("measured");
+    auto sigma = error.numbers("force_N", 3, {0.0, 100.0});
+    const auto torque = error.numbers("torque_Nm", 3, {0.0, 10.0});
+    sigma.insert(sigma.end(), torque.begin(), torque.end());
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j) c.settings.noise.s[i][j] += i == j ? sigma[i] * sigma[i] : 0.0;
+}
+
+// What so many to one are worth in d2; by the same function as the Python runtime, to the last bit.
+double cost_of(double odds) { return 2.0 * std::log(odds); }
+
 void read_gates(const Json& json, Gates& g) {
     const Fields f(json, "gates",
-                   {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "torque_ratio", "rival_sigmas",
-                    "follow_distance_m", "recent_samples", "max_age_s", "saturation", "region_only"});
+                   {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "implausible_misfit", "rival_odds",
+                    "first_odds", "follow_odds", "follow_distance_m", "recent_samples", "max_age_s", "saturation",
+                    "region_only", "accept_by_region"});
+    constexpr Range odds{1.0, 1e9};
     g.min_force = f.number("min_force_N", not_negative);
     const double angle = f.number("friction_angle_rad", {0.0, 1.5708, true});
     // By way of degrees, in whole 90 of them: as the Python runtime does, to the last bit.
@@ -106,14 +126,17 @@ void read_gates(const Json& json, Gates& g) {
     if (!(degrees < 90.0)) fail(CB_ERROR_VALUE, f.path("friction_angle_rad"), "not below a right angle");
     g.cos_friction = std::cos(degrees * (M_PI / 180.0));
     g.ambiguity_distance = f.number("ambiguity_distance_m", not_negative);
-    g.torque_ratio = f.number("torque_ratio", {1.0, 1e9});
-    g.rival_sigmas = f.number("rival_sigmas", not_negative);
+    g.implausible_misfit = f.number("implausible_misfit", {0.45, 37.4});
+    g.rival_cost = cost_of(f.number("rival_odds", odds));
+    g.behind_cost = cost_of(f.number("first_odds", odds));
+    g.follow_cost = cost_of(f.number("follow_odds", odds));
     g.follow_distance = f.number("follow_distance_m", not_negative);
     g.recent_samples = f.integer("recent_samples", 0, 2147483647);
     g.max_age = f.number("max_age_s", not_negative);
     const auto limits = f.limits("saturation", 6, HUGE_VAL);
     std::copy(limits.begin(), limits.end(), g.saturation);
     g.region_only = f.flag("region_only");
+    g.accept_by_region = f.flag("accept_by_region");
 }
 
 void read_probe_part(const Json& json, Config& c) {
@@ -129,8 +152,13 @@ void read_probe_part(const Json& json, Config& c) {
 
 void read_regions(const std::vector<Json>& rows, Config& c) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Fields f(rows[i], "regions[" + std::to_string(i) + "]", {"rank", "name", "colour", "facets"});
-        c.regions.push_back({f.integer("rank", 1, 1000), f.integer("facets", 0, 2147483647)});
+        const Fields f(rows[i], "regions[" + std::to_string(i) + "]",
+                       {"rank", "name", "colour", "facets", "odds", "untouchable"});
+        const double odds = f.number("odds", {1e-9, 1e9});
+        const bool untouchable = f.flag("untouchable");
+        c.regions.push_back(
+            {f.integer("rank", 1, 1000), f.integer("facets", 0, 2147483647), cost_of(odds), untouchable});
+        if (untouchable ? odds > 1.0 : odds < 1.0) fail(CB_ERROR_VALUE, f.path("odds"), "its untouchable denies it");
         if (c.regions.back().rank != std::int64_t(i) + 1) fail(CB_ERROR_VALUE, f.path("rank"), "not 1, 2 and so on");
         f.text("name");
         const std::string colour = f.text("colour");
@@ -289,14 +317,55 @@ bool read_provenance(const Json& json, Config& c) {
     return f.array("stale", 0, 100).empty();
 }
 
+// What version 2 left open: as pipeline.config.runtime.migrate has it.
+constexpr std::string_view touch_of_old =
+    R"({"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],)"
+    R"("measured":false},"mesh_deviation_m":0.0,"mesh_curved":true})";
+constexpr std::string_view gates_of_old =
+    R"({"implausible_misfit":10.827566170662935,"rival_odds":100.0,"first_odds":7.38905609893065,)"
+    R"("follow_odds":1000.0,"accept_by_region":true})";
+constexpr std::string_view region_of_old[] = {R"({"odds":1000.0,"untouchable":false})",
+                                              R"({"odds":100.0,"untouchable":false})",
+                                              R"({"odds":10.0,"untouchable":false})"};  // the last for all that follow
+
+void add(Json& object, std::string_view members) {
+    for (auto& member : parse_json(members).members) object.members.push_back(std::move(member));
+}
+
+// From version 2 to 3; Fields sees to it that nothing of version 3 was there. It ranked touches by rules.
+void carry_over(Json& root) {
+    Fields(root, "",
+           {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates", "probe",
+            "regions", "planes", "controller", "limits", "verification", "verified", "provenance"})
+        .array("regions", 0, 1000);
+    for (auto& [name, value] : root.members) {
+        if (name == "gates") {
+            const Fields f(value, "gates",
+                           {"min_force_N", "friction_angle_rad", "ambiguity_distance_m", "torque_ratio",
+                            "rival_sigmas", "follow_distance_m", "recent_samples", "max_age_s", "saturation",
+                            "region_only"});
+            std::erase_if(value.members,
+                          [](const auto& m) { return m.first == "torque_ratio" || m.first == "rival_sigmas"; });
+            add(value, gates_of_old);
+        }
+        if (name != "regions") continue;
+        for (std::size_t i = 0; i < value.items.size(); ++i) {
+            const Fields f(value.items[i], "regions[" + std::to_string(i) + "]", {"rank", "name", "colour", "facets"});
+            add(value.items[i], region_of_old[std::min(i, std::size(region_of_old) - 1)]);
+        }
+    }
+    root.members.emplace_back("touch", parse_json(touch_of_old));
+}
+
 }  // namespace
 
 Config read_config(std::string_view text) {
-    const Json root = parse_json(text);
+    Json root = parse_json(text);
     if (root.type != Json::Type::object) fail(CB_ERROR_JSON, "the file", "not an object");
     const std::int64_t version = read_kind(root);
+    if (version < 3) carry_over(root);
     const Fields f(root, "",
-                   {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates",
+                   {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "filters", "gates",
                     "probe", "regions", "planes", "controller", "limits", "verification", "verified",
                     "provenance"});
     Config c;
@@ -308,6 +377,7 @@ Config read_config(std::string_view text) {
     read_wrench_filter(filters.at("wrench"), c);
     read_low_pass(filters.at("location"), c);
     read_noise(f.at("noise"), c, calibration);
+    read_touch(f.at("touch"), c);
     read_gates(f.at("gates"), c.settings.gates);
     read_probe_part(f.at("probe"), c);
     read_regions(f.array("regions", 0, 1000), c);

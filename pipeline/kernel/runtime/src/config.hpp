@@ -17,6 +17,8 @@ namespace contactbench::runtime {
 
 struct RegionRow {
     std::int64_t rank, facets;
+    double bonus;  // 2 ln(odds)
+    bool untouchable;
 };
 
 // A controller as bundles hold it; what each number is: cb_controller.
@@ -40,6 +42,7 @@ struct Config {
     bool verified = false;
     std::string sensor_model, sensor_serial, probe_name, probe_file;
     std::size_t facets = 0, vertices = 0, planes = 0;
+    MeshTerms mesh;
     Vec3 low, high;  // bounds of the probe, S, m
     std::vector<RegionRow> regions;
     double rate = 0.0, max_force = 0.0, max_torque = 0.0;

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t vertex_bytes = 3 * 8, face_bytes = 1 + 3 * 4 + 4 + 1 + 3;
 constexpr std::size_t most = 2'000'000;
 
+constexpr std::string_view untouchable_line = "comment untouchable regions";
 constexpr std::string_view vertex_lines[] = {"property double x", "property double y", "property double z"};
 constexpr std::string_view face_lines[] = {"property list uchar int vertex_indices", "property int region",
                                            "property uchar invented", "property uchar red",
@@ -38,6 +39,7 @@ public:
         if (data_.size() - at_ != vertices * vertex_bytes + faces * face_bytes)
             fail("its length does not fit its header: cut short, or something follows");
         ProbeMesh mesh;
+        mesh.untouchable = untouchable_;
         read_vertices(mesh, vertices);
         read_faces(mesh, faces);
         return mesh;
@@ -51,6 +53,8 @@ private:
             const std::string_view text = data_.substr(at_, end - at_);
             at_ = end + 1;
             if (text.substr(0, 8) != "comment ") return text;
+            if (text.substr(0, untouchable_line.size()) == untouchable_line)
+                untouchable_ += text.substr(untouchable_line.size());
         }
     }
 
@@ -105,6 +109,7 @@ private:
 
     std::string_view data_;
     const std::string& name_;
+    std::string untouchable_;
     std::size_t at_ = 0;
 };
 

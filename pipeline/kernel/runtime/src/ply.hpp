@@ -1,6 +1,7 @@
 // The probe's mesh: binary PLY as contactbench writes it, and nothing else.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ProbeMesh {
     std::vector<Vec3> vertices;  // S, m
     std::vector<Triangle> faces;
     std::vector<std::int32_t> region;
+    std::string untouchable;  // numbers of the regions, as the header lists them: " 2 3"
 };
 
 // `name` is for messages. Nothing is allocated for a count before the bytes it claims are seen to be there.

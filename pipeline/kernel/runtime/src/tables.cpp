@@ -37,11 +37,15 @@ bool numbers_of(std::string_view text, double* out, std::size_t count, bool spac
     return true;
 }
 
-std::vector<std::size_t> priority_order(const ProbeMesh& mesh) {
+std::vector<std::size_t> priority_order(const ProbeMesh& mesh, const Config& config) {
     std::vector<std::size_t> order(mesh.faces.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    // Those of no region, 0, come last.
-    const auto rank = [&](std::size_t f) { return std::uint32_t(mesh.region[f]) - 1u; };
+    // Those of no region come late, untouchable ones last.
+    const auto rank = [&](std::size_t f) {
+        const std::size_t region = std::size_t(mesh.region[f]);
+        if (region == 0) return config.regions.size() + 1;
+        return config.regions[region - 1].untouchable ? config.regions.size() + 2 : region;
+    };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
     return order;
 }
@@ -109,7 +113,7 @@ void check_planes(const std::string& table, const ProbeMesh& mesh, const Config&
     std::string_view rest = table;
     if (take(rest, '\n') != header) refuse_file(CB_ERROR_MESH, planes_name, "the header is another one");
     std::size_t line = 1;
-    for (const std::size_t facet : priority_order(mesh)) {
+    for (const std::size_t facet : priority_order(mesh, config)) {
         double row[columns] = {};
         ++line;
         if (!numbers_of(take(rest, '\n'), row, columns, false) || !is_plane(row, facet, mesh))

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
         cb_update(runtime, s.wrench, s.R_WS, s.time, &contact);
         const auto stop = std::chrono::steady_clock::now();
         ns.push_back(std::chrono::duration<double, std::nano>(stop - start).count());
-        found += contact.reason >= 0 && contact.reason <= CB_VERTEX;
+        found += contact.accepted;
     }
     std::sort(ns.begin(), ns.end());
     const auto at = [&](double share) { return ns[std::size_t(share * double(ns.size() - 1))]; };

@@ -42,17 +42,20 @@ int main(int argc, char** argv) {
     }
     cb_contact contact{};
     contact.size = sizeof contact;
-    long crowded = 0;
+    long crowded = 0, implausible = 0, joined = 0;
     requests = 0;
     counting = true;
     for (const Sample& s : samples) {
         cb_update(runtime, s.wrench, s.R_WS, s.time, &contact);
-        crowded += contact.candidates > 4;
+        crowded += contact.candidates > 1;
+        implausible += contact.reason == CB_IMPLAUSIBLE;
+        joined += contact.reason == CB_TWO_TOUCHES;
     }
     cb_reset(runtime);
     counting = false;
-    std::printf("%ld requests in cb_open, %ld in %zu updates, %ld of them with more than four candidates\n", opening,
-                requests, samples.size(), crowded);
+    std::printf("%ld requests in cb_open, %ld in %zu updates; of these %ld with more than one candidate, %ld"
+                " implausible, %ld with two touches\n",
+                opening, requests, samples.size(), crowded, implausible, joined);
     cb_close(runtime);
     return requests == 0 ? 0 : 1;
 }

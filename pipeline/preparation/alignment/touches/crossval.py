@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, Reason, WrenchNoise
+from pipeline import contact
 from pipeline.preparation.alignment.touches.fit import fit_mount
 
 if TYPE_CHECKING:
@@ -188,10 +188,13 @@ class _Judge:
 
     def __init__(self, probe_P: Probe, model: TouchModel, markers_P: Floats, T_SP: Floats) -> None:
         # To move the wrench into P is the same as to move the mesh into S, and the solver is built once.
-        # Its noise is that of the first mount: it decides only what is called ambiguous.
+        # What is uncertain of a wrench is taken as it is with the first mount.
         W = wrench_transform(T_SP)
-        noise = WrenchNoise(0.0, 0.0, W @ model.covariance @ W.T)
-        self._solver = ContactSolver(probe_P, noise, Gates())
+        noise, error = (
+            contact.WrenchNoise(0.0, 0.0, W @ each @ W.T)
+            for each in (model.covariance, contact.TouchModel().model_error.covariance)
+        )
+        self._solver = contact.ContactSolver(probe_P, noise, model=contact.TouchModel(model_error=error))
         self._model = model
         self._markers = markers_P
 
@@ -200,7 +203,7 @@ class _Judge:
         model = self._model.chosen(np.asarray(rows))
         wrenches_P = np.ascontiguousarray(model.wrenches @ wrench_transform(T_SP).T)
         batch = self._solver.locate_batch(wrenches_P)
-        answered = np.isin(batch.reasons, (Reason.OK, Reason.VERTEX))
+        answered = np.array(batch.accepted)
         distance = np.linalg.norm(batch.points - self._markers[rows], axis=1)
         errors: Floats = np.where(answered, distance, model.plane_errors(T_SP))
         return errors, int((~answered).sum())

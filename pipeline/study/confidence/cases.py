@@ -1,0 +1,331 @@
+"""Touches whose place is known from exact surfaces or meshes, with what makes them hard, and what the solver says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.contact import ContactSolver, Reason, WrenchNoise
+from pipeline.contact.methods import make
+from pipeline.errors import InputError
+from pipeline.mesh import Probe
+from pipeline.simulation import add_noise, draw_touches
+from pipeline.study.sweep.bodies import Body, MeshSurface, body_of, mesh_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from pipeline.contact import Batch
+    from pipeline.simulation import Touches
+
+    Float = NDArray[np.float64]
+    Bools = NDArray[np.bool_]
+    # What was tried, in words -> share or length of one seed.
+    Measured = dict[str, float]
+
+RAW = WrenchNoise()
+FILTERED = WrenchNoise(0.18 * 0.05, 0.18 * 0.002)  # as behind a low-pass filter
+NOISES = {"raw": RAW, "filtered": FILTERED}
+FINS_M = (0.0003, 0.0008, 0.002)
+PULLS_N = (0.2, 0.5)
+PULL_HEIGHT_M = 0.03  # above the sensor: where a cable is tied to the tool
+FORCES_N = ((2.0, 3.0), (8.0, 10.0), (18.0, 20.0))
+TORSIONS_M = (0.0003, 0.003)
+ASTRAY_M = 0.010
+_FACE_M, _FACING = 0.015, 0.7  # the lens: so near to the tip, and so level
+_APART_M = 0.020
+# Within 95 % of a normal distribution in two dimensions.
+_ELLIPSE = -2 * np.log(0.05)
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """
+    Touches, and what was answered.
+
+    Attributes
+    ----------
+    touches : Touches
+    wrenches : (n, 6) as the sensor read them
+    batch : Batch
+    errors : (n,) m
+        NaN without a point.
+    sure : (n,) bool
+        Reason ``ok`` or ``vertex``: nothing but the wrench was needed.
+    """
+
+    touches: Touches
+    wrenches: Float
+    batch: Batch
+    errors: Float
+    sure: Bools
+
+    def off(self, limit: float) -> Bools:
+        """Tell which answers have a point that is further off than this, m."""
+        return np.asarray(self.errors > limit)
+
+    def reason(self, reason: Reason) -> float:
+        """Return the share of the touches that were answered so."""
+        return float(np.mean(self.batch.reasons == reason))
+
+
+def ask(solver: ContactSolver, touches: Touches, wrenches: Float) -> Asked:
+    """Locate wrenches (n, 6) of touches."""
+    batch = solver.locate_batch(wrenches)
+    errors = np.linalg.norm(batch.points - touches.points, axis=1)
+    return Asked(touches, wrenches, batch, errors, batch.reasons <= Reason.VERTEX)
+
+
+def press(
+    body: Body,
+    solver: ContactSolver,
+    count: int,
+    rng: np.random.Generator,
+    *,
+    drift: bool = False,
+    **drawn: object,
+) -> Asked:
+    """
+    Draw touches, add noise, locate.
+
+    Parameters
+    ----------
+    drift : bool
+        Draw the model's error into the wrenches, too.
+    **drawn
+        As for :func:`pipeline.simulation.draw_touches`.
+    """
+    touches = draw_touches(body.surface, count, rng, **({"above": body.above} | drawn))  # type: ignore[arg-type]
+    wrenches = add_noise(touches.wrenches, solver.noise, rng)
+    return ask(solver, touches, add_noise(wrenches, solver.model.model_error, rng) if drift else wrenches)
+
+
+def mesh(name: str, facets: int, *, region: bool = False) -> Probe:
+    """Return a probe's mesh; unless told so, nothing is declared on it."""
+    probe = mesh_of(name, facets)
+    return probe if region else probe.with_region(np.zeros(len(probe.faces), np.int32))
+
+
+# ---- the cases: each gives what was tried, and its figures for one seed -------------------------------------
+
+
+def fin(thickness: float, noise: WrenchNoise, count: int, rng: np.random.Generator) -> Measured:
+    """Press on the edge of a thin fin: beside it, the body behind it answers as well."""
+    probe, edge = make_fin(thickness)
+    asked = press(Body(edge, 0.0), ContactSolver(probe, noise), count, rng, force=(5.0, 10.0))
+    return {
+        "sure": float(asked.sure.mean()),
+        "sure and over 10 mm off": float(np.mean(asked.sure & asked.off(ASTRAY_M))),
+        "ambiguous": asked.reason(Reason.AMBIGUOUS),
+    }
+
+
+def region(name: str, facets: int, count: int, rng: np.random.Generator) -> Measured:
+    """Declare the lens as the region of contact, and touch anywhere."""
+    asked = press(body_of(name), ContactSolver(mesh_of(name, facets)), count, rng)
+    return {
+        "sure": float(asked.sure.mean()),
+        "sure, of these over 5 mm off": float(asked.off(0.005)[asked.sure].mean()),
+        "by region": asked.reason(Reason.BY_REGION),
+        "by region, of all over 5 mm off": float(
+            np.mean(asked.off(0.005) & (asked.batch.reasons == Reason.BY_REGION))
+        ),
+        "ambiguous": asked.reason(Reason.AMBIGUOUS),
+    }
+
+
+def pulled(
+    name: str,
+    facets: int,
+    noise: WrenchNoise,
+    pull: float,
+    count: int,
+    rng: np.random.Generator,
+    *,
+    region: bool,
+) -> Measured:
+    """Press the lens with 7 N while something that nobody told of pulls at the tool's side."""
+    probe = mesh(name, facets, region=region)
+    solver = ContactSolver(probe, noise)
+    touches = draw_touches(
+        body_of(name).surface,
+        count,
+        rng,
+        force=(7.0, 7.0),
+        above=float(probe.bounds[1, 2]) - _FACE_M,
+        facing=_FACING,
+    )
+    side = rng.uniform(0.0, 2 * np.pi, count)
+    force = pull * np.stack([np.cos(side), np.sin(side), np.zeros(count)], axis=1)
+    unmodelled = np.hstack([force, np.cross([0.0, 0.0, PULL_HEIGHT_M], force)])
+    asked = ask(solver, touches, add_noise(touches.wrenches + unmodelled, noise, rng))
+    wrong = asked.off(ASTRAY_M)
+    return {
+        "sure": float(asked.sure.mean()),
+        "sure and over 10 mm off": float(np.mean(asked.sure & wrong)),
+        "accepted": float(asked.batch.accepted.mean()),
+        "accepted and over 10 mm off": float(np.mean(asked.batch.accepted & wrong)),
+        "ambiguous": asked.reason(Reason.AMBIGUOUS),
+    }
+
+
+def two(name: str, facets: int, count: int, rng: np.random.Generator) -> Measured:
+    """Touch in two places at once, one pressed one to three times as hard as the other."""
+    solver, body = ContactSolver(mesh(name, facets)), body_of(name)
+    one, other = (draw_touches(body.surface, count, rng, above=body.above) for _ in range(2))
+    wrenches = one.wrenches + other.wrenches / rng.uniform(1.0, 3.0, (count, 1))
+    asked = ask(solver, one, add_noise(wrenches, solver.noise, rng))
+    apart = np.linalg.norm(one.points - other.points, axis=1) > _APART_M
+    from_both = asked.off(0.005) & (np.linalg.norm(asked.batch.points - other.points, axis=1) > 0.005)
+    same_side = np.einsum("ni,ni->n", one.normals, other.normals) > 0.5
+    return {
+        "sure": float(asked.sure[apart].mean()),
+        "sure and over 5 mm from both": float(np.mean((asked.sure & from_both)[apart])),
+        "the same, touches of one side": float(np.mean((asked.sure & from_both)[apart & same_side])),
+        "the same, others": float(np.mean((asked.sure & from_both)[apart & ~same_side])),
+        "implausible": float(np.mean(asked.batch.reasons[apart] == Reason.IMPLAUSIBLE)),
+    }
+
+
+def single(
+    name: str, facets: int, noise: WrenchNoise, torsion: float, count: int, rng: np.random.Generator
+) -> Measured:
+    """Touch once, 8 to 10 N: how often that is sure."""
+    solver = ContactSolver(mesh(name, facets), noise)
+    asked = press(body_of(name), solver, count, rng, torsion_arm=torsion)
+    return {
+        "sure": float(asked.sure.mean()),
+        "sure, of these over 5 mm off": float(asked.off(0.005)[asked.sure].mean()),
+        "ambiguous": asked.reason(Reason.AMBIGUOUS),
+        "implausible": asked.reason(Reason.IMPLAUSIBLE),
+    }
+
+
+def reliability(
+    name: str, facets: int, count: int, rng: np.random.Generator, *, region: bool
+) -> tuple[Float, Bools]:
+    """Return stated confidence, and whether the point was within 5 mm or 4.5 sigma, of all answers with a point."""
+    solver = ContactSolver(mesh(name, facets, region=region))
+    arm = solver.model.torsion_arm
+    asked = press(body_of(name), solver, count, rng, drift=True, force=(2.0, 20.0), torsion_arm=arm)
+    given = np.isfinite(asked.errors)
+    near = np.maximum(0.005, 4.5 * asked.batch.sigma_max)
+    return asked.batch.confidences[given], (asked.errors <= near)[given]
+
+
+def ellipse(
+    name: str,
+    facets: int,
+    noise: WrenchNoise,
+    torsion: float,
+    count: int,
+    rng: np.random.Generator,
+    *,
+    drift: bool,
+) -> Measured:
+    """Count true points in the 95 % ellipse of the sure answers that are not astray."""
+    solver = ContactSolver(mesh(name, facets), noise)
+    asked = press(body_of(name), solver, count, rng, torsion_arm=torsion, drift=drift)
+    judged = asked.sure & ~asked.off(ASTRAY_M)
+    # The covariance has no extent along the facet's normal: its two larger axes span the tangent plane.
+    variances, axes = np.linalg.eigh(asked.batch.covariances[judged])
+    off = np.einsum("nij,ni->nj", axes, (asked.batch.points - asked.touches.points)[judged])
+    inside = np.sum(off[:, 1:] ** 2 / variances[:, 1:], axis=1) <= _ELLIPSE
+    return {"inside": float(inside.mean()), "left out": float(1.0 - judged.mean())}
+
+
+def errors(
+    name: str, facets: int, force: tuple[float, float], torsion: float, count: int, rng: np.random.Generator
+) -> Measured:
+    """Compare the error of all answers with the wrench axis', where both give a point."""
+    solver = ContactSolver(mesh(name, facets))
+    asked = press(body_of(name), solver, count, rng, force=force, torsion_arm=torsion)
+    found = {"contactbench": asked.errors}
+    try:
+        axis = make("wrench_axis", solver.probe, solver.noise)
+    except InputError:
+        pass  # the page says that there is no Embree
+    else:
+        points = axis.locate_batch(asked.wrenches).points
+        found["wrench axis"] = np.linalg.norm(points - asked.touches.points, axis=1)
+    both = np.all(np.isfinite(list(found.values())), axis=0)
+    measured = {f"{by}, mean": float(1e3 * off[both].mean()) for by, off in found.items()}
+    return measured | {f"{by}, no point": float(np.isnan(off).mean()) for by, off in found.items()}
+
+
+def pruning(name: str, facets: int, count: int, rng: np.random.Generator) -> int:
+    """Count answers of the pruned search that differ from looking at every facet, of touches and of any wrenches."""
+    solver, body = ContactSolver(mesh(name, facets)), body_of(name)
+    touches = draw_touches(body.surface, count // 2, rng, force=(1.0, 20.0), above=body.above)
+    wild = rng.standard_normal((count - count // 2, 6)) * np.repeat([8.0, 0.5], 3)
+    wrenches = np.vstack([add_noise(touches.wrenches, solver.noise, rng), wild])
+    return len(solver.search_differences(wrenches, None))
+
+
+# ---- a capsule with a fin -------------------------------------------------------------------------------------
+
+
+class _Edge(MeshSurface):
+    """The outer edge of a fin along +x."""
+
+    def __init__(self, probe: Probe, height: float) -> None:
+        outer = np.flatnonzero(probe.vertices[probe.faces][:, :, 0].min(axis=1) > height)
+        super().__init__(Probe.from_arrays(probe.vertices, probe.faces[outer], name="edge"))
+
+
+def make_fin(
+    thickness: float, *, radius: float = 0.015, length: float = 0.1, height: float = 0.012
+) -> tuple[Probe, MeshSurface]:
+    """
+    Return a closed capsule along z with a fin along +x over the middle half of its length, and the fin's edge.
+
+    Parameters
+    ----------
+    thickness, radius, length, height : float
+        m; height of the fin over the capsule.
+    """
+    start = np.arcsin(thickness / 2 / radius)
+    around = np.linspace(start, 2 * np.pi - start, 36)
+    cap = np.linspace(0.0, np.pi / 2, 9)[1:]
+    straight = np.linspace(0.25 * length, 0.75 * length, 17)
+    r = np.concatenate([radius * np.sin(cap), np.full(17, radius), radius * np.sin(cap[::-1])])
+    z = np.concatenate([radius * (1 - np.cos(cap)), straight, length - radius * (1 - np.cos(cap[::-1]))])
+    rings, columns = len(r), len(around)
+    ring = np.stack(
+        [np.outer(r, np.cos(around)), np.outer(r, np.sin(around)), np.outer(z, np.ones(columns))], axis=2
+    )
+    ends = [[0.0, 0.0, 0.0], [0.0, 0.0, length]]
+    tips = [[radius + height, side * thickness / 2, level] for level in straight for side in (-1, 1)]
+    vertices = np.vstack([ring.reshape(-1, 3), ends, tips])
+    bottom, top, first = rings * columns, rings * columns + 1, rings * columns + 2
+
+    def at(i: int, j: int) -> int:
+        return i * columns + j % columns
+
+    def tip(i: int, side: int) -> int:
+        return first + 2 * (i - len(cap)) + side
+
+    fin_rings = range(len(cap), len(cap) + 16)
+    quads = [
+        (at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j))
+        for i in range(rings - 1)
+        for j in range(columns)
+        if not (j == columns - 1 and i in fin_rings)
+    ]
+    for i in fin_rings:
+        # Around the fin: from the last column out, across the edge, and back to the first.
+        walls = (
+            (at(i, -1), tip(i, 0), tip(i, 1), at(i, 0)),
+            (at(i + 1, -1), tip(i + 1, 0), tip(i + 1, 1), at(i + 1, 0)),
+        )
+        quads += [(walls[0][k], walls[0][k + 1], walls[1][k + 1], walls[1][k]) for k in range(3)]
+    low, high = fin_rings[0], fin_rings[-1] + 1
+    quads.append((at(low, -1), at(low, 0), tip(low, 1), tip(low, 0)))
+    quads.append((at(high, -1), tip(high, 0), tip(high, 1), at(high, 0)))
+    faces = [corners for a, b, c, d in quads for corners in ((a, b, c), (a, c, d))]
+    for j in range(columns):
+        faces += [(bottom, at(0, j + 1), at(0, j)), (top, at(rings - 1, j), at(rings - 1, j + 1))]
+    probe = Probe.from_arrays(vertices, np.array(faces), name=f"fin of {1e3 * thickness:g} mm")
+    return probe, _Edge(probe, radius + 0.99 * height)

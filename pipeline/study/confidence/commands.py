@@ -1,0 +1,49 @@
+"""``contactbench study confidence``: whether sure answers are right, and confidence and ellipse what they say."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pipeline.console import JsonOption, say
+from pipeline.study.finishing import SeedOption, finish
+
+
+def add_confidence_command(app: typer.Typer) -> None:
+    """Add the command to ``contactbench study``."""
+    app.command(epilog="Example: contactbench study confidence --quick --out confidence-study")(confidence)
+
+
+def confidence(
+    probe: Annotated[
+        list[str] | None,
+        typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the bundled ones]."),
+    ] = None,
+    touches: Annotated[
+        int | None, typer.Option(min=100, help="Touches for each figure and seed [10,000].")
+    ] = None,
+    seeds: Annotated[int | None, typer.Option(min=1, help="Repetitions, for the spread [5].")] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="Few touches, coarse meshes: a look.")] = False,
+    seed: SeedOption = 0,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Keep the results here, with a page of tables and the diagram."),
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Measure how far an answer's own word can be trusted: thin fins, regions, pulls, two touches, the ellipse.
+
+    Exit code 1 when a figure misses its bound.
+    """
+    from assets import PROBE_NAMES
+    from pipeline.study.confidence import study
+
+    sizes = study.QUICK if quick else study.Sizes()
+    sizes = replace(sizes, touches=touches or sizes.touches, seeds=seeds or sizes.seeds)
+    report = study.run(tuple(probe or PROBE_NAMES), sizes, seed=seed, progress=say)
+    if out:
+        say(f"{study.keep(report, out, quick=quick)}: tables and the reliability diagram")
+    finish(report, None, as_json=as_json)

@@ -1,0 +1,127 @@
+"""The chapter of the confidence study: every figure, and the reliability diagram, from its results alone."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING
+
+from assets import PROBE_NAMES
+from pipeline.study.chapters import COLOURS, STYLE, chapter, png
+from pipeline.study.confidence.study import PARTS, Row
+from pipeline.study.markdown import number, table
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from pipeline.study.results import Results
+
+_PICTURE = "reliability.png"
+_ABOUT = """Touches whose place is known, on exact surfaces or on a file's own mesh, located with default gates. An
+answer is *sure* if its reason is `ok` or `vertex`. Each figure is a mean over seeds, with the least and the most of
+them in brackets; figures in bold miss their bound. Noise is 0.05 N and 2 mN·m, filtered 0.18 times as much.
+
+An answer of the reliability is right if it is within 5 mm or 4.5 standard deviations. Its brackets are 95 % intervals,
+and a bin of at least 20 answers misses its bound if its interval lies outside of it. The ellipse is asked of sure
+answers that are within 10 mm; the share of all others is in the column *left out*. The ellipse allows for the model's
+error: it should hold 95 % where that error is drawn into the wrenches, and holds more without it. The errors beside
+the wrench axis are those of touches where both give a point."""
+_SAID = {_PICTURE: "Stated confidence against the share of right answers, with 95 % intervals."}
+
+
+def make(results: Results, folder: Path) -> str:
+    """
+    Write the diagram into the folder and return the chapter, Markdown.
+
+    Parameters
+    ----------
+    results : Results
+        Of kind ``confidence``.
+    folder : Path
+    """
+    known = [field.name for field in fields(Row)]
+    rows = [Row(**{name: row[name] for name in known}) for row in results.rows]
+    missed = [row for row in rows if not row.met]
+    lines = [f"- {row.probe}, {row.case}, {row.figure}: {figure(row)}, {bound(row)}" for row in missed]
+    verdict = "\n".join(["Bounds that are missed:", "", *lines]) if missed else "Every bound is kept."
+    probes = sorted({row.probe for row in rows if row.part == "one touch"})
+    files = (
+        "" if set(probes) - set(PROBE_NAMES) else " No probe from a file was measured: `--probe` takes one."
+    )
+    about = f"{_ABOUT}\n\nProbes: {', '.join(probes)}.{files}\n\n{verdict}"
+    return chapter("Confidence", about, tables(rows), {_PICTURE: _diagram(rows)}, _SAID, folder) + "\n"
+
+
+def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
+    """Return a title and a table, Markdown, for each part: a line for each case, a column for each figure."""
+    return [(title, _table([row for row in rows if row.part == part])) for part, title in PARTS.items()]
+
+
+def _table(rows: Sequence[Row]) -> str:
+    if rows and rows[0].stated is not None:
+        columns = ["probe", "case", "answers", "stated", "right", "bound"]
+        lines = [
+            [row.probe, row.case, f"{row.tries:,}", f"{number(row.stated)} %", _marked(row), bound(row)]
+            for row in rows
+        ]
+        return table(columns, lines)
+    figures = list(dict.fromkeys(row.figure for row in rows))
+    bounds = {row.figure: bound(row) for row in rows if bound(row) and row.probe != "t-shape"}
+    cells: dict[tuple[str, str], dict[str, str]] = {}
+    for row in rows:
+        cells.setdefault((row.probe, row.case), {})[row.figure] = _marked(row)
+    heads = [f"{name} ({bounds[name]})" if name in bounds else name for name in figures]
+    return table(
+        ["probe", "case", *heads], [[*at, *(own.get(f, "–") for f in figures)] for at, own in cells.items()]
+    )
+
+
+def figure(row: Row) -> str:
+    """Return a figure with its spread, for people."""
+    spread = "" if row.low == row.high else f" ({number(row.low)} to {number(row.high)})"
+    return f"{number(row.value)}{spread}{f' {row.unit}' if row.unit else ''}"
+
+
+def bound(row: Row) -> str:
+    """Return what a figure must keep, for people; nothing where it is only shown."""
+    if row.at_least is not None and row.at_most is not None:
+        return f"{number(row.at_least)} to {number(row.at_most)}"
+    if row.at_least is not None:
+        return f"at least {number(row.at_least)}"
+    return "" if row.at_most is None else f"at most {number(row.at_most)}"
+
+
+def _marked(row: Row) -> str:
+    return figure(row) if row.met else f"**{figure(row)}**"
+
+
+def _diagram(rows: Sequence[Row]) -> bytes:
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    found: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        if row.stated is not None:
+            found.setdefault((row.probe, row.case), []).append(row)
+    with mpl.rc_context(STYLE):
+        drawn = Figure(figsize=(5.0, 4.2), dpi=120, layout="constrained")
+        axes = drawn.subplots()
+        axes.plot([0, 100], [0, 100], color="#888888", linewidth=0.8)
+        colours = {
+            probe: COLOURS[i % len(COLOURS)] for i, probe in enumerate(dict.fromkeys(p for p, _ in found))
+        }
+        for (probe, case), own in found.items():
+            low, high = [r.value - r.low for r in own], [r.high - r.value for r in own]
+            mark = "s" if "declared" in case else "o"
+            axes.errorbar(
+                [float(r.stated or 0.0) for r in own],
+                [r.value for r in own],
+                [low, high],
+                fmt=mark,
+                color=colours[probe],
+                elinewidth=0.8,
+                label=f"{probe}, {case}",
+            )
+        axes.set(xlabel="stated confidence, %", ylabel="right, %", xlim=(0, 101), ylim=(0, 101))
+        axes.legend(fontsize=7)
+        return png(drawn)

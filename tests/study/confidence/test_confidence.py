@@ -1,0 +1,136 @@
+"""The confidence study in short: its cases are what they say, its judging is right, its page is made of its file."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from pipeline.cli import app
+from pipeline.contact import ContactSolver, Reason
+from pipeline.study.confidence import cases, study
+from pipeline.study.confidence.page import tables
+from pipeline.study.pages import make_page
+
+TINY = study.Sizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
+
+
+@pytest.fixture(scope="module")
+def report():
+    return study.run(("linear",), TINY, seed=1)
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(0)
+
+
+@pytest.mark.parametrize("thickness", cases.FINS_M)
+def test_a_fin_is_a_closed_body_and_its_edge_is_the_outermost(thickness, rng):
+    probe, edge = cases.make_fin(thickness)
+    assert probe.health.watertight
+    assert probe.health.outward
+    assert probe.health.components == 1
+    points, normals = edge.sample(200, rng)
+    assert points[:, 0] == pytest.approx(0.027)
+    assert np.abs(points[:, 1]).max() <= thickness / 2
+    assert normals == pytest.approx(np.tile([1.0, 0.0, 0.0], (200, 1)))
+
+
+def test_every_part_has_its_figures(report):
+    assert [part for part in study.PARTS if not any(row.part == part for row in report.rows)] == []
+    assert all(row.low <= row.value <= row.high for row in report.rows)
+    shares = [row for row in report.rows if row.unit == "%"]
+    assert all(row.low >= 0 and row.high <= 100 for row in shares)
+    assert all(row.probe in ("linear", "capsule") for row in report.rows)
+
+
+def test_the_same_seed_gives_the_same(report):
+    assert study.run(("linear",), TINY, seed=1).rows == report.rows
+    assert study.run(("linear",), TINY, seed=2).rows != report.rows
+
+
+def test_bins_compare_what_is_stated_with_what_is_right(rng):
+    stated = rng.uniform(0, 1, 20_000)
+    honest = list(study.bins("probe", "case", stated, rng.random(20_000) < stated))
+    assert all(row.met for row in honest if row.stated < 99)
+    boastful = list(study.bins("probe", "case", stated, rng.random(20_000) < stated - 0.1))
+    assert not any(row.met for row in boastful if 20 < row.stated < 99)
+    assert not next(row for row in boastful if row.stated > 99).met
+    # Few answers prove nothing.
+    few = list(study.bins("probe", "case", stated[:30], np.zeros(30, dtype=bool)))
+    assert all(row.met for row in few if row.stated < 99)
+
+
+def test_a_bound_is_judged_by_the_mean():
+    row = study.Row("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.1)
+    assert not row.met
+    assert study.Row("fin", "p", "c", "f", "%", 10, 0.2, 0.0, 0.4, at_most=0.2).met
+    assert not study.Row("fin", "p", "c", "f", "%", 10, 97.0, 90.0, 99.0, at_least=98.0).met
+
+
+def test_the_ellipse_holds_what_it_says_and_more_where_there_is_no_drift():
+    def inside(drift):
+        rng = np.random.default_rng(0)
+        return cases.ellipse("linear", 2_000, cases.FILTERED, 0.0003, 500, rng, drift=drift)
+
+    assert 0.92 < inside(True)["inside"] < 0.98 < inside(False)["inside"]
+    assert 0 <= inside(True)["left out"] < 0.05
+
+
+def test_one_touch_is_plausible_and_most_pairs_are_not():
+    found = cases.single("linear", 1_000, cases.RAW, 0.0003, 200, np.random.default_rng(0))
+    assert found["implausible"] == 0.0
+    both = cases.two("linear", 1_000, 200, np.random.default_rng(0))
+    assert both["implausible"] > 0.5
+    assert both["sure and over 5 mm from both"] <= both["sure"]
+
+
+def test_the_page_is_made_from_the_file_alone(report, tmp_path):
+    page = study.keep(report, tmp_path, quick=True)
+    first = page.read_text()
+    assert make_page(tmp_path) == first
+    assert (tmp_path / "reliability.png").stat().st_size > 1_000
+    for title, text in tables(report.rows):
+        assert title in first
+        assert text in first
+    assert "No probe from a file was measured" in first
+    missed = [row for row in report.rows if not row.met]
+    assert ("Every bound is kept." in first) == (not missed)
+
+
+def test_the_command_prints_one_object():
+    arguments = [
+        "study",
+        "confidence",
+        "--quick",
+        "--touches",
+        "100",
+        "--seeds",
+        "1",
+        "--probe",
+        "linear",
+        "--json",
+    ]
+    result = CliRunner().invoke(app, arguments)
+    data = json.loads(result.stdout)
+    assert result.exit_code == (0 if data["passed"] else 1)
+    assert data["probes"] == ["linear"]
+    assert {"part", "case", "figure", "value", "met"} <= set(data["rows"][0])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [(["--probe", "banana"], "banana"), (["--seed", "-1"], "seed: -1"), (["--touches", "5"], "100")],
+)
+def test_wrong_options_are_named(arguments, said):
+    result = CliRunner().invoke(app, ["study", "confidence", "--quick", *arguments])
+    assert result.exit_code == 2
+    assert said in result.stderr
+
+
+def test_sure_is_ok_or_vertex_alone(rng):
+    asked = cases.press(
+        cases.body_of("t-shape"), ContactSolver(cases.mesh("t-shape", 500, region=True)), 300, rng
+    )
+    assert (asked.sure == np.isin(asked.batch.reasons, (Reason.OK, Reason.VERTEX))).all()

@@ -123,7 +123,7 @@ inline Model make_model(std::vector<Vec3> vertices, const std::vector<Triangle>&
         m.normals.push_back((1.0 / length) * n);
         for (std::int32_t v : faces[f]) m.reach = std::max(m.reach, norm(m.vertices[std::size_t(v)]));
     }
-    m.topology = Topology(faces, m.vertices.size());
+    m.topology = Topology(faces);
     auto errors = terms.curved ? detail::curvature_errors(m, faces) : std::vector<MeshError<double>>(faces.size());
     const double deviation = terms.deviation / m.frame.scale;
     for (MeshError<double>& e : errors) e.spread += deviation * deviation;

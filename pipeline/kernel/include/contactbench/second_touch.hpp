@@ -31,7 +31,7 @@ public:
         if (told_ && has_left(a, g)) reset();
         if (told_ || suspicious(w, g, a)) {
             if (is_second(w, g, alone)) {
-                tell(w, a);
+                tell(a);
                 return;
             }
             if (told_ && ++doubts_ <= g.recent_samples && norm(w.F - before_.wrench.F) >= least_step(g)) return;
@@ -80,11 +80,11 @@ private:
         return true;
     }
 
-    // Of the two, the first is given as it was; figures of the whole wrench stay those of one touch.
-    void tell(const Wrench& w, Answer& a) const {
+    // Of the two, the first is given as it was: the sum of both forces may well pull at it. Figures of the whole wrench
+    // stay those of one touch.
+    void tell(Answer& a) const {
         Candidate& c = a.candidates[0] = before_.touch;
         c.why = Why::chosen;
-        c.cosine = -dot(c.normal, w.F) / norm(w.F);
         a.count = 1;
         a.chosen = 0;
         a.reason = Reason::two_touches;

@@ -92,14 +92,10 @@ public:
     // Of a point on a plane, whoever found it there; S, m^2.
     Mat3 covariance(const Wrench& w, Vec3 point, Vec3 normal, std::int32_t face) const {
         const Query q = make_query(model_->frame, w, uncertainty_);
-        return covariance(q, point, normal, face);
-    }
-
-private:
-    Mat3 covariance(const Query& q, Vec3 point, Vec3 normal, std::int32_t face) const {
         return plane_covariance(model_->frame, q, normal, depth_of(q, point), mesh_error(face));
     }
 
+private:
     double depth_of(const Query& q, Vec3 point) const {
         return dot((1.0 / model_->frame.scale) * (point - model_->frame.centre), q.f);
     }

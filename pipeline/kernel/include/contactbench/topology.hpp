@@ -1,4 +1,4 @@
-// Which facet lies behind which edge, and which facets surround a vertex.
+// Which facet lies behind which edge.
 //
 // Contract: indices are vertex numbers in [0, vertex_count); faces are counter-clockwise seen from
 // outside. Construction is O(m log m) in the facets and the only part that allocates.
@@ -12,7 +12,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "vec.hpp"
@@ -42,21 +41,11 @@ public:
     static constexpr std::int32_t none = -1;
 
     Topology() = default;
-    Topology(const std::vector<Triangle>& faces, std::size_t vertex_count) {
-        link_twins(faces);
-        order_fans(faces, vertex_count);
-    }
+    explicit Topology(const std::vector<Triangle>& faces) { link_twins(faces); }
 
     // The half-edge that runs the other way on the same edge, or `none` on a rim, a non-manifold
     // edge or between facets of opposite winding.
     std::int32_t twin(std::int32_t half_edge) const { return twin_[std::size_t(half_edge)]; }
-
-    // Outgoing half-edges of a vertex in counter-clockwise order, or an empty range when the facets
-    // around it do not form exactly one closed fan: such a vertex can carry no contact of its own.
-    std::pair<const std::int32_t*, const std::int32_t*> fan(std::int32_t vertex) const {
-        const std::size_t v = std::size_t(vertex);
-        return {fan_.data() + start_[v], fan_.data() + start_[v + 1]};
-    }
 
     // Every edge has exactly two facets of matching winding.
     bool closed() const { return closed_; }
@@ -94,32 +83,7 @@ private:
         }
     }
 
-    void order_fans(const std::vector<Triangle>& faces, std::size_t vertex_count) {
-        std::vector<std::int32_t> degree(vertex_count, 0), first(vertex_count, none);
-        for (std::size_t f = 0; f < faces.size(); ++f)
-            for (int c = 0; c < 3; ++c) {
-                const std::size_t v = std::size_t(faces[f][std::size_t(c)]);
-                if (degree[v]++ == 0) first[v] = std::int32_t(3 * f) + c;
-            }
-        start_.assign(vertex_count + 1, 0);
-        for (std::size_t v = 0; v < vertex_count; ++v) {
-            start_[v] = fan_.size();
-            // Next outgoing half-edge, counter-clockwise: the twin of the one that comes in.
-            std::int32_t h = first[v];
-            std::int32_t steps = 0;
-            while (h != none && steps < degree[v]) {
-                fan_.push_back(h);
-                ++steps;
-                h = twin_[std::size_t(h - h % 3 + (h + 2) % 3)];
-                if (h == first[v]) break;
-            }
-            if (steps == 0 || steps != degree[v] || h != first[v]) fan_.resize(start_[v]);
-        }
-        start_[vertex_count] = fan_.size();
-    }
-
-    std::vector<std::int32_t> twin_, fan_;
-    std::vector<std::size_t> start_;
+    std::vector<std::int32_t> twin_;
     bool closed_ = false;
 };
 

@@ -5,7 +5,7 @@ The functions import what they need themselves, in a worker: the window is there
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date
 from typing import TYPE_CHECKING
 
@@ -31,10 +31,16 @@ class Opened:
     desk : Desk
     unfinished : tuple of str
         Recordings in it whose making was cut short.
+    found : tuple of str
+        What its salvage found, in sentences.
+    why_read_only : str
+        "damaged", "elsewhere" or "folder": why nothing can be added to it; empty if it can be.
     """
 
     desk: Desk
     unfinished: tuple[str, ...]
+    found: tuple[str, ...] = ()
+    why_read_only: str = ""
 
 
 @dataclass(frozen=True)
@@ -46,22 +52,42 @@ class Problem:
     ----------
     sentence : str
     readable : bool
-        Whether it can be looked at nevertheless.
+        Whether it can be opened read-only nevertheless.
+    damaged : bool
+        Whether a copy of what is whole may be made.
     """
 
     sentence: str
-    readable: bool
+    readable: bool = False
+    damaged: bool = False
 
 
-def open_session(folder: Path) -> Opened:
-    """Open a session for writing; waits for the disk. SessionError: it cannot be."""
-    from pipeline.session import Session
+def open_session(folder: Path, *, write: bool = True) -> Opened:
+    """
+    Open a session, read-only where its folder cannot be written; waits for the disk.
+
+    Parameters
+    ----------
+    folder : path
+    write : bool
+        False: read-only, also if it is damaged or open elsewhere.
+
+    Raises
+    ------
+    SessionError
+        It cannot be opened.
+    """
+    from pipeline.session import Session, SessionReadOnlyError
     from pipeline.session.files import unfinished
     from pipeline.workbench.desk import Desk
 
-    session = Session.open(folder)
     try:
-        return Opened(Desk(session), tuple(unfinished(folder)))
+        session = Session.open(folder, write=write, damaged=not write)
+    except SessionReadOnlyError:
+        return open_session(folder, write=False)
+    try:
+        left = tuple(unfinished(folder)) if write else ()
+        return Opened(Desk(session), left, why_read_only=_why_read_only(session))
     except BaseException:
         session.close()
         raise
@@ -109,6 +135,34 @@ def free_folder(parent: Path, name: str) -> Path:
     return candidate
 
 
+def salvaged(folder: Path, elsewhere: Path) -> Opened:
+    """
+    Salvage a copy beside a damaged session, and open it.
+
+    The copy goes into the folder `elsewhere` where nothing can be written beside the session. SessionError: there is
+    nothing whole, or the copy cannot be written.
+    """
+    from pipeline.session.lock import writable
+    from pipeline.session.salvage import salvage
+
+    out = None
+    if not writable(folder.absolute().parent):
+        elsewhere.mkdir(parents=True, exist_ok=True)
+        out = free_folder(elsewhere, f"{folder.name} salvaged")
+    done = salvage(folder, out)
+    return replace(open_session(done.out), found=done.found)
+
+
+def _why_read_only(session: Session) -> str:
+    from pipeline.session.lock import written_now
+
+    if session.writable:
+        return ""
+    if session.damage:
+        return "damaged"
+    return "elsewhere" if written_now(session.folder) else "folder"
+
+
 def adopt(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Take recordings into the session that were cut short; what was done, and what could not be."""
     from pipeline.session.unfinished import adopt_unfinished
@@ -139,11 +193,12 @@ def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
 
 def problem_with(error: BaseException) -> Problem | None:
     """Return why a session was not opened, in words; None for an error that nobody expected."""
-    from pipeline.session import SessionLockedError
+    from pipeline.session import JournalError, SessionLockedError
 
     if not isinstance(error, (InputError, OSError)):
         return None
-    return Problem(str(error), isinstance(error, SessionLockedError))
+    damaged = isinstance(error, JournalError)
+    return Problem(str(error), damaged or isinstance(error, SessionLockedError), damaged)
 
 
 def holds_session(folder: Path) -> bool:
@@ -152,21 +207,3 @@ def holds_session(folder: Path) -> bool:
         return (folder / "journal").is_file()
     except OSError:
         return False
-
-
-def description(folder: Path) -> str:
-    """Return what is in a session, as lines; changes nothing. SessionError: it cannot be read."""
-    from pipeline.session import Session
-
-    with Session.open(folder, write=False) as session:
-        state, stale = session.state, session.stale()
-        lines = [str(folder), ""]
-        lines += [f"input  {each.kind}  {each.name}  {each.at}" for each in state.inputs]
-        for slot, why in stale.items():
-            result = state.current_results[slot]
-            lines.append(
-                f"result  {result.title}  {result.at}" + (f"  stale: {' '.join(why)}" if why else "")
-            )
-        lines += [f"setting  {key} = {setting.value}" for key, setting in state.settings.items()]
-        lines += [f"note  {note.text}" for note in state.notes]
-        return "\n".join(lines + list(session.notes))

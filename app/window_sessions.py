@@ -10,28 +10,30 @@ from PySide6.QtCore import QObject, QStandardPaths, Signal
 from PySide6.QtWidgets import QFileDialog
 
 from app.errors import in_words
-from app.help_text import TextDialog
 from app.opening import (
     Opened,
     Problem,
     adopt,
-    description,
     free_folder,
     holds_session,
     new_session,
     open_session,
     problem_with,
+    salvaged,
     virtual_session,
 )
 from app.start import session_name
+from app.window_reading import ReadOnlyView
 from pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from app.bench import Bench
     from app.jobs import Jobs
     from app.settings import Settings
     from app.start import StartPage
+    from app.window import MainWindow
 
 _NEEDED = (
     "widgets.scene",
@@ -60,8 +62,10 @@ class Sessions(QObject):
     wanted = Signal()
     told = Signal(str, str, str)
 
-    def __init__(self, start: StartPage, jobs: Jobs, settings: Settings, parent: QObject) -> None:
-        super().__init__(parent)
+    def __init__(self, start: StartPage, jobs: Jobs, settings: Settings, window: MainWindow) -> None:
+        super().__init__(window)
+        self._window, self._why_read_only = window, ""
+        window.shown.connect(self._say_read_only)
         self._start, self._jobs, self._settings = start, jobs, settings
         self._next: Callable[[], None] | None = None
         self._waiting: Opened | None = None
@@ -95,12 +99,21 @@ class Sessions(QObject):
 
         self._ask_for(lambda: self._begin(self.tr("Preparing the virtual bench"), work, Step.GRAVITY))
 
-    def open(self, folder: Path) -> None:
-        """Open a session."""
+    def open(self, folder: Path, *, write: bool = True) -> None:
+        """Open a session; `write`: False opens it read-only, also if it is damaged or open elsewhere."""
         page = self._settings.page_of(folder)
         step = Step(page) if page in set(Step) else None
         title = self.tr("Opening {}").format(session_name(folder))
-        self._ask_for(lambda: self._begin(title, lambda _p, _c: open_session(folder), step, folder))
+        self._ask_for(
+            lambda: self._begin(title, lambda _p, _c: open_session(folder, write=write), step, folder)
+        )
+
+    def salvage(self, folder: Path) -> None:
+        """Copy all that is whole in a damaged session into a new one beside it, and open that."""
+        title = self.tr("Salvaging a copy of {}").format(session_name(folder))
+        self._ask_for(
+            lambda: self._begin(title, lambda _p, _c: salvaged(folder, self._settings.sessions), None)
+        )
 
     def new(self, folder: Path) -> None:
         """Make a session."""
@@ -172,6 +185,9 @@ class Sessions(QObject):
 
     def _came(self, opened: Opened, step: Step | None) -> None:
         self._start.set_busy(False)
+        self._why_read_only = opened.why_read_only
+        for sentence in opened.found:
+            self.told.emit("warning", sentence, "")
         if not opened.unfinished:
             self.opened.emit(opened, step)
             return
@@ -202,6 +218,10 @@ class Sessions(QObject):
                 (self.tr("Choose another session"), self.close),
             ),
         )
+
+    def _say_read_only(self, bench: Bench) -> None:
+        if self._why_read_only:
+            ReadOnlyView(bench, self._window, self._why_read_only)
 
     def _adopt(self, opened: Opened, step: Step | None) -> None:
         self._start.set_busy(True)
@@ -238,22 +258,13 @@ class Sessions(QObject):
             problem = Problem(self.tr("The session could not be opened: {}").format(sentence), False)
             self.told.emit("error", problem.sentence, details)
         answers: list[tuple[str, Callable[[], None]]] = [(self.tr("Choose another session"), self.ask_open)]
-        if problem.readable and folder is not None:
-            answers.append((self.tr("Look at it without changing it"), lambda: self._look(folder)))
         if folder is not None:
+            if problem.readable:
+                answers.insert(0, (self.tr("Open read-only"), lambda: self.open(folder, write=False)))
+            if problem.damaged:
+                answers.insert(0, (self.tr("Salvage a copy"), lambda: self.salvage(folder)))
             answers.append((self.tr("Try again"), lambda: self.open(folder)))
         self._start.question.ask(problem.sentence, answers)
-
-    def _look(self, folder: Path) -> None:
-        def show(text: str) -> None:
-            TextDialog(session_name(folder), text, self._start.window()).open()
-
-        self._jobs.start(
-            self.tr("Reading {}").format(session_name(folder)),
-            lambda _p, _c: description(folder),
-            show,
-            lambda error: self._refused(error, None),
-        )
 
     def _place(self) -> Path:
         # The folder is not made before something is put into it.

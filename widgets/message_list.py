@@ -26,6 +26,7 @@ from widgets.phrases import said
 from widgets.theme import colours, is_dark
 
 _MOST = 500
+_NEWEST = 6  # a device that comes and goes tells a few things in turn
 _ICONS = {
     "info": ("info", "muted"),
     "good": ("done", "good"),
@@ -116,13 +117,13 @@ class MessageList(QWidget):
         return row
 
     def add(self, weight: str, text: str, details: str = "", at: datetime | None = None) -> None:
-        """Put a message on top; the same one again is counted instead."""
+        """Put a message on top; the same one again, among the newest, is counted and moved there."""
         text, at = said(text), at or datetime.now().astimezone()
-        if self._list.count():
-            told: _Told = self._list.item(0).data(_ROW)
+        for row in range(min(self._list.count(), _NEWEST)):
+            told = self._told(row)
             if (told.weight, told.text) == (weight, text):
                 told.times, told.at, told.details = told.times + 1, at, details or told.details
-                self._write(self._list.item(0), told)
+                self._raise(row, told)
                 return
         item = QListWidgetItem()
         self._list.insertItem(0, item)
@@ -177,6 +178,15 @@ class MessageList(QWidget):
         item.setText(f"{told.at:%H:%M:%S}  {self.word_of(told.weight)}: {told.text}{again}")
         item.setIcon(icon(*_ICONS[told.weight]))
         item.setData(_ROW, told)
+
+    def _raise(self, row: int, told: _Told) -> None:
+        """Move a message to the top, as it was: selected or not, shown or not."""
+        chosen, hidden = self._list.item(row).isSelected(), self._list.item(row).isHidden()
+        item = self._list.takeItem(row)
+        self._list.insertItem(0, item)
+        self._write(item, told)
+        item.setSelected(chosen)
+        item.setHidden(hidden)
 
     def _sift(self) -> None:
         least = self._filter.currentIndex()

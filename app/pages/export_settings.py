@@ -45,6 +45,12 @@ class ExportSettingsPanel(QWidget):
             self.tr("Serial number of the sensor"), self.tr("as the session knows it"), "serial"
         )
         form.addRow(self.tr("Serial number"), self.serial)
+        self.sensor_name = self._text(
+            self.tr("Name of the sensor in the robot description, for ros2.yaml"),
+            self.tr("to be filled in later"),
+            "sensor_name",
+        )
+        form.addRow(self.tr("Name in ROS"), self.sensor_name)
         self.operator = self._text(
             self.tr("Who is answerable"), self.tr("who made the newest result"), "operator"
         )
@@ -144,6 +150,7 @@ class ExportSettingsPanel(QWidget):
         texts = (
             (self.sensor, "" if options.sensor == "unknown" else options.sensor),
             (self.serial, options.serial or ""),
+            (self.sensor_name, options.sensor_name or ""),
             (self.operator, options.operator or ""),
         )
         for field, text in texts:

@@ -2934,6 +2934,25 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     </message>
 </context>
 <context>
+    <name>ReadOnlyView</name>
+    <message>
+        <source>Read-only</source>
+        <translation>Schreibgeschützt</translation>
+    </message>
+    <message>
+        <source>Read-only: this session is damaged. To go on working, close it, open it again and salvage a copy.</source>
+        <translation>Schreibgeschützt: Diese Sitzung ist beschädigt. Um weiterzuarbeiten, schließen Sie sie, öffnen Sie sie erneut und retten Sie eine Kopie.</translation>
+    </message>
+    <message>
+        <source>Read-only: another program is writing this session. It is shown as it was when it was opened.</source>
+        <translation>Schreibgeschützt: Ein anderes Programm schreibt in diese Sitzung. Sie wird so gezeigt, wie sie beim Öffnen war.</translation>
+    </message>
+    <message>
+        <source>Read-only: the folder of this session cannot be written. To go on working, make it writable or copy it.</source>
+        <translation>Schreibgeschützt: Der Ordner dieser Sitzung ist nicht beschreibbar. Um weiterzuarbeiten, machen Sie ihn beschreibbar oder kopieren Sie ihn.</translation>
+    </message>
+</context>
+<context>
     <name>ReadingBox</name>
     <message>
         <source>Reading recordings</source>
@@ -3487,16 +3506,20 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Die Sitzung konnte nicht geöffnet werden: {}</translation>
     </message>
     <message>
-        <source>Look at it without changing it</source>
-        <translation>Ansehen, ohne sie zu ändern</translation>
+        <source>Salvaging a copy of {}</source>
+        <translation>Eine Kopie von {} wird gerettet</translation>
+    </message>
+    <message>
+        <source>Salvage a copy</source>
+        <translation>Kopie retten</translation>
+    </message>
+    <message>
+        <source>Open read-only</source>
+        <translation>Schreibgeschützt öffnen</translation>
     </message>
     <message>
         <source>Try again</source>
         <translation>Noch einmal versuchen</translation>
-    </message>
-    <message>
-        <source>Reading {}</source>
-        <translation>{} wird gelesen</translation>
     </message>
 </context>
 <context>

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,12 @@ PARAMETERS = (
     *(f"centre_of_mass_S_{axis}" for axis in "xyz"),
     *(f"torque_bias_{axis}" for axis in "xyz"),
 )
+
+
+def length(v: NDArray[np.float64]) -> float:
+    """Return the length of a vector (3,), with the same bits on every processor, which `np.linalg.norm` has not."""
+    x, y, z = v.tolist()
+    return math.sqrt(x * x + y * y + z * z)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +86,7 @@ class GravityModel:
     @property
     def mass(self) -> float:
         """Mass of the load, kg."""
-        return float(np.linalg.norm(self.gravity_W)) / STANDARD_GRAVITY
+        return length(self.gravity_W) / STANDARD_GRAVITY
 
     @property
     def mass_sigma(self) -> float:

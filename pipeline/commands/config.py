@@ -92,6 +92,13 @@ def export(
         str | None, typer.Option(help="Frame S, as the robot description names it [ft_sensor].")
     ] = None,
     world_frame: Annotated[str | None, typer.Option(help="Frame W, the same [base_link].")] = None,
+    sensor_name: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="The sensor in the robot description's ros2_control tag, for ros2.yaml [a placeholder].",
+        ),
+    ] = None,
     operator: Annotated[
         str | None, typer.Option(help="Who is answerable [who made the newest of the session's results].")
     ] = None,
@@ -112,7 +119,8 @@ def export(
         "sensor": sensor, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
         "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only,
         "accept_by_region": accept_by_region, "torsion_arm_mm": torsion_arm_mm, "max_force": max_force,
-        "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame, "operator": operator,
+        "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame,
+        "sensor_name": sensor_name, "operator": operator,
         "mount": None if mount is None else numbers(mount, 3, "--mount"),
         "saturation": None if saturation is None else numbers(saturation, 6, "--saturation"),
     }  # fmt: skip
@@ -142,15 +150,19 @@ def export(
 
 
 @config_app.command(
-    help="Load a bundle as a runtime does. Exit code 1: it is sound but not verified; 2: it is refused.",
+    help=(
+        "Load a bundle as a runtime does, and replay its test vectors. Exit code 1: it is sound but not verified; 2: it"
+        " is refused."
+    ),
     epilog="Example: contactbench config check runtime.zip --json",
 )
 def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
     """Load a bundle and say what it is."""
     from pipeline.config.runtime import RuntimeConfig
+    from pipeline.config.runtime.self_test import replay
 
     found = RuntimeConfig.load(bundle)
-    model = found.model
+    model, replayed = found.model, replay(found, str(bundle))
     say(
         f"{bundle}: sound, version {model.version}, {_standing(found)}.",
         "green" if model.verified else "yellow",
@@ -160,9 +172,13 @@ def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
         f" {model.probe.name} ({model.probe.facets:,} facets); made {model.provenance.created} by"
         f" {model.provenance.operator}."
     )
+    if replayed is None:
+        say("No test vectors: export the config again to have them.", "yellow")
+    else:
+        say(f"Test vectors: {replayed} samples, all answered as at the export.")
     _say_doubts(found)
     if as_json:
-        print_json({"bundle": str(bundle), **_facts(found)})
+        print_json({"bundle": str(bundle), "replayed": replayed, **_facts(found)})
     if not model.verified:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 import signal
 import threading
 import time
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +17,7 @@ import typer
 from pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from pipeline.devices.drive import Health
     from pipeline.recording.recorder import Recorder
@@ -25,6 +27,9 @@ record_app = typer.Typer(rich_markup_mode=None)
 
 _LOOK_S = 0.05  # how soon the end of a replay is noticed
 _STEPS = 500  # samples between looks at Ctrl-C
+_FOLD_S = 5.0  # between two lines about a device that comes and goes
+_MOST_KINDS = 50
+_NUMBER = re.compile(r"\d+(\.\d+)?")
 
 
 @record_app.command(
@@ -60,6 +65,7 @@ def record(
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
+    changes = Changes()
     recorder: Recorder
     pair = open_pair(
         address,
@@ -73,11 +79,12 @@ def record(
     with ended_by_signals() as ended:
         try:
             with RecordingWriter(out, pair.about(note)) as writer:
-                recorder = Recorder(writer, _say_change, clock=pair.now)
+                recorder = Recorder(writer, changes.tell, clock=pair.now)
                 with recorder, pair:
-                    wait(pair, seconds, ended, recorder.failed)
+                    wait(pair, seconds, ended, recorder.failed, changes=changes)
         finally:
             pair.stop()  # a replay has its file open before it begins
+            changes.end()
     given = dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
     _end(out, given, recorder, as_json)
     if broken(pair) or not all(health.samples for health in given.values()):
@@ -123,13 +130,15 @@ def ports(as_json: JsonOption = False) -> None:
         print_json({"ports": rows})
 
 
-def wait(pair: Pair, seconds: float | None, *ends: threading.Event) -> None:
+def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Changes | None = None) -> None:
     """Wait until the time or the source is over, a stream has failed, or one of the events is set."""
     deadline = math.inf if seconds is None else time.monotonic() + seconds
     while not (pair.finished or broken(pair) or any(end.is_set() for end in ends)):
         left = deadline - time.monotonic()
         if left <= 0:
             return
+        if changes is not None:
+            changes.tick()
         if pair.stepwise:
             pair.step(_STEPS)
         else:
@@ -163,11 +172,77 @@ def ended_by_signals() -> Iterator[threading.Event]:
             signal.signal(each, signal.SIG_IGN if ended.is_set() else handler)
 
 
-def _say_change(device: str, health: Health) -> None:
-    found = " ".join((*health.findings, *health.suspicions))
-    words = f"{device}: {health.state}"
-    with suppress(OSError, SystemExit):  # a closed terminal is no reason to lose samples
-        say(f"{words}: {found}" if found else words, "yellow" if found else "")
+@dataclass
+class _Told:
+    """Of one device: when it last had a line, s; what was said of it; what waits, the newest kind last."""
+
+    at: float
+    known: set[tuple[str, str]] = field(default_factory=set)
+    waiting: dict[tuple[str, str], int] = field(default_factory=dict)
+    found: str = ""
+
+
+class Changes:
+    """Lines about changes of devices: a new one at once, repeats folded into a count.
+
+    A device that comes and goes would flood the terminal. Two changes are the same if the device, its state and its
+    findings are, numbers ignored. Repeats wait until the device has had no line for some seconds; then one line counts
+    them, and ends with how the device is now.
+
+    Streams may call it from their threads. A closed terminal is no error: samples matter more than lines.
+
+    Parameters
+    ----------
+    clock : callable
+        Seconds; only differences count.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._devices: dict[str, _Told] = {}
+        self._lock = threading.Lock()
+
+    def tell(self, device: str, health: Health) -> None:
+        """Say that a device has changed, or count it."""
+        found = " ".join((*health.findings, *health.suspicions))
+        kind = health.state.value, _NUMBER.sub("", found)
+        with self._lock:
+            told = self._devices.setdefault(device, _Told(self._clock()))
+            # Bounded: a device may put anything into its words.
+            new = kind not in told.known and len(told.known) < _MOST_KINDS
+            if new:
+                told.known.add(kind)
+                self._fold(device, told)  # what waited came before
+            told.waiting[kind] = told.waiting.pop(kind, 0) + 1
+            told.found = found
+            if new or self._clock() - told.at >= _FOLD_S:
+                self._fold(device, told)
+
+    def tick(self) -> None:
+        """Say what has waited long enough; to be called a few times a second."""
+        with self._lock:
+            for device, told in self._devices.items():
+                if self._clock() - told.at >= _FOLD_S:
+                    self._fold(device, told)
+
+    def end(self) -> None:
+        """Say whatever waits."""
+        with self._lock:
+            for device, told in self._devices.items():
+                self._fold(device, told)
+
+    def _fold(self, device: str, told: _Told) -> None:
+        if not told.waiting:
+            return
+        newest_first = dict.fromkeys(state for state, _ in reversed(told.waiting))
+        words = f"{device}: {', then '.join(reversed(newest_first))}"
+        now, times = self._clock(), max(told.waiting.values())
+        if times > 1 or len(told.waiting) > 1:
+            words += f" again: {'once' if times == 1 else f'{times} times'} in {now - told.at:.0f} s"
+        told.at = now
+        told.waiting.clear()
+        with suppress(OSError, SystemExit):
+            say(f"{words}: {told.found}" if told.found else words, "yellow" if told.found else "")
 
 
 def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool) -> None:

@@ -19,12 +19,24 @@ recording_app = typer.Typer(
     rich_markup_mode=None,
 )
 
+_LATE_S = 0.1
+_FLAGS = {
+    "overrange": "overrange",
+    "invalid": "invalid",
+    "raw": "raw",
+    "late": "slower than the rate",
+    "error": "with a sensor error",
+    "clock": "with a guessed time",
+}
+
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, an MCAP file.")]
 
 
 @recording_app.command(
     help=(
-        "Say what is in a recording: devices, topics, samples, rates, losses, and whether the file is whole.\n\n"
+        "Say what is in a recording: devices, topics, samples, rates, and whether the file is whole.\n\n"
+        "Counts lost and unusable samples, those that the sensor flagged, those whose time is a guess because the"
+        " device's count or clock had just leapt, and those that arrived more than 0.1 s after they were measured.\n\n"
         "Exit code 1: it is cut off or damaged, or holds no samples."
     ),
     epilog="Example: contactbench recording info touches.mcap",
@@ -207,17 +219,47 @@ def _facts(topic: str, kind: str, track: WrenchTrack | FlangeTrack) -> dict[str,
     times = track.times
     duration = float(times.max() - times.min())
     rate = (len(times) - 1) / duration if duration > 1e-9 else None
-    return {"topic": topic, "kind": kind, "samples": len(times), "seconds": duration, "rate": rate}
+    return {
+        "topic": topic,
+        "kind": kind,
+        "samples": len(times),
+        "seconds": duration,
+        "rate": rate,
+        **_latency(track),
+    }
+
+
+def _latency(track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
+    """Return how long samples took to arrive, s, beyond the shortest time; None where it is not known."""
+    import numpy as np
+
+    delays = (track.arrivals - track.times)[np.isfinite(track.arrivals)]
+    if not len(delays):
+        return {"latency_median": None, "latency_p99": None, "late": 0}
+    median, p99 = np.percentile(delays, (50, 99)).tolist()
+    return {
+        "latency_median": median,
+        "latency_p99": p99,
+        "late": int(np.count_nonzero(delays > _LATE_S)),
+    }
 
 
 def _wrench_facts(topic: str, track: WrenchTrack) -> dict[str, Any]:
     import numpy as np
+
+    from pipeline.devices.sample import Status
 
     steps = np.diff(track.sequence[track.sequence >= 0])
     return {
         **_facts(topic, "wrench", track),
         "lost": sum(step - 1 for step in steps.tolist() if step > 1),
         "unusable": int(np.count_nonzero(~track.usable)),
+        "frozen": int(np.count_nonzero(track.frozen)),
+        "flags": {
+            str(flag.name).lower(): count
+            for flag in Status
+            if (count := int(np.count_nonzero(track.status & flag)))
+        },
     }
 
 
@@ -231,4 +273,12 @@ def _sentence(facts: dict[str, Any]) -> str:
     sentence = f"{facts['topic']}: {facts['samples']:,} {what} in {facts['seconds']:.2f} s{rate}"
     if facts["kind"] == "wrench":
         sentence += f", {facts['lost']:,} lost, {facts['unusable']:,} unusable"
+        if facts["frozen"]:
+            sentence += f", {facts['frozen']:,} frozen"
+        sentence += "".join(f", {count:,} {_FLAGS[name]}" for name, count in facts["flags"].items())
+    if facts["late"]:
+        sentence += f", {facts['late']:,} late by more than {_LATE_S:g} s"
+    if facts["latency_median"] is not None:
+        median, p99 = 1e3 * facts["latency_median"], 1e3 * facts["latency_p99"]
+        sentence += f"; latency {median:.1f} ms (median), {p99:.1f} ms (99th percentile)"
     return sentence + "."

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.record import broken, ended_by_signals
+from pipeline.commands.record import Changes, broken, ended_by_signals
 from pipeline.console import say
 
 if TYPE_CHECKING:
     import threading
+    from collections.abc import Callable
 
     from pipeline.config.runtime import RuntimeConfig
     from pipeline.devices.drive import Health
@@ -36,11 +37,12 @@ _SETTLED_S = 2.0  # a rate is known after that
         "Load a bundle and say at every sample where the probe is touched, until Ctrl-C, for some seconds, or to the"
         " end of a replay.\n\n"
         "Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on those whose"
-        " accepted is true. A sample takes the"
-        " newest pose that is not later than itself, live as in a replay; without one younger than the bundle's"
-        " max_age_s its reason is stale. A typed pose (still://) never gets old. An output that is too slow loses"
-        " contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came, a stream failed,"
-        " or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
+        " accepted is true. A sample takes the orientation at its own time, between two poses or carried on from the"
+        " last one as far as the bundle allows; without one its reason is stale. A typed pose (still://) never gets old."
+        " Each contact says how old it is (latency_s) and what is wrong with the sensor or the poses (health); while"
+        " nothing comes, ten lines a second say silent. An output that is too slow loses contacts, and says how many; it"
+        " never delays the sensor. Exit code 1: not one sample came, more than 5 % of them could not be used, a stream"
+        " failed, or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
     ),
     epilog="Example: contactbench run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2"
     " --udp 127.0.0.1:9000",
@@ -88,6 +90,7 @@ def run(
     runner: Run
     # Said in the main thread: a terminal that hangs must not hang the sensor.
     changes: queue.SimpleQueue[tuple[str, Health]] = queue.SimpleQueue()
+    told = Changes()
     poses = DeviceAddress.parse(pose)
     pair = open_pair(
         sensor,
@@ -102,17 +105,19 @@ def run(
         check_sensor(config, pair.about().devices[0].serial, other=other_sensor)
         targets = _targets(out, mcap, udp, pair.about(), allow_remote=allow_remote)
         outlets = [Outlet(target, patient=pair.player is not None) for target in targets]
-        runner = Run(config, outlets, hold=hold_for(poses))
+        live = pair.player is None
+        runner = Run(config, outlets, hold=hold_for(poses), clock=pair.now if live else None)
         _say_begin(config, pair)
         with responsive(), runner, pair:
-            _wait(pair, runner, config, changes, seconds, ended)
-    _say_changes(changes)
+            _wait(pair, runner, config, lambda: _say_changes(changes, told), seconds, ended)
+    _say_changes(changes, told)
+    told.end()
     _say_end(config, pair, runner)
     for outlet in outlets:
         if outlet.error is not None and not outlet.gone:
             # A new one: the thread of an output that hangs would keep this frame, and with it the kernel, for ever.
             raise OutputError(str(outlet.error))
-    if broken(pair) or not runner.reasons:
+    if broken(pair) or not runner.good:
         raise typer.Exit(1)
 
 
@@ -154,7 +159,7 @@ def _wait(
     pair: Pair,
     runner: Run,
     config: RuntimeConfig,
-    changes: queue.SimpleQueue[tuple[str, Health]],
+    say_changes: Callable[[], None],
     seconds: float | None,
     ended: threading.Event,
 ) -> None:
@@ -168,7 +173,9 @@ def _wait(
         now = time.monotonic()
         if now >= deadline:
             return
-        _say_changes(changes)
+        say_changes()
+        if pair.player is None and not pair.stepwise:
+            runner.heartbeat(pair.now())
         for outlet in runner.outlets:
             if outlet.lost and outlet.name not in slow:
                 slow.add(outlet.name)
@@ -210,13 +217,11 @@ def _say_rate(config: RuntimeConfig, pair: Pair) -> None:
         _say(words, "yellow")
 
 
-def _say_changes(changes: queue.SimpleQueue[tuple[str, Health]]) -> None:
+def _say_changes(changes: queue.SimpleQueue[tuple[str, Health]], told: Changes) -> None:
     with suppress(queue.Empty):
         while True:
-            device, health = changes.get_nowait()
-            found = " ".join((*health.findings, *health.suspicions))
-            words = f"{device}: {health.state}"
-            _say(f"{words}: {found}" if found else words, "yellow" if found else "")
+            told.tell(*changes.get_nowait())
+    told.tick()
 
 
 def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
@@ -229,6 +234,18 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
             _say(f"{device}: {health.failure}", "red")
     counted = ", ".join(f"{reason} {count:,}" for reason, count in runner.reasons.most_common())
     _say(f"located: {sum(runner.reasons.values()):,} samples: {counted or 'none'}.")
+    median, worst = runner.latencies.quantile(0.5), runner.latencies.quantile(0.99)
+    if median is not None and worst is not None:
+        _say(f"latency: {1e3 * median:.1f} ms in the median, {1e3 * worst:.1f} ms for 99 of 100.")
+    if runner.unhealthy:
+        wrong = ", ".join(f"{name} {count:,}" for name, count in runner.unhealthy.most_common())
+        _say(f"unhealthy: {wrong}.", "yellow")
+    if runner.reasons and not runner.good:
+        _say(
+            f"{runner.unusable:.0%} of the samples could not be used: look at the reasons above, then at sensor, poses"
+            " and their rates.",
+            "red",
+        )
     for outlet in runner.outlets:
         _say(
             f"{outlet.name}: {outlet.published:,} contacts published, {outlet.lost:,} not.",

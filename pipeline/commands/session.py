@@ -99,8 +99,9 @@ def compute(
         str,
         typer.Argument(
             metavar="KIND",
-            help="captures, from a recording; calibration, from poses; probe, from the mesh and an alignment, if"
-            " there is one.",
+            help="captures, from a recording; calibration, from poses; probe, from the mesh and, where there are some,"
+            " an alignment and regions; verification, from a recording, a probe, a calibration and markers; report,"
+            " from a verification and its probe.",
         ),
     ],
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the result's file.")],
@@ -160,11 +161,16 @@ def _setting(text: str) -> tuple[str, Any]:
 
 @session_app.command(epilog="Example: contactbench session info bench-1 --json")
 def info(folder: FolderArgument, as_json: JsonOption = False) -> None:
-    """Say what a session holds, and which results are stale and why; also while it is being written."""
+    """Say what a session holds, and which results are stale and why; also while it is being written, or read-only.
+
+    Of a damaged session, what is whole. Nothing is written. Exit code 1: it is damaged.
+    """
     from pipeline.session import Session
 
-    with Session.open(folder, write=False) as session:
-        state, stale, notes = session.state, session.stale(), session.notes
+    with Session.open(folder, write=False, damaged=True) as session:
+        state, stale, notes, damage = session.state, session.stale(), session.notes, session.damage
+    if damage:
+        say(f"{folder}: {damage}: `contactbench session salvage` copies all that is whole.", "red")
     for note in notes:
         say(f"warning: {note}", "yellow")
     say(f"Session {state.id}: {state.count} records.")
@@ -175,7 +181,9 @@ def info(folder: FolderArgument, as_json: JsonOption = False) -> None:
         for reason in stale[slot]:
             say(f"  {reason}")
     if as_json:
-        print_json(_facts(state, stale, notes))
+        print_json(_facts(state, stale, notes) | {"damage": damage})
+    if damage:
+        raise typer.Exit(_WRONG)
 
 
 def _word(result: Result, reasons: tuple[str, ...]) -> str:

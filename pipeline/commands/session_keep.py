@@ -1,4 +1,4 @@
-"""``contactbench session verify, repair, export-archive, import-archive``: what keeps a session whole."""
+"""``contactbench session verify, repair, salvage, export-archive, import-archive``: what keeps a session whole."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ def add_keeping_commands(app: typer.Typer) -> None:
     """Add them to the commands of a session."""
     app.command("verify", epilog="Example: contactbench session verify bench-1")(verify)
     app.command("repair", epilog="Example: contactbench session repair bench-1")(repair)
+    app.command("salvage", epilog="Example: contactbench session salvage bench-1 --out bench-1-new")(salvage)
     app.command(
         "export-archive", epilog="Example: contactbench session export-archive bench-1 --out bench-1.zip"
     )(export)
@@ -58,6 +59,40 @@ def repair(folder: FolderArgument, as_json: JsonOption = False) -> None:
     if as_json:
         print_json(vars(done))
     if done.left:
+        raise typer.Exit(_WRONG)
+
+
+def salvage(
+    folder: FolderArgument,
+    out: Annotated[
+        Path | None, typer.Option(metavar="NEW", help="Folder to make [DIR-salvaged, beside DIR].")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Copy all that is whole in a damaged session into a new one, and mark what rests on the rest as stale.
+
+    The damaged session is not changed. Exit code 1: a record or a file is lost.
+    """
+    from pipeline.session.salvage import salvage as run
+
+    with Bar("copying files", counted=True) as bar:
+        done = run(folder, out, bar)
+    for sentence in done.found:
+        say(sentence, "yellow")
+    for title, reasons in done.stale.items():
+        say(f"{title} is stale: {reasons[0]}", "yellow")
+    for place in done.unclaimed:
+        say(
+            f"{done.out / place} belongs to no record: if it is needed, `contactbench session add` it.",
+            "yellow",
+        )
+    lost = "nothing is lost" if done.whole else "not everything could be saved"
+    say(
+        f"{done.out}: a new session with {done.records} records; {lost}.", "green" if done.whole else "yellow"
+    )
+    if as_json:
+        print_json({**vars(done), "out": str(done.out)})
+    if not done.whole:
         raise typer.Exit(_WRONG)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.record import ended_by_signals, wait
+from pipeline.commands.record import Changes, ended_by_signals, wait
 from pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
@@ -84,6 +84,7 @@ def _record(
     from pipeline.session.live import LiveRecording
     from pipeline.streams import open_pair
 
+    changes = Changes()
     live: LiveRecording
     pair = open_pair(
         sensor,
@@ -100,14 +101,15 @@ def _record(
             about,
             sensor=serial,
             name=name,
-            on_change=_say,
+            on_change=changes.tell,
             clock=pair.now,
             patient=pair.stepwise,
         )
         with ended_by_signals() as ended, live, pair:
-            wait(pair, seconds, ended, live.recorder.failed)
+            wait(pair, seconds, ended, live.recorder.failed, changes=changes)
     finally:
         pair.stop()  # a replay has its file open before it begins
+        changes.end()
     healths = (stream.health for stream in pair.streams)
     return live, dict(zip(("sensor", "robot"), healths, strict=False))
 
@@ -153,11 +155,3 @@ def _facts(live: LiveRecording, streams: dict[str, Health]) -> dict[str, object]
         "skipped": live.recorder.skipped,
         "dropped": live.recorder.dropped,
     }
-
-
-def _say(device: str, health: Health) -> None:
-    found = " ".join((*health.findings, *health.suspicions))
-    say(
-        f"{device}: {health.state}: {found}" if found else f"{device}: {health.state}",
-        "yellow" if found else "",
-    )

@@ -4,15 +4,18 @@ This is the project's convention, which the exports translate (S sensor, W world
 
     F = R_SW g_W + F0,    M = L_S x (R_SW g_W) + M0
 
-``ros2_control``: names, types and formulas as in the master branches of ros2_controllers, 2023 (4.2) to 2025,
-and of kinematics_interface with its KDL plugin. The broadcaster has offsets from ros2_controllers 4.16 on
-(Jazzy) and multipliers from Kilted on; an older one ignores them.
+``ros2_control``: names, types and formulas as in the sources of ros2_controllers from 4.16.0 to the releases in
+`CHECKED`, and of kinematics_interface with its KDL plugin as of 2025. The broadcaster has offsets from 4.16.0 on and
+multipliers from 4.25.0 on; an older one ignores them. ``docs/ros.md`` has the table of releases.
 
 ``force_torque_tools`` (KTH, ROS 1): as in the sources behind release 1.2 (2018). `ft_calib_yaml` says what
 became of the sign of the imu reading in 2021.
 
 The text is YAML 1.1 in ASCII. Every number carries a decimal point, every string is quoted: ROS 2 refuses an
 int where it wants a double, and a list that mixes the two.
+
+Facts that the model does not hold, such as frames, stand in lines of their own below the title, in a fixed order:
+`regenerate_ros2_yaml` and `regenerate_ft_calib_yaml` read them, and return the text that belongs to a model.
 """
 
 from __future__ import annotations
@@ -24,17 +27,28 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline import __version__
-from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, STANDARD_GRAVITY, TORQUE_BIAS
+from pipeline.calibration.model import (
+    CENTRE_OF_MASS,
+    FORCE_BIAS,
+    GRAVITY,
+    STANDARD_GRAVITY,
+    TORQUE_BIAS,
+    length,
+)
 from pipeline.config.vertical import residual_of, vertical_residual
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
     from pipeline.calibration import GravityModel
     from pipeline.config.vertical import VerticalResidual
+
+# Of ros2_controllers, for Jazzy, Kilted, and Lyrical and Rolling: read, not run.
+CHECKED = ("4.42.1", "5.17.0", "6.9.0")
+TOOL = f"contactbench {__version__}"
 
 # What every version of tf, the robot description and a YAML string in quotes agree upon. tf2 refuses a
 # leading slash.
@@ -42,6 +56,9 @@ _FRAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.\-]*(/[A-Za-z0-9_.\-]+)*", re.ASCI
 _NODE = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*", re.ASCII)
 # Node names are keys; these would be read as a truth value or as nothing.
 _YAML_WORDS = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"}
+_TOOL = re.compile(r"contactbench [0-9][0-9A-Za-z.+\-]*", re.ASCII)
+_LONGEST = 200
+_NOT_GIVEN = "(not given)"  # no name: the bracket is none of its characters
 
 
 def ros2_yaml(
@@ -52,6 +69,7 @@ def ros2_yaml(
     sensor_name: str | None = None,
     broadcaster: str = "force_torque_sensor_broadcaster",
     admittance: str = "admittance_controller",
+    tool: str = TOOL,
 ) -> str:
     """Return parameters for ros2_control's force_torque_sensor_broadcaster and admittance_controller.
 
@@ -80,10 +98,13 @@ def ros2_yaml(
     world_frame : str
         Frame W, z up, against which the calibration's orientations were given.
     sensor_name : str, optional
-        The sensor as ros2_control names it. The broadcaster then reads it, and the admittance controller
-        reads what the broadcaster exports, already without bias.
+        The sensor as the ros2_control tag of the robot description names it. The broadcaster reads it, and does
+        not start without; the admittance controller reads what the broadcaster exports. None: the file has
+        comments in both places, for a person to fill in.
     broadcaster, admittance : str
         Names of the two controllers, with namespace if they have one.
+    tool : str
+        Who wrote it: ``contactbench`` and a version.
 
     Returns
     -------
@@ -100,19 +121,29 @@ def ros2_yaml(
     if sensor_name is not None:
         _check(_FRAME, "ros2_yaml", sensor_name=sensor_name)
     _check(_NODE, "ros2_yaml", broadcaster=broadcaster, admittance=admittance)
+    _check_tool("ros2_yaml", tool)
     if broadcaster == admittance:
         raise InputError(f"ros2_yaml: broadcaster and admittance are both {admittance!r}: name two nodes")
     vertical = vertical_residual(model)
     # The exported interfaces carry the node's name without its namespace.
-    source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or 'SENSOR_NAME'}"
+    source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or _PLACEHOLDER}"
     return _document(
-        _head("ros2_control", sensor_frame),
+        *_head(
+            "ros2_control",
+            sensor_frame,
+            tool=tool,
+            sensor_frame=sensor_frame,
+            world_frame=world_frame,
+            sensor_name=sensor_name or _NOT_GIVEN,
+            broadcaster=broadcaster,
+            admittance=admittance,
+        ),
+        *_ROS2_NOTES,
         *_warn("WARNING: ", vertical),
-        "# Needs ros2_controllers 4.16 or newer: older broadcasters ignore the offset.",
         f"{_key(broadcaster)}:",
         "  ros__parameters:",
+        *_sensor_lines(sensor_name),
         f"    frame_id: {_text(sensor_frame)}",
-        *([f"    sensor_name: {_text(sensor_name)}"] if sensor_name else []),
         "    # ADDED to the reading: minus the bias. N and N*m.",
         "    offset:",
         *_axes("force", -model.force_bias, _sigma(model, FORCE_BIAS)),
@@ -125,7 +156,7 @@ def ros2_yaml(
         "  ros__parameters:",
         "    ft_sensor:",
         "      # This controller removes no bias. It has to read what the broadcaster exports (start that",
-        "      # one first), not the sensor itself.",
+        "      # one first), not the sensor itself. Mind the CAUTION above.",
         f"      {'' if sensor_name else '# '}name: {_text(source)}",
         "      frame:",
         f"        id: {_text(sensor_frame)}",
@@ -147,7 +178,9 @@ def ros2_yaml(
     )
 
 
-def ft_calib_yaml(model: GravityModel, *, com_frame: str, child_frame: str = "gripper_com") -> str:
+def ft_calib_yaml(
+    model: GravityModel, *, com_frame: str, child_frame: str = "gripper_com", tool: str = TOOL
+) -> str:
     """Return the calibration file of KTH's force_torque_tools, which its gravity_compensation node loads.
 
     With ``a_S`` the gravity vector, rotated by tf from the frame of the imu message into that of the wrench,
@@ -168,6 +201,8 @@ def ft_calib_yaml(model: GravityModel, *, com_frame: str, child_frame: str = "gr
         Frame that the centre of mass is given in: the sensor frame S, as in the header of the raw wrench.
     child_frame : str
         What the node calls the centre of mass when it publishes it to tf; it does not start without.
+    tool : str
+        Who wrote it: ``contactbench`` and a version.
 
     Returns
     -------
@@ -181,6 +216,7 @@ def ft_calib_yaml(model: GravityModel, *, com_frame: str, child_frame: str = "gr
         takes no mass of zero.
     """
     _check(_FRAME, "ft_calib_yaml", com_frame=com_frame, child_frame=child_frame)
+    _check_tool("ft_calib_yaml", tool)
     if com_frame == child_frame:
         raise InputError(
             f"ft_calib_yaml: com_frame and child_frame are both {com_frame!r}: tf needs two names"
@@ -190,10 +226,16 @@ def ft_calib_yaml(model: GravityModel, *, com_frame: str, child_frame: str = "gr
             "ft_calib_yaml: the load has no weight that points down, and gravity_compensation takes no mass of"
             " zero. Subtract the bias alone, or calibrate with the load mounted."
         )
-    down = STANDARD_GRAVITY * model.gravity_W / np.linalg.norm(model.gravity_W)
+    down = STANDARD_GRAVITY * model.gravity_W / length(model.gravity_W)
     vertical = residual_of(model, model.mass * STANDARD_GRAVITY)
     return _document(
-        _head("KTH gravity_compensation (force_torque_tools)", com_frame),
+        *_head(
+            "KTH gravity_compensation (force_torque_tools)",
+            com_frame,
+            tool=tool,
+            com_frame=com_frame,
+            child_frame=child_frame,
+        ),
         "# The node takes gravity from linear_acceleration in its imu topic, m/s^2, turned by tf. To give it",
         "# the gravity of this calibration, publish in the world frame of the calibration (z up):",
         f"#   {_list(down)}  release 1.2 and older: taken as it is, pointing down",
@@ -212,6 +254,64 @@ def ft_calib_yaml(model: GravityModel, *, com_frame: str, child_frame: str = "gr
         *_sigma_comment("", _sigma(model, CENTRE_OF_MASS)),
         f"gripper_com_pose: {_list([*model.centre_of_mass_S, 0.0, 0.0, 0.0])}",
     )
+
+
+# ---- read again ----------------------------------------------------------------------------------
+
+
+def regenerate_ros2_yaml(text: str, model: GravityModel) -> str:
+    """Return the text that `ros2_yaml` gives for a model and the facts in the head of a text that it once gave.
+
+    A text is what it must be if the two are the same.
+
+    Parameters
+    ----------
+    text : str
+        Not to be trusted. Only the lines of its head are read.
+    model : GravityModel
+
+    Raises
+    ------
+    InputError
+        A line of the head is missing or out of order, or has a name that `ros2_yaml` refuses.
+    """
+    names = "tool", "sensor_frame", "world_frame", "sensor_name", "broadcaster", "admittance"
+    # A bundle names the nodes as `ros2_yaml` does by itself.
+    tool, sensor_frame, world_frame, sensor_name, _, _ = _facts("ros2.yaml", text, names)
+    return ros2_yaml(
+        model,
+        sensor_frame=sensor_frame,
+        world_frame=world_frame,
+        sensor_name=None if sensor_name == _NOT_GIVEN else sensor_name,
+        tool=tool,
+    )
+
+
+def regenerate_ft_calib_yaml(text: str, model: GravityModel) -> str:
+    """Return the text that `ft_calib_yaml` gives for a model and the facts in the head of a text, likewise.
+
+    Raises
+    ------
+    InputError
+        As `regenerate_ros2_yaml` and `ft_calib_yaml`.
+    """
+    names = "tool", "com_frame", "child_frame"
+    tool, com_frame, child_frame = _facts("ft_calib.yaml", text, names)
+    return ft_calib_yaml(model, com_frame=com_frame, child_frame=child_frame, tool=tool)
+
+
+def _facts(file: str, text: str, names: Sequence[str]) -> list[str]:
+    """Return the values of the lines ``# name: value`` below the title."""
+    lines = text.split("\n", len(names) + 1)[1 : len(names) + 1]
+    found = []
+    for number, name in enumerate(names):
+        start, line = f"# {name}: ", lines[number] if number < len(lines) else ""
+        if not line.startswith(start):
+            raise InputError(
+                f"{file}, line {number + 2}: contactbench writes {start + '...'!r} here: export the bundle again."
+            )
+        found.append(line.removeprefix(start))
+    return found
 
 
 # ---- YAML ----------------------------------------------------------------------------------------
@@ -251,12 +351,21 @@ def _key(name: str) -> str:
 
 def _check(pattern: re.Pattern[str], where: str, **names: str) -> None:
     for name, value in names.items():
+        if len(value) > _LONGEST:
+            raise InputError(
+                f"{where}: {name} has {len(value)} characters: give a name of at most {_LONGEST}."
+            )
         if not pattern.fullmatch(value):
             raise InputError(
                 f"{where}: {name} {value!r} is no name that every consumer takes: letters, digits and _"
                 f"{' . -' if pattern is _FRAME else ''}, in parts with one / between"
                 f"{', and no / in front, which tf2 refuses' if pattern is _FRAME else ', none starting with a digit'}"
             )
+
+
+def _check_tool(where: str, tool: str) -> None:
+    if len(tool) > _LONGEST or not _TOOL.fullmatch(tool):
+        raise InputError(f"{where}: tool {tool[:80]!r} is not contactbench and a version: export it again.")
 
 
 # ---- comments ------------------------------------------------------------------------------------
@@ -266,12 +375,13 @@ def _document(*lines: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _head(consumer: str, frame: str) -> str:
-    return (
-        f"# Gravity calibration for {consumer}, written by contactbench {__version__}.\n"
-        f"# Forces in N, torques in N*m about the origin of {_text(frame)}, lengths in m, all in that frame.\n"
-        "# What remains after compensation is what the tissue does to the probe."
-    )
+def _head(consumer: str, frame: str, **facts: str) -> list[str]:
+    return [
+        f"# Gravity calibration for {consumer}.",
+        *(f"# {name}: {value}" for name, value in facts.items()),
+        f"# Forces in N, torques in N*m about the origin of {_text(frame)}, lengths in m, all in that frame.",
+        "# What remains after compensation is what the tissue does to the probe.",
+    ]
 
 
 def _warn(before: str, vertical: VerticalResidual) -> list[str]:
@@ -279,6 +389,29 @@ def _warn(before: str, vertical: VerticalResidual) -> list[str]:
         f"# {line}"
         for warning in vertical.warnings
         for line in textwrap.wrap(before + warning, 98, break_long_words=False)
+    ]
+
+
+_PLACEHOLDER = "SENSOR_NAME"
+_ROS2_NOTES = (
+    "# This is a FRAGMENT, not a complete file: merge it into the robot's controller parameters, as",
+    "# docs/ros.md of contactbench describes.",
+    f"# Checked against the sources of ros2_controllers {', '.join(CHECKED)}. Needs 4.16.0 or newer:",
+    "# older broadcasters ignore the offset.",
+    "# CAUTION: the broadcasters of ros2_controllers 4.42.0, 4.42.1, 5.17.0 and 6.9.0 publish the reading",
+    "# with offset and multiplier, but what they export to other controllers stays as it was when they were",
+    "# configured. Do not chain admittance_controller to them: it would take a constant for the reading,",
+    "# and move the robot. Earlier ones export what they publish.",
+)
+
+
+def _sensor_lines(sensor_name: str | None) -> list[str]:
+    if sensor_name is not None:
+        return [f"    sensor_name: {_text(sensor_name)}"]
+    return [
+        "    # FILL IN the sensor's name in the ros2_control tag of the robot description, here and in",
+        "    # ft_sensor.name below: the broadcaster does not start without it.",
+        f"    # sensor_name: {_text(_PLACEHOLDER)}",
     ]
 
 

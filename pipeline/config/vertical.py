@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pipeline.calibration.model import length
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -93,13 +94,13 @@ def residual_of(model: GravityModel, weight: float) -> VerticalResidual:
     """
     g = model.gravity_W
     tilt = float(np.degrees(np.arctan2(np.hypot(g[0], g[1]), -g[2]))) if g.any() else 0.0
-    force = float(np.linalg.norm(g + [0.0, 0.0, weight]))
-    arm = float(np.linalg.norm(model.centre_of_mass_S))
+    force = length(g + [0.0, 0.0, weight])
+    arm = length(model.centre_of_mass_S)
     torque = arm * force
     C = model.wrench_covariance(_ORIENTATIONS)
     force_sigma = _rms(np.trace(C[:, :3, :3], axis1=1, axis2=2))
     torque_sigma = _rms(np.trace(C[:, 3:, 3:], axis1=1, axis2=2))
-    least = _ROUNDING * float(np.linalg.norm(g))
+    least = _ROUNDING * length(g)
     warnings = []
     if force > max(force_sigma, least) or torque > max(torque_sigma, arm * least):
         warnings.append(

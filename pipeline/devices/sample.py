@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Status(IntFlag):
-    """What a device says about a sample; the same flags for every protocol."""
+    """What is wrong with a sample; the same flags for every protocol. All but CLOCK come from the device."""
 
     OK = 0
     OVERRANGE = 1
@@ -25,6 +25,12 @@ class Status(IntFlag):
     """The device could not keep its rate."""
     ERROR = 16
     """Any other error that the device reports."""
+    CLOCK = 32
+    """Its time is a guess: the device's count or clock has just leapt."""
+
+
+FROZEN_CHANCE = 1e-10
+"""A run of equal readings that chance gives so rarely says that a sensor hangs; how often they repeat is learned."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +41,7 @@ class WrenchSample:
     Attributes
     ----------
     time : float
-        When its last byte arrived, seconds of the host's monotonic clock.
+        When it was measured, seconds of the host's monotonic clock; a parser, which cannot know, gives the arrival.
     force : (fx, fy, fz)
         Sensor frame S, N.
     torque : (mx, my, mz)
@@ -47,6 +53,8 @@ class WrenchSample:
         The device's own clock, seconds from any start, unwrapped; None where the protocol has none.
     temperature : float or None
         Of the sensor, degrees Celsius; None where the protocol has none.
+    arrival : float or None
+        When its last byte arrived, on the clock of `time`; None: the same as `time`.
     """
 
     time: float
@@ -56,6 +64,12 @@ class WrenchSample:
     status: Status = Status.OK
     device_time: float | None = None
     temperature: float | None = None
+    arrival: float | None = None
+
+    @property
+    def arrived(self) -> float:
+        """`arrival`, or `time` where there is none."""
+        return self.time if self.arrival is None else self.arrival
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -75,6 +89,8 @@ class FlangeSample:
         Joint angles, rad, where the source knows them.
     device_time : float or None
         The controller's clock, seconds from any start.
+    arrival : float or None
+        As for a wrench.
     """
 
     time: float
@@ -82,3 +98,9 @@ class FlangeSample:
     p_BE_B: NDArray[np.float64]
     joints: NDArray[np.float64] | None = None
     device_time: float | None = None
+    arrival: float | None = None
+
+    @property
+    def arrived(self) -> float:
+        """`arrival`, or `time` where there is none."""
+        return self.time if self.arrival is None else self.arrival

@@ -29,6 +29,7 @@ Algorithm1 = _module.Algorithm1
 Batch = _module.Batch
 Candidate = _module.Candidate
 Contact = _module.Contact
+FrozenDetector = _module.FrozenDetector
 Geodesic = _module.Geodesic
 Iterative = _module.Iterative
 Reason = _module.Reason
@@ -38,12 +39,15 @@ RuntimeContact = _module.RuntimeContact
 Scan = _module.Scan
 Solver = _module.Solver
 SurfaceIndex = _module.SurfaceIndex
+frozen = _module.frozen
+poses_at = _module.poses_at
 
 __all__ = [
     "Algorithm1",
     "Batch",
     "Candidate",
     "Contact",
+    "FrozenDetector",
     "Geodesic",
     "Iterative",
     "Reason",
@@ -54,5 +58,7 @@ __all__ = [
     "Solver",
     "SurfaceIndex",
     "compiler",
+    "frozen",
+    "poses_at",
     "variant",
 ]

@@ -9,6 +9,7 @@ __all__ = [
     "Batch",
     "Candidate",
     "Contact",
+    "FrozenDetector",
     "Geodesic",
     "Iterative",
     "Reason",
@@ -19,11 +20,27 @@ __all__ = [
     "Solver",
     "SurfaceIndex",
     "compiler",
+    "frozen",
+    "poses_at",
     "variant",
 ]
 
 variant: str
 compiler: str
+
+class FrozenDetector:
+    def __init__(self) -> None: ...
+    def see(self, wrench: tuple[float, ...], chance: float) -> bool: ...
+
+def frozen(wrenches: NDArray[np.float64], chance: float) -> NDArray[np.bool_]: ...
+def poses_at(
+    moments: NDArray[np.float64],
+    R: NDArray[np.float64],
+    p: NDArray[np.float64],
+    times: NDArray[np.float64],
+    longest_gap: float,
+    longest_ahead: float,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
 
 class Reason(IntEnum):
     OK = 0
@@ -40,6 +57,7 @@ class Reason(IntEnum):
     BY_REGION = 11
     IMPLAUSIBLE = 12
     TWO_TOUCHES = 13
+    UNHEALTHY = 14
 
 class Candidate:
     @property
@@ -115,6 +133,8 @@ class Batch:
     @property
     def torques(self) -> NDArray[np.float64]: ...
     @property
+    def healths(self) -> NDArray[np.uint32]: ...
+    @property
     def misfits(self) -> NDArray[np.float64]: ...
     @property
     def left_overs(self) -> NDArray[np.float64]: ...
@@ -146,6 +166,12 @@ class RuntimeContact:
     def reason_name(self) -> str: ...
     @property
     def accepted(self) -> bool: ...
+    @property
+    def health(self) -> int: ...
+    @property
+    def pose_age(self) -> float: ...
+    @property
+    def latency(self) -> float: ...
     @property
     def time(self) -> float: ...
     @property
@@ -211,6 +237,8 @@ class RuntimeBatch:
     @property
     def accepted(self) -> NDArray[np.int32]: ...
     @property
+    def healths(self) -> NDArray[np.uint32]: ...
+    @property
     def misfits(self) -> NDArray[np.float64]: ...
     @property
     def left_overs(self) -> NDArray[np.float64]: ...
@@ -238,6 +266,12 @@ class Runtime:
         torsion_arm: float,
         mesh_deviation: float,
         mesh_curved: bool,
+        R_ES: NDArray[np.float64] | None,
+        pose_gap: float,
+        pose_ahead: float,
+        silence: float,
+        frozen_chance: float,
+        motion: tuple[float, float] | None,
         min_force: float,
         cos_friction: float,
         implausible_misfit: float,
@@ -253,6 +287,11 @@ class Runtime:
         region_only: bool,
         accept_by_region: bool,
     ) -> None: ...
+    def pose(self, R: NDArray[np.float64], p: NDArray[np.float64], time: float) -> bool: ...
+    def locate(
+        self, wrench: NDArray[np.float64], time: float, arrival: float = ..., flags: int = 0
+    ) -> RuntimeContact: ...
+    def silent(self, now: float) -> RuntimeContact | None: ...
     def update(
         self, wrench: NDArray[np.float64], R_WS: NDArray[np.float64], time: float
     ) -> RuntimeContact: ...

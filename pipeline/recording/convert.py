@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from pipeline.devices import pose_track
 from pipeline.durable import scratch_beside, sync_folder
 from pipeline.recording.errors import RecordingError
 
@@ -29,7 +30,7 @@ _POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")
 _BLOCK_ROWS = 50_000
 
 # Poses are asked for at 50 Hz or more; over a longer gap the flange may have been anywhere.
-LONGEST_GAP = 0.25
+LONGEST_GAP = pose_track.LONGEST_GAP_S
 
 
 def write_csv(file: Path, recording: Recording, topic: str | None = None) -> tuple[str, ...]:
@@ -199,7 +200,7 @@ def _flange_table(track: FlangeTrack) -> tuple[list[str], list[NDArray[Any]]]:
 
 def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """
-    Interpolate poses: orientation by slerp, position linearly.
+    Interpolate poses by the rule of the runtime: orientation by the shortest turn, position linearly.
 
     Parameters
     ----------
@@ -214,23 +215,12 @@ def poses_at(track: FlangeTrack, times: NDArray[np.float64]) -> tuple[NDArray[np
     there : (n,) bool
         There are samples on both sides, no more than LONGEST_GAP apart, or one at that moment.
     """
-    from scipy.spatial.transform import Rotation, Slerp
-
+    # The next pose is at hand: nothing is carried on beyond the last one.
+    R, p = pose_track.poses_at(track.times, track.R_BE, track.p_BE_B, times, longest_ahead=0.0)
+    there = np.isfinite(R[:, 0, 0])
     poses = np.full((len(times), 7), np.nan)
-    moments, first = np.unique(track.times, return_index=True)
-    if len(moments) < 2:
-        return poses, np.zeros(len(times), dtype=bool)
-    after = np.clip(np.searchsorted(moments, times), 1, len(moments) - 1)
-    begin, end = moments[after - 1], moments[after]
-    hit = (times == begin) | (times == end)  # a gap beside a sample does not take it away
-    there = (times >= begin) & (times <= end) & (hit | (end - begin <= LONGEST_GAP))
-    if not there.any():
-        return poses, there
-    turned = Slerp(moments, Rotation.from_matrix(track.R_BE[first]))(times[there])
-    poses[there, :4] = turned.as_quat(canonical=True)[:, [3, 0, 1, 2]]
-    share = ((times - begin) / (end - begin))[there, None]
-    before, behind = track.p_BE_B[first][after - 1][there], track.p_BE_B[first][after][there]
-    poses[there, 4:] = (1 - share) * before + share * behind
+    if there.any():
+        poses[there, :4], poses[there, 4:] = _quaternions(R[there]), p[there]
     return poses, there
 
 

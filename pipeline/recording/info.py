@@ -16,7 +16,8 @@ WRENCH_TOPIC, FLANGE_TOPIC, EVENT_TOPIC = "/wrench", "/flange", "/events"
 
 ABOUT_RECORD = "contactbench.recording"
 DEVICE_RECORD = "contactbench.device"
-FORMAT = 1
+FORMAT = 2
+ARRIVALS_ONLY = 1  # until this one, `time` of a device was the arrival
 
 _CENTURIES = 1e10  # s; what 64 bits of nanoseconds hold
 LATEST = 1e15  # s; on any clock: differences and sums of such times stay finite

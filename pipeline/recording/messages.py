@@ -71,7 +71,7 @@ def wrench_message(sample: WrenchSample, stamp_ns: int) -> bytes:
     }
     if sample.sequence is not None:
         body["sequence"] = _whole(int(sample.sequence))
-    _optional(body, device_time=sample.device_time, temperature=sample.temperature)
+    _optional(body, device_time=sample.device_time, temperature=sample.temperature, arrival=sample.arrival)
     return _encode(body).encode()
 
 
@@ -101,7 +101,7 @@ def flange_message(sample: FlangeSample, stamp_ns: int) -> bytes:
         if joints.ndim != 1 or len(joints) > MOST_JOINTS:
             raise MessageError(f"joints need a list of at most {MOST_JOINTS} angles")
         body["joints"] = [_or_null(angle) for angle in joints.tolist()]
-    _optional(body, device_time=sample.device_time)
+    _optional(body, device_time=sample.device_time, arrival=sample.arrival)
     return _encode(body).encode()
 
 
@@ -207,6 +207,7 @@ def read_wrench(data: bytes) -> WrenchSample:
         Status(_count(body.get("status"), 2**31)),
         _given(body, "device_time"),
         _given(body, "temperature"),
+        _time(body, "arrival") if "arrival" in body else None,
     )
 
 
@@ -233,6 +234,7 @@ def read_flange(data: bytes) -> FlangeSample:
         np.array(_triple(body.get("translation"))),
         joints,
         _given(body, "device_time"),
+        _time(body, "arrival") if "arrival" in body else None,
     )
 
 
@@ -287,10 +289,10 @@ def _number(value: Any) -> float:
         raise MessageError("a number that is too large") from None
 
 
-def _time(body: dict[str, Any]) -> float:
-    time = _number(body.get("time"))
+def _time(body: dict[str, Any], name: str = "time") -> float:
+    time = _number(body.get(name))
     if not abs(time) <= LATEST:
-        raise MessageError("no time")
+        raise MessageError(f"no {name}")
     return time
 
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import groupby, islice
 from typing import TYPE_CHECKING
 
+from pipeline.devices.clock import SampleClock
 from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.devices.url import AddressError, Carrier, DeviceAddress, Protocol
 from pipeline.recording.errors import RecordingError
 from pipeline.recording.info import (
     ABOUT_RECORD,
+    ARRIVALS_ONLY,
     DEVICE_RECORD,
     FORMAT,
     RecordingInfo,
@@ -41,6 +45,7 @@ _DECODERS: Mapping[str, Callable[[bytes], WrenchSample | FlangeSample | Event]] 
 
 # Half a day of three sensors at 1 kHz; longer ones are read with RecordingReader.
 MOST_SAMPLES = 130_000_000
+_MOST_AT_ONCE = 4096  # samples of one arrival: what a damaged file has more of is no batch
 MOST_EVENT_BYTES = 2**27  # in memory: a hundred thousand ordinary events
 
 
@@ -73,6 +78,8 @@ class RecordingReader:
     """
     Iterate over the samples of a recording, once, as they were written; for files of any length.
 
+    Older recordings have the arrivals of a device's samples only: they are timed here, as a stream times them now.
+
     Parameters
     ----------
     path : path
@@ -99,6 +106,7 @@ class RecordingReader:
         self._records = iter(self._stream)
         self._first: Message | None = None
         self._event_room: float = math.inf
+        self._format = FORMAT
         try:
             self.info = self._about(path)
         except BaseException:
@@ -115,6 +123,16 @@ class RecordingReader:
 
     def __iter__(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
         """Yield topics and what was recorded on them."""
+        if self._format > ARRIVALS_ONLY:
+            return self._recorded()
+        clocks = {
+            device.topic: SampleClock(device.rate)
+            for device in self.info.devices
+            if _is_timed(device.address)
+        }
+        return _timed(self._recorded(), clocks)
+
+    def _recorded(self) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
         message = self._first
         if message is not None:
             yield from self._decoded(message)
@@ -149,7 +167,7 @@ class RecordingReader:
                 break
             try:
                 if record.name == ABOUT_RECORD:
-                    _check_format(path, record)
+                    self._format = _format(path, record)
                     about = read_about(record.values)
                 elif record.name == DEVICE_RECORD:
                     devices.append(read_device(record.values))
@@ -228,9 +246,37 @@ def read_recording(path: Path, progress: Callable[[int, int], None] | None = Non
         )
 
 
-def _check_format(path: Path, record: Metadata) -> None:
-    if int(record.values["format"]) > FORMAT:
+def _timed(
+    recorded: Iterator[tuple[str, WrenchSample | FlangeSample | Event]], clocks: Mapping[str, SampleClock]
+) -> Iterator[tuple[str, WrenchSample | FlangeSample | Event]]:
+    """Time the samples of some topics, whose times are arrivals; what arrived together was written together."""
+    for (topic, kind, _), batch in groupby(recorded, lambda item: (item[0], type(item[1]), item[1].time)):
+        if topic not in clocks or kind is Event:
+            yield from batch
+            continue
+        while samples := [sample for _, sample in islice(batch, _MOST_AT_ONCE)]:
+            wrenches = [sample for sample in samples if isinstance(sample, WrenchSample)]
+            poses = [sample for sample in samples if isinstance(sample, FlangeSample)]
+            yield from ((topic, wrench) for wrench in clocks[topic].stamp(wrenches))
+            yield from ((topic, pose) for pose in clocks[topic].stamp(poses))
+
+
+def _is_timed(address: str) -> bool:
+    """Tell whether a stream from there times its samples by a clock: an Elfin robot is asked, and so timed already."""
+    try:
+        where = DeviceAddress.parse(address)
+    except AddressError:
+        return False
+    return (
+        where.carrier in (Carrier.SERIAL, Carrier.TCP, Carrier.UDP) and where.protocol is not Protocol.ELFIN
+    )
+
+
+def _format(path: Path, record: Metadata) -> int:
+    number = int(record.values["format"])
+    if number > FORMAT:
         raise RecordingError(
             f"{path}: the recording was written by a newer program ({record.values.get('tool', '')[:80]}): update"
             " contactbench."
         )
+    return number

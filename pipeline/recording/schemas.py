@@ -19,7 +19,8 @@ def _object(**properties: Any) -> dict[str, Any]:
 _NUMBER, _INTEGER, _STRING = {"type": "number"}, {"type": "integer"}, {"type": "string"}
 _STAMP = _object(sec=_INTEGER, nsec=_INTEGER)
 _XYZ = _object(x=_NUMBER, y=_NUMBER, z=_NUMBER)
-_TIME = {"type": "number", "description": "The samples' clock, s."}
+_TIME = {"type": "number", "description": "When it was measured, on the samples' clock, s."}
+_ARRIVAL = {"type": "number", "description": "When it arrived, on the same clock, s; left out where unknown."}
 _DEVICE_TIME = {"type": "number", "description": "The device's clock, s; left out where it has none."}
 _NUMBERS = {"type": "array", "items": _NUMBER}
 
@@ -32,10 +33,11 @@ _SCHEMAS = {
         torque={**_XYZ, "description": "About the sensor's origin, N·m."},
         status={
             **_INTEGER,
-            "description": "Flags: 1 overrange, 2 invalid, 4 raw, 8 late, 16 other error.",
+            "description": "Flags: 1 overrange, 2 invalid, 4 raw, 8 late, 16 other error, 32 time is a guess.",
         },
         sequence={**_INTEGER, "description": "The device's own count; left out where it has none."},
         device_time=_DEVICE_TIME,
+        arrival=_ARRIVAL,
         temperature={"type": "number", "description": "°C; left out where there is none."},
     ),
     FLANGE_SCHEMA: _object(
@@ -48,6 +50,7 @@ _SCHEMAS = {
         R={**_NUMBERS, "description": "The rotation once more, row by row: exactly as it was given."},
         joints={**_NUMBERS, "description": "rad; left out where unknown."},
         device_time=_DEVICE_TIME,
+        arrival=_ARRIVAL,
     ),
     EVENT_SCHEMA: _object(
         timestamp=_STAMP,
@@ -56,7 +59,7 @@ _SCHEMAS = {
         name=_STRING,
         file=_STRING,
         line=_INTEGER,
-        time=_TIME,
+        time={"type": "number", "description": "When it happened, on the samples' clock, s."},
         event=_STRING,
         fields={"type": "object"},
     ),

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from array import array
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.sample import Status, WrenchSample
+from pipeline import kernel
+from pipeline.devices.sample import FROZEN_CHANCE, Status, WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
 
     from pipeline.devices.sample import FlangeSample
 
-_USABLE = Status.LATE  # everything else says that a reading is no measurement
+_USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +30,7 @@ class WrenchTrack:
     Attributes
     ----------
     times : (n,) float64
-        The samples' clock, s.
+        When they were measured, on the samples' clock, s.
     wrenches : (n, 6) float64
         Fx Fy Fz Mx My Mz in S, N and N·m about the sensor's origin.
     sequence : (n,) int64
@@ -39,6 +41,8 @@ class WrenchTrack:
         The device's clock, s; NaN: it has none.
     temperature : (n,) float64
         °C; NaN: unknown.
+    arrivals : (n,) float64
+        When they arrived, on the samples' clock, s; NaN: unknown.
     """
 
     times: NDArray[np.float64]
@@ -47,13 +51,18 @@ class WrenchTrack:
     status: NDArray[np.int64]
     device_time: NDArray[np.float64]
     temperature: NDArray[np.float64]
+    arrivals: NDArray[np.float64]
 
-    @property
+    @cached_property
+    def frozen(self) -> NDArray[np.bool_]:
+        """(n,) the reading is part of a run that repeats beyond chance: the sensor hung."""
+        return kernel.frozen(np.ascontiguousarray(self.wrenches), FROZEN_CHANCE)
+
+    @cached_property
     def usable(self) -> NDArray[np.bool_]:
-        """(n,) the numbers are measurements: finite, and the device reports no error but lateness."""
-        usable: NDArray[np.bool_] = ((self.status & ~int(_USABLE)) == 0) & np.isfinite(self.wrenches).all(
-            axis=1
-        )
+        """(n,) healthy: finite, not frozen, and nothing is reported but lateness."""
+        reported = (self.status & ~int(_USABLE)) != 0
+        usable: NDArray[np.bool_] = ~reported & np.isfinite(self.wrenches).all(axis=1) & ~self.frozen
         return usable
 
     def samples(self) -> Iterator[WrenchSample]:
@@ -69,6 +78,7 @@ class WrenchTrack:
                 Status(int(self.status[row])),
                 _or_none(self.device_time[row]),
                 _or_none(self.temperature[row]),
+                _or_none(self.arrivals[row]),
             )
 
 
@@ -80,7 +90,7 @@ class FlangeTrack:
     Attributes
     ----------
     times : (n,) float64
-        The samples' clock, s.
+        When they were measured, on the samples' clock, s.
     R_BE : (n, 3, 3) float64
     p_BE_B : (n, 3) float64
         m; NaN: unknown.
@@ -88,6 +98,8 @@ class FlangeTrack:
         rad; NaN: unknown. k = 0 where no sample has any.
     device_time : (n,) float64
         The controller's clock, s; NaN: it has none.
+    arrivals : (n,) float64
+        When they arrived, on the samples' clock, s; NaN: unknown.
     """
 
     times: NDArray[np.float64]
@@ -95,6 +107,7 @@ class FlangeTrack:
     p_BE_B: NDArray[np.float64]
     joints: NDArray[np.float64]
     device_time: NDArray[np.float64]
+    arrivals: NDArray[np.float64]
 
 
 class WrenchRows:
@@ -106,21 +119,22 @@ class WrenchRows:
 
     def add(self, sample: WrenchSample) -> None:
         """Append a sample."""
-        times = (sample.time, _or_nan(sample.device_time), _or_nan(sample.temperature))
-        self._numbers.extend((*times, *sample.force, *sample.torque))
+        self._numbers.extend((sample.time, _or_nan(sample.device_time), _or_nan(sample.temperature)))
+        self._numbers.extend((_or_nan(sample.arrival), *sample.force, *sample.torque))
         self._counts.extend((-1 if sample.sequence is None else sample.sequence, sample.status))
 
     def track(self) -> WrenchTrack:
         """Return the samples so far."""
-        numbers = np.array(self._numbers).reshape(-1, 9)
+        numbers = np.array(self._numbers).reshape(-1, 10)
         counts = np.array(self._counts).reshape(-1, 2)
         return WrenchTrack(
             times=numbers[:, 0].copy(),
-            wrenches=numbers[:, 3:].copy(),
+            wrenches=numbers[:, 4:].copy(),
             sequence=counts[:, 0].copy(),
             status=counts[:, 1].copy(),
             device_time=numbers[:, 1].copy(),
             temperature=numbers[:, 2].copy(),
+            arrivals=numbers[:, 3].copy(),
         )
 
 
@@ -134,7 +148,7 @@ class FlangeRows:
 
     def add(self, sample: FlangeSample) -> None:
         """Append a pose."""
-        self._numbers.extend((sample.time, _or_nan(sample.device_time)))
+        self._numbers.extend((sample.time, _or_nan(sample.device_time), _or_nan(sample.arrival)))
         self._numbers.extend(sample.p_BE_B.tolist())
         self._numbers.extend(sample.R_BE.ravel().tolist())
         joints = [] if sample.joints is None else sample.joints.tolist()
@@ -143,16 +157,17 @@ class FlangeRows:
 
     def track(self) -> FlangeTrack:
         """Return the poses so far."""
-        numbers = np.array(self._numbers).reshape(-1, 14)
+        numbers = np.array(self._numbers).reshape(-1, 15)
         counts = np.array(self._joint_counts)
         joints = np.full((len(numbers), counts.max(initial=0)), np.nan)
         joints[np.arange(joints.shape[1]) < counts[:, None]] = self._joints
         return FlangeTrack(
             times=numbers[:, 0].copy(),
-            R_BE=numbers[:, 5:].reshape(-1, 3, 3),
-            p_BE_B=numbers[:, 2:5].copy(),
+            R_BE=numbers[:, 6:].reshape(-1, 3, 3),
+            p_BE_B=numbers[:, 3:6].copy(),
             joints=joints,
             device_time=numbers[:, 1].copy(),
+            arrivals=numbers[:, 2].copy(),
         )
 
 

@@ -1,4 +1,4 @@
-"""From raw samples to contacts: poses are held, a reading that is none is kept out, the kernel does the rest."""
+"""From raw samples and poses to contacts: the kernel does all of it."""
 
 from __future__ import annotations
 
@@ -9,29 +9,33 @@ import numpy as np
 
 from pipeline import kernel
 from pipeline.config.runtime.values import gates_of, touch_model_of
-from pipeline.devices.sample import Status
 from pipeline.runtime.lines import Answer
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
     from pipeline.config.runtime import RuntimeConfig
     from pipeline.devices.sample import FlangeSample, WrenchSample
 
-_KEPT = 64  # a sample that is late by a slice of a pose stream still finds the pose of its time
+_UNKNOWN = np.full(3, np.nan)
 
 
-def make_runtime(config: RuntimeConfig) -> kernel.Runtime:
+def make_runtime(config: RuntimeConfig, *, hold: float | None = None) -> kernel.Runtime:
     """
     Return the compiled runtime of a config: the same as ``cb_open`` of the C library, to the last bit.
 
     Parameters
     ----------
     config : RuntimeConfig
+    hold : float, optional
+        The oldest pose that counts, s; left out, the config's ``streams.pose_ahead_s``.
     """
-    return kernel.Runtime(**kernel_arguments(config))
+    arguments = kernel_arguments(config)
+    if hold is not None:
+        arguments["pose_ahead"] = hold
+    return kernel.Runtime(**arguments)
 
 
 def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
@@ -50,7 +54,15 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
     if wrench is not None:
         values = (wrench.rate_Hz, wrench.q, wrench.r, wrench.tuned_rate_Hz, wrench.per_sample)
         kalman = np.array(values, dtype=np.float64)
+    streams = model.streams
+    motion = streams.motion
     return {
+        "R_ES": _mount_rotation(model.frames.quaternion_ES),
+        "pose_gap": streams.pose_gap_s,
+        "pose_ahead": streams.pose_ahead_s,
+        "silence": streams.silence_s,
+        "frozen_chance": streams.frozen_probability,
+        "motion": None if motion is None else (motion.window_s, motion.gyration_m),
         "vertices": probe.vertices,
         "faces": probe.faces,
         "region": probe.region,
@@ -72,12 +84,8 @@ class Engine:
     """
     One stream of wrenches and one of poses, into contacts.
 
-    A sample takes the newest pose that is not later than itself, live as in a replay: nothing is interpolated,
-    for a controller does not know the next pose either, and a recording gives again what was given live. Without a pose
-    at most `hold` old the reason is ``stale``, and the kernel is left as it was.
-
-    A reading that the sensor itself calls no measurement is given to the kernel as not a number (reason
-    ``not_finite``); one that is at its limits, as it is (reason ``saturated``).
+    A sample takes the pose at its own time: between two poses, or carried on from the last one, as the config's
+    ``streams`` allow. Without one the reason is ``stale``, and the filters are left as they were.
 
     Wrenches may come in one thread and poses in another.
 
@@ -85,51 +93,42 @@ class Engine:
     ----------
     config : RuntimeConfig
     hold : float, optional
-        The oldest pose that counts, s; left out, the config's ``gates.max_age_s``; infinite for one that stands still.
+        As for `make_runtime`; infinite for a pose that stands still.
+    clock : callable, optional
+        The present on the samples' clock, s: a contact's latency then runs until it is found. Left out, it is the
+        sample's own, arrival less time.
     """
 
-    def __init__(self, config: RuntimeConfig, *, hold: float | None = None) -> None:
-        self._runtime = make_runtime(config)
-        self._R_ES = mount_rotation(config)
-        self._hold = config.model.gates.max_age_s if hold is None else hold
-        limits = config.model.gates.saturation
-        self._limits = [np.inf if limit is None else limit for limit in limits]
-        # Replaced, never changed: the other thread may be looking. Newest first.
-        self._poses: tuple[tuple[float, NDArray[np.float64]], ...] = ()
+    def __init__(
+        self, config: RuntimeConfig, *, hold: float | None = None, clock: Callable[[], float] | None = None
+    ) -> None:
+        self._runtime, self._clock = make_runtime(config, hold=hold), clock
 
     def poses(self, samples: Sequence[FlangeSample]) -> None:
         """Take poses of the flange, oldest first."""
-        for sample in samples[-_KEPT:]:
-            R_WS = sensor_rotation(sample.R_BE, self._R_ES)
-            self._poses = ((sample.time, R_WS), *self._poses[: _KEPT - 1])
+        for sample in samples:
+            R = np.ascontiguousarray(sample.R_BE, dtype=np.float64)
+            p = np.ascontiguousarray(sample.p_BE_B, dtype=np.float64)
+            self._runtime.pose(R, p if p.shape == (3,) else _UNKNOWN, sample.time)
 
     def locate(self, sample: WrenchSample) -> Answer:
         """Say where the probe is touched."""
-        R_WS = self._pose_at(sample.time)
-        if R_WS is None:
-            return Answer(sample.time, None)
-        return Answer(sample.time, self._runtime.update(self._reading(sample), R_WS, sample.time))
-
-    def _pose_at(self, time: float) -> NDArray[np.float64] | None:
-        for moment, R_WS in self._poses:
-            if moment <= time:
-                return R_WS if time - moment <= self._hold else None
-        return None
-
-    def _reading(self, sample: WrenchSample) -> NDArray[np.float64]:
         reading = np.array((*sample.force, *sample.torque))
-        wrong = sample.status & ~Status.LATE
-        if wrong and not (wrong == Status.OVERRANGE and (np.abs(reading) >= self._limits).any()):
-            reading[:] = np.nan
-        return reading
+        arrival = sample.time if sample.arrival is None else sample.arrival
+        contact = self._runtime.locate(reading, sample.time, arrival, int(sample.status))
+        return Answer(contact, contact.latency if self._clock is None else self._clock() - sample.time)
+
+    def silent(self, now: float) -> Answer | None:
+        """Return an answer that says that no sample comes, or None while they do; `now` in s of the samples' clock."""
+        contact = self._runtime.silent(now)
+        return None if contact is None else Answer(contact, contact.latency)
 
 
-def mount_rotation(config: RuntimeConfig) -> NDArray[np.float64] | None:
-    """Return R_ES (3, 3), as the C library computes it; None: poses are of the sensor itself."""
-    quaternion = config.model.frames.quaternion_ES
-    if quaternion is None:
+def _mount_rotation(quaternion_ES: Sequence[float] | None) -> NDArray[np.float64] | None:
+    """Return R_ES (3, 3) with the bits of the C library; None: poses are of the sensor itself."""
+    if quaternion_ES is None:
         return None
-    w, x, y, z = quaternion
+    w, x, y, z = quaternion_ES
     size = np.sqrt(w * w + x * x + y * y + z * z)
     w, x, y, z = w / size, x / size, y / size, z / size
     return np.array(
@@ -139,21 +138,3 @@ def mount_rotation(config: RuntimeConfig) -> NDArray[np.float64] | None:
             [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-def sensor_rotation(R_WE: NDArray[np.float64], R_ES: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    """
-    Return R_WS = R_WE R_ES, with the bits of ``cb_sensor_rotation``.
-
-    Parameters
-    ----------
-    R_WE : (3, 3)
-    R_ES : (3, 3) or None
-        None: `R_WE` is R_WS already.
-    """
-    if R_ES is None:
-        return np.ascontiguousarray(R_WE, dtype=np.float64)
-    product = np.zeros((3, 3))
-    for k in range(3):  # a matrix product may fuse and reorder, and differ in the last bit
-        product += R_WE[:, k, None] * R_ES[k]
-    return product

@@ -15,12 +15,13 @@ if TYPE_CHECKING:
 
     from pipeline import kernel
 
-_STALE = "stale"  # as the kernel names it
-_NOWHERE = (
-    ',"accepted":false,"point_S_m":null,"filtered_point_S_m":null,"normal_S":null,"torque_Nm":null,"force_S_N":null,'
-    '"torque_S_Nm":null,"covariance_S_m2":null,"face":-1,"vertex":-1,"region":0,"candidates":0,"confidence":0,'
-    '"misfit":null,"left_over_Nm":null,"arm_m":null,"runner_up_S_m":null,"second_S_m":null}\n'
-)
+HEALTH = ("frozen", "silent", "flagged", "no_pose", "clock")
+"""Names of the bits of a health word, from the lowest."""
+
+
+def health_names(word: int) -> tuple[str, ...]:
+    """Return what is wrong, by a health word; empty: nothing."""
+    return tuple(name for bit, name in enumerate(HEALTH) if word >> bit & 1)
 
 
 class Answer:
@@ -29,53 +30,58 @@ class Answer:
 
     Parameters
     ----------
-    time : float
-        Of the sample, s of its own clock.
-    contact : kernel.RuntimeContact or None
-        None: there was no pose young enough, and the kernel was not asked.
+    contact : kernel.RuntimeContact
+    latency : float
+        How old the reading was when this was known, s; NaN: not known.
 
     Attributes
     ----------
-    time, contact
+    contact : kernel.RuntimeContact or None
+        None after `let_go`.
+    time : float
+        Of the sample, s of its own clock.
+    reason : str
+        Why there is a contact, or none.
+    health : int
+        Health word; see `health_names`.
+    latency
         As given.
     """
 
-    __slots__ = ("_line", "_reason", "contact", "time")
+    __slots__ = ("_line", "contact", "health", "latency", "reason", "time")
 
-    def __init__(self, time: float, contact: kernel.RuntimeContact | None) -> None:
-        self.time, self.contact = time, contact
+    def __init__(self, contact: kernel.RuntimeContact, latency: float) -> None:
+        self.contact: kernel.RuntimeContact | None = contact
+        self.time, self.reason, self.health, self.latency = (
+            contact.time,
+            contact.reason_name,
+            contact.health,
+            latency,
+        )
         self._line: bytes | None = None
-        self._reason: str | None = None
 
     def let_go(self) -> None:
-        """Keep the line and the reason, not the contact: nothing of the kernel may outlive a program."""
-        self._line, self._reason = self.line, self.reason
+        """Keep the line, not the contact: nothing of the kernel may outlive a program."""
+        self._line = self.line
         self.contact = None
-
-    @property
-    def reason(self) -> str:
-        """Why there is a contact, or none; ``stale`` also where a pose is missing."""
-        if self._reason is not None:
-            return self._reason
-        return _STALE if self.contact is None else self.contact.reason_name
 
     @property
     def line(self) -> bytes:
         """One line of JSON, its end included; made once, however many publish it."""
         # Two threads may both make it: it is the same.
-        if self._line is None:
-            self._line = _line(self.time, self.contact).encode("ascii")
-        return self._line
+        if self._line is None and (contact := self.contact) is not None:
+            self._line = _line(contact, self.latency).encode("ascii")
+        return self._line or b""
 
 
-def _line(time: float, contact: kernel.RuntimeContact | None) -> str:
-    if contact is None:
-        return f'{{"time":{number(time)},"reason":"{_STALE}"{_NOWHERE}'
+def _line(contact: kernel.RuntimeContact, latency: float) -> str:
     wrench = contact.wrench
     covariance = contact.covariance
+    health = ",".join(f'"{name}"' for name in health_names(contact.health))
     return (
-        f'{{"time":{number(time)},"reason":"{contact.reason_name}"'
-        f',"accepted":{"true" if contact.accepted else "false"}'
+        f'{{"time":{number(contact.time)},"reason":"{contact.reason_name}"'
+        f',"accepted":{"true" if contact.accepted else "false"},"health":[{health}]'
+        f',"latency_s":{number(latency)},"pose_age_s":{number(contact.pose_age)}'
         f',"point_S_m":{_array(contact.point)},"filtered_point_S_m":{_array(contact.filtered_point)}'
         f',"normal_S":{_array(contact.normal)},"torque_Nm":{number(contact.torque)}'
         f',"force_S_N":{_array(None if wrench is None else wrench[:3])}'

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from pipeline.devices.url import Protocol
 from pipeline.runtime.engine import Engine
 from pipeline.runtime.errors import RunError
+from pipeline.runtime.lines import health_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -26,6 +27,30 @@ if TYPE_CHECKING:
 
 _SWITCH_S = 1e-4
 _RATE_OFF = 0.05
+_HEARTBEAT_S = 0.1
+_UNUSABLE = ("stale", "unhealthy", "not_finite", "not_a_rotation")
+_MOST_UNUSABLE = 0.05  # of the samples: beyond, a run is no good
+
+
+class Latencies:
+    """How old readings were when their contacts were known: counts in bins that are 5 % wide."""
+
+    def __init__(self) -> None:
+        self._counts: Counter[int] = Counter()
+
+    def add(self, seconds: float) -> None:
+        """Take one; what is not finite does not count."""
+        if math.isfinite(seconds):
+            self._counts[round(math.log(max(seconds, 1e-6), 1.05))] += 1
+
+    def quantile(self, share: float) -> float | None:
+        """Return the latency that a share of the samples does not exceed, s, to 2.5 %; None: none is known."""
+        left = share * self._counts.total()
+        for bin_, count in sorted(self._counts.items()):
+            left -= count
+            if left <= 0:
+                return float(1.05**bin_)
+        return None
 
 
 class Run:
@@ -43,11 +68,14 @@ class Run:
         As for `Engine`.
     on_answer : callable, optional
         Gets every contact in the sensor's thread, before the outputs; it must be quick and not raise.
+    clock : callable, optional
+        As for `Engine`.
 
     Attributes
     ----------
-    reasons : Counter
-        Samples so far by their reason.
+    reasons, unhealthy : Counter
+        Samples so far by their reason, and by what is wrong with their health.
+    latencies : Latencies
     """
 
     def __init__(
@@ -57,10 +85,15 @@ class Run:
         *,
         hold: float | None = None,
         on_answer: Callable[[WrenchSample, Answer], None] | None = None,
+        clock: Callable[[], float] | None = None,
     ) -> None:
-        self._engine = Engine(config, hold=hold)
+        self._engine = Engine(config, hold=hold, clock=clock)
         self.outlets, self._on_answer = tuple(outlets), on_answer
         self.reasons: Counter[str] = Counter()
+        self.unhealthy: Counter[str] = Counter()
+        self.latencies = Latencies()
+        self._beat = -math.inf
+        self._begun, self._counted, self._lost = False, 0, 0
 
     def __enter__(self) -> Self:
         for outlet in self.outlets:
@@ -79,6 +112,13 @@ class Run:
         for sample in samples:
             answer = self._engine.locate(sample)
             self.reasons[answer.reason] += 1
+            usable = answer.reason not in _UNUSABLE
+            self._begun |= usable
+            self._counted += self._begun
+            self._lost += self._begun and not usable
+            if answer.health:
+                self.unhealthy.update(health_names(answer.health))
+            self.latencies.add(answer.latency)
             if self._on_answer is not None:
                 self._on_answer(sample, answer)
             for outlet in self.outlets:
@@ -87,6 +127,24 @@ class Run:
     def poses(self, samples: Sequence[FlangeSample]) -> None:
         """Take poses of the flange, oldest first."""
         self._engine.poses(samples)
+
+    def heartbeat(self, now: float) -> None:
+        """Publish, ten times a second, that no sample comes, where that is so; `now` in s of the samples' clock."""
+        if now - self._beat < _HEARTBEAT_S or (answer := self._engine.silent(now)) is None:
+            return
+        self._beat = now
+        for outlet in self.outlets:
+            outlet.put(answer)
+
+    @property
+    def unusable(self) -> float:
+        """Share of the samples, since the first that could be used, that had no pose, no time or no healthy sensor."""
+        return self._lost / self._counted if self._counted else 1.0
+
+    @property
+    def good(self) -> bool:
+        """Whether samples came, and all but a few could be used."""
+        return self.unusable <= _MOST_UNUSABLE
 
 
 def check_runnable(config: RuntimeConfig, *, unverified: bool = False) -> None:

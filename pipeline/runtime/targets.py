@@ -219,6 +219,13 @@ def contact_schema() -> bytes:
         "time": _numbers("The samples' clock, s.", array=False),
         "reason": {**text, "description": "Why there is a contact, or none."},
         "accepted": {"type": "boolean", "description": "Act only where it is true."},
+        "health": {
+            "type": "array",
+            "items": text,
+            "description": "What is wrong with sample, sensor or pose; empty: nothing.",
+        },
+        "latency_s": _numbers("How old the reading was when the contact was known, s.", array=False),
+        "pose_age_s": _numbers("How much older than the sample the last pose before it is, s.", array=False),
         "point_S_m": _numbers("In the sensor's frame, m; null: none."),
         "filtered_point_S_m": _numbers("Low-passed, m; held for a moment without contact."),
         "normal_S": _numbers("Outward."),

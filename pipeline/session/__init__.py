@@ -12,6 +12,7 @@ from pipeline.session.errors import (
     SchemaError,
     SessionError,
     SessionLockedError,
+    SessionReadOnlyError,
 )
 from pipeline.session.state import State, fold
 from pipeline.session.store import Session
@@ -23,6 +24,7 @@ __all__ = [
     "Session",
     "SessionError",
     "SessionLockedError",
+    "SessionReadOnlyError",
     "State",
     "fold",
 ]

@@ -10,11 +10,13 @@ from pipeline.durable import write_durably
 from pipeline.session import frames
 from pipeline.session.actions import files_of
 from pipeline.session.errors import SessionError
-from pipeline.session.files import FOLDERS, UNFINISHED, own_file, refuse_links, unfinished, wrong_with
+from pipeline.session.files import UNFINISHED, own_file, refuse_links, unclaimed, unfinished, wrong_with
 from pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
 from pipeline.session.lock import Lock
 from pipeline.session.migrate import origin_problems
 from pipeline.session.reading import content_of
+from pipeline.session.sources import sources_of
+from pipeline.session.state import fold
 from pipeline.session.store import Session
 from pipeline.session.unfinished import adopt_unfinished
 
@@ -89,8 +91,16 @@ def check_journal(
             progress(done, len(refs))
     problems += [f"{each}." for each in origin_problems(folder, content.origins)]
     problems += _no_recordings(folder)
-    notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs})]
+    notes = [*content.notes, *_unreferenced(folder, {path for path, _ in refs}), *_inputs_lost(content)]
     return Check(len(content.records), len(refs), tuple(problems), tuple(notes)), content
+
+
+def _inputs_lost(content: Content) -> list[str]:
+    state = fold(content.records)
+    sources = sources_of(state)
+    lost = [each.title for each in state.results if any(source.lost for source in sources[each.number])]
+    words = f"{len(lost)} results were computed from what is in no record before them, such as {', '.join(lost[:1])}."
+    return [words] if lost else []
 
 
 def _no_recordings(folder: Path) -> list[str]:
@@ -104,12 +114,7 @@ def _no_recordings(folder: Path) -> list[str]:
 
 
 def _unreferenced(folder: Path, known: set[str]) -> list[str]:
-    extra = [
-        f"{name}/{file.name}"
-        for name in FOLDERS
-        for file in sorted((folder / name).glob("*"))
-        if f"{name}/{file.name}" not in known and not file.name.startswith(UNFINISHED)
-    ]
+    extra = [each for each in unclaimed(folder, known) if not each.startswith(f"raw/{UNFINISHED}")]
     notes = [
         f"{place}: a recording that is being made, or ended abruptly: then `contactbench session repair` adopts it."
         for place in unfinished(folder)

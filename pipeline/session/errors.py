@@ -19,5 +19,9 @@ class SessionLockedError(SessionError):
     """Another process writes this session."""
 
 
+class SessionReadOnlyError(SessionError):
+    """A session that this user or this disk does not let anybody write; it can be read."""
+
+
 class ArchiveError(SessionError):
     """A zip file that holds no session, or one that must not be unpacked."""

@@ -14,7 +14,7 @@ from pipeline.session.errors import SessionError
 from pipeline.session.journal import write_all
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator
     from pathlib import Path
 
 FOLDERS = ("raw", "meshes", "results")
@@ -182,6 +182,12 @@ def wrong_with(session: Path, ref: FileRef) -> str:
 def unfinished(session: Path) -> list[str]:
     """Return the recordings that are being made or ended abruptly, as places in the session, oldest name first."""
     return sorted(f"raw/{file.name}" for file in (session / "raw").glob(f"{UNFINISHED}*"))
+
+
+def unclaimed(session: Path, known: Collection[str]) -> list[str]:
+    """Return the places of files that are not among the `known` ones; unfinished recordings are in it."""
+    places = [f"{name}/{file.name}" for name in FOLDERS for file in sorted((session / name).glob("*"))]
+    return [place for place in places if place not in known]
 
 
 def remove_scratch(session: Path) -> None:

@@ -37,7 +37,7 @@ MAGIC = b"\x93CBJ"
 LONGEST_PAYLOAD = 2**20
 GENESIS = bytes(32)  # what comes before the first record
 
-_HEADER = struct.Struct("<4sII32sI")
+HEADER = struct.Struct("<4sII32sI")
 _UNSIGNED_HEADER = struct.Struct("<4sII32s")
 
 
@@ -62,7 +62,7 @@ class Frame:
     @property
     def end(self) -> int:
         """Where the next record begins."""
-        return self.offset + _HEADER.size + len(self.payload)
+        return self.offset + HEADER.size + len(self.payload)
 
 
 @dataclass(frozen=True)
@@ -149,7 +149,7 @@ def scan(data: bytes) -> Scan:
     frames: list[Frame] = []
     before, at = GENESIS, 0
     while at < len(data):
-        frame = _whole(data, at)
+        frame = whole(data, at)
         if frame is None:
             return _stopped(data, at, frames)
         if chained(before, frame.payload) != frame.chain:
@@ -163,14 +163,14 @@ def scan(data: bytes) -> Scan:
     return Scan(tuple(frames), at)
 
 
-def _whole(data: bytes, at: int) -> Frame | None:
+def whole(data: bytes, at: int) -> Frame | None:
     """Return the record that begins here, if it is whole and both checksums hold."""
     length = _length(data, at)
     if length is None:
         return None
-    begin = at + _HEADER.size
+    begin = at + HEADER.size
     payload = data[begin : begin + length]
-    _, _, checksum, chain, _ = _HEADER.unpack_from(data, at)
+    _, _, checksum, chain, _ = HEADER.unpack_from(data, at)
     if len(payload) != length or zlib.crc32(payload) != checksum:
         return None
     return Frame(at, payload, chain)
@@ -178,17 +178,17 @@ def _whole(data: bytes, at: int) -> Frame | None:
 
 def _length(data: bytes, at: int) -> int | None:
     """Return the length that a header states, if the header holds."""
-    if len(data) - at < _HEADER.size:
+    if len(data) - at < HEADER.size:
         return None
-    magic, length, _, _, checksum = _HEADER.unpack_from(data, at)
+    magic, length, _, _, checksum = HEADER.unpack_from(data, at)
     sound = magic == MAGIC and zlib.crc32(data[at : at + _UNSIGNED_HEADER.size]) == checksum
     return length if sound and 0 < length <= LONGEST_PAYLOAD else None
 
 
 def _stopped(data: bytes, at: int, frames: list[Frame]) -> Scan:
     where = f"record {len(frames) + 1} at byte {at}"
-    follows = _next_whole(data, at + 1)
-    if follows is None and _unfinished(data, at):
+    follows = next_whole(data, at + 1)
+    if follows is None and unfinished(data, at):
         left = len(data) - at
         return Scan(tuple(frames), at, torn=f"{where} was never finished ({left} bytes of it are there)")
     what = f"{where} is damaged: its checksum does not hold"
@@ -197,20 +197,32 @@ def _stopped(data: bytes, at: int, frames: list[Frame]) -> Scan:
     return Scan(tuple(frames), at, damage=what, last=follows is None)
 
 
-def _unfinished(data: bytes, at: int) -> bool:
+def unfinished(data: bytes, at: int) -> bool:
     """Tell whether a crash explains what is left: less than a record, or blocks that were never written.
 
     A file system may make a file longer before it writes the data: then it ends in zeros. No record does.
     """
     length = _length(data, at)
-    if len(data) - at < _HEADER.size or (length is not None and len(data) < at + _HEADER.size + length):
+    if len(data) - at < HEADER.size:
         return True
+    if length is not None and len(data) < at + HEADER.size + length:
+        return not _is_json(data[at + HEADER.size :])
     return data[-1] == 0 and (length is not None or not any(data[at:]))
 
 
-def _next_whole(data: bytes, at: int) -> int | None:
+def _is_json(data: bytes) -> bool:
+    """Tell whether it has an end: the beginning of a payload is no JSON, one that lost bytes in its middle may be."""
+    try:
+        json.loads(data)
+    except (ValueError, RecursionError):
+        return False
+    return True
+
+
+def next_whole(data: bytes, at: int) -> int | None:
+    """Return where the first whole record at or behind a byte begins."""
     while (at := data.find(MAGIC, at)) >= 0:
-        if _whole(data, at) is not None:
+        if whole(data, at) is not None:
             return at
         at += 1
     return None

@@ -54,7 +54,8 @@ def refuse_damage(folder: Path, found: frames.Scan) -> None:
         remedy = (
             "`contactbench session repair` sets this record aside"
             if found.last
-            else "take the session from an archive or a backup"
+            else "`contactbench session salvage` copies all that is whole into a new session; or take the session from"
+            " a backup"
         )
         raise JournalError(f"{folder / JOURNAL}: {found.damage}: {remedy}; `session verify` tells more.")
     if not found.frames:

@@ -8,7 +8,9 @@ import stat
 import sys
 from typing import TYPE_CHECKING
 
-from pipeline.session.errors import SessionError, SessionLockedError
+from pipeline.session.errors import SessionError, SessionLockedError, SessionReadOnlyError
+from pipeline.session.files import FOLDERS
+from pipeline.session.journal import JOURNAL
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -32,12 +34,20 @@ class Lock:
     ------
     SessionLockedError
         Another process holds it; the message says which.
+    SessionReadOnlyError
+        The folder cannot be written; no lock is left in it.
     SessionError
-        The folder cannot be written.
+        The lock cannot be used.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder, self._file = folder, folder / LOCK
+        for name in ("", JOURNAL, *FOLDERS):
+            if not writable(folder / name):
+                raise SessionReadOnlyError(
+                    f"{folder / name}: this cannot be written: open the session read-only, make it writable, or work on"
+                    " a copy of its folder."
+                )
         try:
             self._descriptor = os.open(self._file, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o644)
         except OSError as error:
@@ -113,6 +123,11 @@ class Lock:
         if self._descriptor >= 0:
             os.close(self._descriptor)
             self._descriptor = -1
+
+
+def writable(path: Path) -> bool:
+    """Tell whether this user and this disk let a path be written; what is not there yet can be."""
+    return os.access(path, os.W_OK) or not os.path.lexists(path)
 
 
 def written_now(folder: Path) -> bool:

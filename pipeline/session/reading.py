@@ -16,7 +16,6 @@ from pipeline.session.migrate import (
     version_of,
     write_migrated,
 )
-from pipeline.session.order import refuse_later_inputs
 from pipeline.session.state import fold
 
 if TYPE_CHECKING:
@@ -92,7 +91,6 @@ def content_of(folder: Path, data: bytes, *, settle: bool = False) -> Content:
 def _content(
     records: tuple[Record, ...], notes: list[str], found: frames.Scan, origins: dict[int, str] | None = None
 ) -> Content:
-    refuse_later_inputs(records)
     kept = fold(records[:1]).origins if origins is None else origins
     return Content(records, tuple(notes), found, kept)
 

@@ -30,6 +30,11 @@ class Source:
     inputs: tuple[Input, ...]
     results: tuple[Result, ...]
 
+    @property
+    def lost(self) -> bool:
+        """Whether no earlier record holds it: no session writes that, but a salvaged one can lack records."""
+        return not self.inputs and not self.results
+
 
 def sources_of(state: State) -> dict[int, tuple[Source, ...]]:
     """Return what each result was computed from: number of its record -> its inputs. What came later is none."""

@@ -18,9 +18,10 @@ def stale_results(state: State) -> dict[tuple[str, str], tuple[str, ...]]:
     """
     Say of each current result why it is stale.
 
-    A result is stale when one of its inputs has another content now or was measured before its sensor was
-    re-zeroed, when a result that it was computed from was computed anew with another outcome, is stale itself or was
-    rejected, when a parameter was set to another value than the one it was computed with, or when somebody says so.
+    A result is stale when one of its inputs is in no earlier record, has another content now or was measured before
+    its sensor was re-zeroed, when a result that it was computed from was computed anew with another outcome, is stale
+    itself or was rejected, when a parameter was set to another value than the one it was computed with, or when
+    somebody says so.
     Contents are compared, not times: what is put back as it was is not stale. But a recording stays as old as it is:
     adding it again, or under another name, makes it no newer.
 
@@ -69,7 +70,9 @@ class _Judge:
 
     def _own(self, result: Result) -> Iterator[str]:
         """Yield what makes it stale by itself."""
-        for source in self._sources[result.number]:
+        for role, source in zip(result.action.inputs, self._sources[result.number], strict=True):
+            if source.lost:
+                yield f"The {role} that it was computed from is in no record before it: one was lost."
             for used in source.inputs:
                 yield from self._of_raw(used)
         yield from self._of_parameters(result)

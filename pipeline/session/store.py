@@ -37,6 +37,7 @@ from pipeline.session.files import (
 from pipeline.session.journal import JOURNAL, JournalWriter
 from pipeline.session.lock import LOCK, Lock
 from pipeline.session.reading import Content, read_content
+from pipeline.session.remains import read_damaged
 from pipeline.session.stale import stale_results
 from pipeline.session.state import MESH, State, fold
 
@@ -60,12 +61,14 @@ class Session:
     folder : Path
     notes : tuple of str
         What was noticed when it was opened, in sentences.
+    damage : str
+        What is wrong with its journal, if it was opened nevertheless; empty otherwise.
     """
 
     def __init__(
         self, folder: Path, read: Content, lock: Lock | None, writer: JournalWriter | None, by: str
     ) -> None:
-        self.folder, self.notes = folder, read.notes
+        self.folder, self.notes, self.damage = folder, read.notes, read.found.damage
         if left := unfinished(folder):
             words = (
                 f"{folder / left[0]}: this recording ended abruptly: `contactbench session repair` adopts it."
@@ -105,7 +108,9 @@ class Session:
         return cls.open(folder, by=by)
 
     @classmethod
-    def open(cls, folder: Path, *, write: bool = True, by: str | None = None) -> Session:
+    def open(
+        cls, folder: Path, *, write: bool = True, damaged: bool = False, by: str | None = None
+    ) -> Session:
         """
         Open a session; for writing, a torn record at the end is cut off and an older version migrated.
 
@@ -114,16 +119,18 @@ class Session:
         folder : path
         write : bool
             Whether to add to it. Reading changes nothing and is possible while another process writes.
+        damaged : bool
+            Also read what is whole of a damaged journal; see `read_damaged`. Only for reading.
         by : str, optional
             Who; left out, the name of the computer's user.
 
         Raises
         ------
         SessionError
-            No session, a damaged one (JournalError), of a newer version (SchemaError), or locked
-            (SessionLockedError).
+            No session, a damaged one (JournalError), of a newer version (SchemaError), locked
+            (SessionLockedError), or one that cannot be written (SessionReadOnlyError).
         """
-        read = read_content(folder)
+        read = read_damaged(folder) if damaged and not write else read_content(folder)
         refuse_links(folder)
         if not write:
             return cls(folder, read, None, None, "")
@@ -303,6 +310,11 @@ class Session:
         if (kind, name) not in self.state.current_results:
             raise SessionError(f"{self.folder}: there is no result {kind} {name}: `session info` lists them.")
         return self._append(checked(ResultMarked, kind=kind, name=name, mark=mark, reason=reason))
+
+    @property
+    def writable(self) -> bool:
+        """Whether it was opened for writing."""
+        return self._writer is not None
 
     def check_writable(self) -> None:
         """SessionError if nothing can be added: it is open for reading only, or its lock is gone."""

@@ -11,16 +11,27 @@ import hashlib
 import io
 import json
 import zipfile
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
+from pipeline.calibration import GravityModel
+from pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from pipeline.config.runtime.canonical import encode_json
 from pipeline.config.runtime.config import checksum
-from pipeline.config.runtime.pack import CHECKSUM, CONFIG, PROBE, encode_zip
+from pipeline.config.runtime.pack import CHECKSUM, CONFIG, FT_CALIB, PLANES, PROBE, ROS2, encode_zip
+from pipeline.config.runtime.planes import encode_planes
+from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
+from pipeline.errors import InputError
+from pipeline.filtering import KalmanFilter
+from pipeline.mesh import Probe
+from pipeline.mesh.colours import facet_colours
+from pipeline.mesh.ply import encode_ply, read_ply
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    import numpy as np
 
     Files = dict[str, bytes]
     Mutate = Callable[["Files", np.random.Generator], "Files"]
@@ -61,13 +72,13 @@ def seal(files: Files) -> Files:
         content["provenance"]["files"] = {
             name: hashlib.sha256(data).hexdigest() for name, data in others.items()
         }
-        config = json.dumps(content, sort_keys=True, separators=(",", ":")).encode() + b"\n"
+        config = encode_json(content)
     except (ValueError, KeyError, TypeError):
         config = files[CONFIG]
     return {**files, CONFIG: config, CHECKSUM: checksum(config)}
 
 
-def mutant(files: Files, other: Files, rng: np.random.Generator) -> Mutant:
+def mutant(files: Files, plain: Files, other: Files, rng: np.random.Generator) -> Mutant:
     """
     Draw a mutated bundle.
 
@@ -75,12 +86,17 @@ def mutant(files: Files, other: Files, rng: np.random.Generator) -> Mutant:
     ----------
     files : dict
         The sound one.
+    plain : dict
+        One that was not verified, which fewer checks refuse.
     other : dict
         Another sound one, to take files from.
     rng : numpy.random.Generator
     """
-    kinds = [*_DAMAGE, *_EDITS, *_TEXTS, *_ZIPS, "swapped mesh", "swapped file", "sealed flip"]
+    kinds = [*_DAMAGE, *_EDITS, *_TEXTS, *_ZIPS, *_SEALED, "swapped mesh", "swapped file"]
     kind = kinds[int(rng.integers(len(kinds)))]
+    if kind in _SEALED:
+        expected, mutate = _SEALED[kind]
+        return Mutant(kind, expected, mutate(dict(files if rng.integers(2) else plain), rng), sealed=True)
     if kind in _DAMAGE:
         return Mutant(kind, "refused", _DAMAGE[kind](dict(files), rng))
     if kind in _EDITS:
@@ -95,11 +111,9 @@ def mutant(files: Files, other: Files, rng: np.random.Generator) -> Mutant:
         return Mutant(kind, expected, None, packed)
     if kind == "swapped mesh":
         return Mutant(kind, "refused", seal({**files, PROBE: other[PROBE]}), sealed=True)
-    if kind == "swapped file":
-        names = sorted(name for name in files if files[name] != other.get(name, files[name]))
-        name = names[int(rng.integers(len(names)))]
-        return Mutant(kind, "refused", {**files, name: other[name]})
-    return Mutant(kind, "any", seal(_flip(dict(files), rng)), sealed=True)
+    names = sorted(name for name in files if files[name] != other.get(name, files[name]))
+    name = names[int(rng.integers(len(names)))]
+    return Mutant(kind, "refused", {**files, name: other[name]})
 
 
 # ---- damage: the hashes stay -------------------------------------------------------------------
@@ -320,11 +334,360 @@ def _no_json(config: bytes, rng: np.random.Generator) -> bytes:
     return made[int(rng.integers(len(made)))]
 
 
+def _spelling(config: bytes, rng: np.random.Generator) -> bytes:
+    """Say the same in another way; readers differ in what they make of some of these."""
+    spelled = (
+        (b'"passed":', b'"passed" :'),
+        (b"{", b"{\n"),
+        (b"\n", b""),
+        (b"\n", b"\r\n"),
+        (b"\n", b"\n\n"),
+        (b"\n", b"\n\x00"),
+        (b"\n", b"\n\t "),
+        (b"{", b"\xef\xbb\xbf{"),
+        (b"200.0", b"2e2"),
+        (b"200.0", b"200.00"),
+        (b"200.0", b"+200.0"),
+        (b"200.0", b"0200.0"),
+        (b"200.0", b"200."),
+        (b"200.0", b"2E+2"),
+        (b"0.0,", b"-0,"),
+        (b"0.0,", b"0e0,"),
+        (b"0.0,", b".0,"),
+        (b"0.0,", b"1e-400,"),
+        (b"0.0,", b"0.0,,"),
+        (b"simulation", b"\\u0073imulation"),
+        (b"simulation", b"\\ud83d\\ude00"),
+        (b"simulation", b"\\ude00"),
+        (b"simulation", b"\\/"),
+        (b"simulation", b"\\u001F"),
+        (b"simulation", b"\xed\xa0\x80"),
+        (b"simulation", b"\xc0\xaf"),
+        (b'"operator"', b'"\\u006fperator"'),
+        (b"null", b"nul"),
+        (b"true", b"True"),
+    )
+    old, new = spelled[int(rng.integers(len(spelled)))]
+    return config.replace(old, new, 1) if old in config else config + b" "
+
+
+def _many_keys(config: bytes, rng: np.random.Generator) -> bytes:
+    count = int(rng.integers(1_000, 80_000))
+    keys = "".join(f'"{number:06d}":0,' for number in range(count))
+    twice = f'"{int(rng.integers(count)):06d}":0,' if rng.integers(2) else ""
+    return config.replace(b"{", b"{" + (keys + twice).encode(), 1)
+
+
 _TEXTS: dict[str, Callable[[bytes, np.random.Generator], bytes]] = {
     "not finite": _not_finite,
     "duplicate key": _duplicate,
     "deep nesting": _deep,
     "no JSON": _no_json,
+    "other spelling": _spelling,
+    "many keys": _many_keys,
+}
+
+# ---- made anew: an attacker computes every hash ------------------------------------------------
+
+
+def _content_of(files: Files, content: Any) -> Files:
+    """Seal; a content that has no canonical spelling goes in as it is."""
+    return seal({**files, CONFIG: json.dumps(content).encode()})
+
+
+def _any_value(files: Files, rng: np.random.Generator) -> Files:
+    content = json.loads(files[CONFIG])
+    path = _any_path(content, rng)
+    old = _at(content, path)
+    values: list[Any] = [
+        0,
+        1,
+        -1,
+        2,
+        0.0,
+        -0.0,
+        1.0,
+        5e-324,
+        1e-300,
+        1e-9,
+        1e9,
+        1e9 + 1,
+        1e300,
+        2**31,
+        2**63,
+        10**30,
+    ]
+    values += [
+        0.05,
+        0.0500001,
+        1.5707963267948966,
+        True,
+        None,
+        "",
+        "\x00",
+        "\x7f\u2028",
+        "x" * 1_001,
+        "\U0001f600",
+        [],
+        {},
+    ]
+    values += [f"{old}\n", [old], old]
+    if isinstance(old, int | float):
+        values += [
+            old * float(factor) for factor in (-1, 0.95, 0.9499, 1.05, 1.0501, 1 + 1e-10, 1 + 1e-8, 1e3, 1e-3)
+        ] * 2
+    if isinstance(old, list) and old:
+        values += [old[:-1], [*old, old[0]], old[::-1]] * 4
+    _put(content, path, values[int(rng.integers(len(values)))])
+    return _content_of(files, content)
+
+
+def _json_byte(files: Files, rng: np.random.Generator) -> Files:
+    config = bytearray(files[CONFIG])
+    config[int(rng.integers(len(config)))] = b'0123456789eE+-.,:"{}[] \\\r\n\xff'[int(rng.integers(26))]
+    return {**files, CONFIG: bytes(config), CHECKSUM: checksum(bytes(config))}
+
+
+def _yaml_text(files: Files, rng: np.random.Generator) -> Files:
+    name = (ROS2, FT_CALIB)[int(rng.integers(2))]
+    lines = files[name].decode().split("\n")
+    at = int(rng.integers(len(lines) - 1))
+    line = lines[at]
+    changes: list[list[str]] = [
+        [line, line],
+        [],
+        [line + " "],
+        [line + "\r"],
+        ["\t" + line],
+        [line.replace(":", ": &a", 1) + " "],
+        [line + " # x"],
+        [line, "    offset:", "      force:", "        x: 0.0"],
+        ["a: &a [x, x]", "b: &b [*a, *a, *a, *a]", "c: &c [*b, *b, *b, *b]", line],
+        ['x: !!python/object/apply:os.system ["true"]', line],
+        [line, "---"],
+        [line, "..."],
+        ["%YAML 1.1", line],
+        ["# \r" + line],
+        [line.replace("0", "00", 1) + "0"],
+        [line.replace("force_torque_sensor_broadcaster", "another_node") + "_"],
+    ]
+    lines[at : at + 1] = changes[int(rng.integers(len(changes)))]
+    text = "\n".join(lines).encode()
+    text = (text, text + b"\n", text.removesuffix(b"\n"), b"\xef\xbb\xbf" + text)[
+        int(rng.choice(4, p=[0.7, 0.1, 0.1, 0.1]))
+    ]
+    return seal({**files, name: text if text != files[name] else text + b"#\n"})
+
+
+def _yaml_names(files: Files, rng: np.random.Generator) -> Files:
+    """Name frames or nodes otherwise, in the whole file: some names are none."""
+    name = (ROS2, FT_CALIB)[int(rng.integers(2))]
+    old = (
+        b"ft_sensor",
+        b"base_link",
+        b"admittance_controller",
+        b"gripper_com",
+        b"(not given)",
+        b"contactbench 0",
+    )
+    new = (
+        b"a/b",
+        b"/a",
+        b"a//b",
+        b"9a",
+        b"a-b.c",
+        b"no",
+        b"No",
+        b"",
+        b"a b",
+        b"\xc3\xa4",
+        b"_",
+        b"x" * 201,
+        b'a"',
+        b"base_link",
+    )
+    chosen = old[int(rng.integers(len(old)))], new[int(rng.integers(len(new)))]
+    return seal({**files, name: files[name].replace(*chosen)})
+
+
+def _csv_text(files: Files, rng: np.random.Generator) -> Files:
+    lines = files[PLANES].decode().split("\n")
+    at = int(rng.integers(len(lines) - 2))
+    cells = lines[at].split(",")
+    cell = int(rng.integers(len(cells)))
+    other = [*cells]
+    digit = int(rng.integers(len(cells[cell])))
+    texts = ("+1", "1e400", "1e-400", "-0", "01", "0x1", "nan", "1_0", " 1", cells[cell] + "0", "9" * 5_000)
+    other[cell] = (*texts, cells[cell][:digit] + "7" + cells[cell][digit + 1 :])[
+        int(rng.integers(len(texts) + 1))
+    ]
+    changes: tuple[list[str], ...] = (
+        [",".join(other)],
+        [lines[at] + "\r"],
+        [lines[at] + ","],
+        [lines[at] + " "],
+        [lines[at], lines[at]],
+        [lines[at], ""],
+        [],
+        [lines[at + 1], lines[at]],
+    )
+    lines[at : at + 1] = changes[int(rng.choice(len(changes), p=[0.65, *[0.05] * 7]))]
+    text = "\n".join(lines).encode()
+    text = (text, text + b"\n", text.removesuffix(b"\n"))[int(rng.choice(3, p=[0.8, 0.1, 0.1]))]
+    return seal({**files, PLANES: text if text != files[PLANES] else text + b"0"})
+
+
+def _ply_bytes(files: Files, rng: np.random.Generator) -> Files:
+    data = files[PROBE]
+    header, body = (
+        data[: data.index(b"end_header\n") + 11],
+        bytearray(data[data.index(b"end_header\n") + 11 :]),
+    )
+    lines = header.split(b"\n")
+    at = int(rng.integers(len(lines) - 1))
+    kind = int(rng.integers(4))
+    if kind == 0:
+        changes: tuple[list[bytes], ...] = (
+            [lines[at] + b" "],
+            [lines[at] + b"\r"],
+            [b"comment x", lines[at]],
+            [lines[at].replace(b" ", b"  ")],
+            [],
+            [b""],
+        )
+        lines[at : at + 1] = changes[int(rng.integers(len(changes)))]
+        header = b"\n".join(lines)
+    elif kind == 1:
+        at = int(rng.integers(len(body)))
+        body[at] = int(rng.integers(256))
+    elif kind == 2:
+        at = 24 * int(rng.integers(100))
+        values = (np.nan, np.inf, -0.0, 1e-320, 1e300, 1e3, 0.1)
+        body[at : at + 8] = np.float64(values[int(rng.integers(len(values)))]).tobytes()
+    else:
+        body += rng.bytes(int(rng.integers(1, 30)))
+    return seal({**files, PROBE: header + bytes(body)})
+
+
+def _other_surface(
+    vertices: Any, faces: Any, invented: Any, rng: np.random.Generator
+) -> tuple[Any, Any, Any]:
+    """Return vertices, the rows of facets that are kept with their corners, and which were made up."""
+    some = rng.integers(len(faces), size=int(rng.integers(1, 4)))
+    one, two = faces[some[0], :2]
+    scale = float(rng.choice([1e-4, 0.05, 0.1, 20.0, 1e3]))
+    turned, repeated, guessed, near, thin = (
+        array.copy() for array in (faces, faces, invented, vertices, vertices)
+    )
+    turned[some], repeated[some] = faces[some][:, ::-1], faces[(some + 1) % len(faces)]
+    guessed[some] = True
+    near[one] = vertices[two] * float(rng.choice([1.0, 1 + 1e-15, 1 + 1e-12]))
+    thin[:, int(rng.integers(3))] *= float(rng.choice([-1.0, 0.0, 1e-13]))
+    changes = (
+        (vertices, turned, invented),
+        (vertices, faces[:, ::-1], invented),
+        (vertices, repeated, invented),
+        (vertices * scale, faces, invented),
+        (vertices + float(rng.choice([0.5, 999.0, 1e6])), faces, invented),
+        (near, faces, invented),
+        (np.vstack([vertices, [[5.0, 0.0, 0.0]]]), faces, invented),  # a vertex that no facet uses
+        (vertices, faces, guessed),
+        (vertices + rng.normal(0, 1e-4, vertices.shape), faces, invented),
+        (thin, faces, invented),
+    )
+    return changes[int(rng.integers(len(changes)))]
+
+
+def _other_mesh(files: Files, rng: np.random.Generator) -> Files:
+    """Give the probe another surface, sound or not, and make every file that speaks of it anew."""
+    raw, content = read_ply(files[PROBE]), json.loads(files[CONFIG])
+    vertices, faces, invented = _other_surface(raw.vertices, raw.faces, raw.invented, rng)
+    kept = np.arange(int(rng.integers(2)), len(faces))  # with a hole, or without
+    faces, invented, region = faces[kept], invented[kept], np.asarray(raw.region)[kept]
+    shown = facet_colours(region, invented.astype(bool), [each["colour"] for each in content["regions"]])
+    made = {PROBE: encode_ply(vertices, faces, region, invented, shown, raw.untouchable)}
+    used = vertices[np.unique(faces)]
+    content["probe"] |= {
+        "facets": len(faces),
+        "vertices": len(vertices),
+        "bounds_S_m": [used.min(axis=0).tolist(), used.max(axis=0).tolist()],
+    }
+    content["planes"]["count"] = len(faces)
+    for each in content["regions"]:
+        each["facets"] = int(np.count_nonzero(region == each["rank"]))
+    with suppress(InputError):  # facets without area have no planes
+        probe = Probe.from_arrays(
+            vertices, faces, region, invented=invented, check_size=False, untouchable=raw.untouchable
+        )
+        made[PLANES] = encode_planes(probe)
+    return _content_of({**files, **made}, content)
+
+
+def _other_gravity(files: Files, rng: np.random.Generator) -> Files:
+    """Weigh another tool, and make every file that speaks of it anew."""
+    content = json.loads(files[CONFIG])
+    part = content["gravity"]
+    weight = float(rng.choice([0.0, 1e-200, 0.05, 0.3, 6.0, 400.0, 600.0]))
+    tilt = rng.normal(0, float(rng.choice([0.0, 1e-12, 1e-4, 0.02, 1.0])), 3)
+    part["gravity_W_N"] = ((np.array([0.0, 0.0, -1.0]) + tilt) * weight).tolist()
+    for name, size in (("force_bias_N", 3.0), ("torque_bias_Nm", 0.1), ("centre_of_mass_S_m", 0.05)):
+        part[name] = rng.normal(0, size * float(rng.choice([0.0, 1e-9, 1.0])), 3).tolist()
+    C = np.array(part["covariance"]) * float(rng.choice([0.0, 1e-8, 1.0, 1e4]))
+    part["covariance"] = C.tolist()
+    names = ("gravity_W_N", "force_bias_N", "centre_of_mass_S_m", "torque_bias_Nm")
+    gravity, force, centre, torque = (np.array(part[name]) for name in names)
+    model = GravityModel(gravity, force, centre, torque, C)
+    noise, kalman = content["noise"], content["filters"]["wrench"]
+    wrench_filter = (
+        None
+        if kalman is None
+        else KalmanFilter(
+            kalman["rate_Hz"],
+            q=kalman["q"],
+            r=kalman["r"],
+            tuned_rate=kalman["tuned_rate_Hz"],
+            per_sample=kalman["per_sample"],
+        )
+    )
+    noise["wrench_covariance"] = wrench_covariance(
+        noise["force_N"], noise["torque_Nm"], wrench_filter, model
+    ).tolist()
+    made = dict(files)
+    named = {"sensor_name": "wrist/ft.1", "broadcaster": "/cell/broadcaster", "admittance": "no"}
+    with np.errstate(all="ignore"):
+        try:
+            made[ROS2] = ros2_yaml(
+                model, sensor_frame="tool0-ft", world_frame="base", **(named if rng.integers(2) else {})
+            ).encode()
+            made[FT_CALIB] = ft_calib_yaml(model, com_frame="tool0-ft").encode()
+        except InputError:
+            del made[FT_CALIB]
+    return _content_of(made, content)
+
+
+def _other_filter(files: Files, rng: np.random.Generator) -> Files:
+    """Filter otherwise, with the sections that belong to it."""
+    content = json.loads(files[CONFIG])
+    part = content["filters"]["location"]
+    rate = float(rng.choice([1.0, 200.0, 1_000.0, 1_049.0, 1_060.0, 1e6]))
+    cutoff = rate * float(10 ** rng.uniform(-6.5, -0.30104))
+    order = int(rng.integers(1, 9))
+    part |= {"rate_Hz": rate, "cutoff_Hz": cutoff, "order": order}
+    part["sections"] = low_pass_sections(cutoff, rate, order).tolist()
+    return _content_of(files, content)
+
+
+_SEALED: dict[str, tuple[Expected, Mutate]] = {
+    "sealed flip": ("any", lambda files, rng: seal(_flip(files, rng))),
+    "any value": ("any", _any_value),
+    "JSON byte": ("any", _json_byte),
+    "YAML text": ("refused", _yaml_text),
+    "YAML names": ("any", _yaml_names),
+    "CSV text": ("refused", _csv_text),
+    "PLY bytes": ("any", _ply_bytes),
+    "other mesh": ("any", _other_mesh),
+    "other gravity": ("any", _other_gravity),
+    "other filter": ("any", _other_filter),
 }
 
 # ---- zip files ---------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -119,17 +120,20 @@ def verification(
 @study_app.command(epilog="Example: contactbench study bundles --count 5000")
 def bundles(
     count: Annotated[int, typer.Option(help="Mutated bundles.")] = 5_000,
+    cpp: Annotated[
+        Path | None, typer.Option(help="The program contactbench-load_all, to compare the loader in C++.")
+    ] = None,
     seed: SeedOption = 0,
     out: MarkdownOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Load runtime configs that were damaged or tampered with: each is refused with a reason.
 
-    Exit code 1 when one is not.
+    Exit code 1 when one is not, or when the loader in C++ comes to another verdict.
     """
     from pipeline.study import bundle_fuzz as study
 
-    finish(study.run(count, seed).report(), out, as_json=as_json)
+    finish(study.run(count, seed, cpp).report(), out, as_json=as_json)
 
 
 @study_app.command(epilog="Example: contactbench study runtime --seconds 20 --minutes 2")

@@ -10,7 +10,6 @@ import numpy as np
 from pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
 from pipeline.calibration.orientation import Convention, RowError
 from pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from pipeline.devices.bursts import spread_bursts
 from pipeline.errors import InputError
 from pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
 
@@ -134,10 +133,9 @@ def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
             " of each; convert the ones that are meant to CSV."
         )
     track, flange = next(iter(recording.wrenches.values())), next(iter(recording.flanges.values()))
-    times = spread_bursts(track.times)
-    poses, there = poses_at(flange, times)
+    poses, there = poses_at(flange, track.times)
     clipped = (track.status & _OVERRANGE) != 0
-    kept = there & (track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1)))
+    kept = there & (track.usable | (clipped & np.isfinite(track.wrenches).all(axis=1) & ~track.frozen))
     if not kept.any():
         raise InputError(f"{file}: no reading has a pose beside it: record the robot along with the sensor.")
     lost = int(np.count_nonzero(~kept))
@@ -148,11 +146,11 @@ def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
     )
     R_WS = sensor_orientations(poses[kept, :4], Convention(), R_ES)
     return TouchRecording(
-        times[kept],
+        track.times[kept],
         track.wrenches[kept],
         R_WS,
         clipped[kept],
-        (*recording.warnings, *said, *clock_sentences(times[kept], str(file))),
+        (*recording.warnings, *said, *clock_sentences(track.times[kept], str(file))),
     )
 
 

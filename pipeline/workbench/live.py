@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.devices.bursts import spread_bursts
-from pipeline.devices.sample import Status
+from pipeline.devices.pose_track import PoseTrack
+from pipeline.devices.sample import FROZEN_CHANCE, Status
 from pipeline.devices.url import DeviceAddress
+from pipeline.kernel import FrozenDetector
 from pipeline.streams import open_pair
 from pipeline.workbench.live_moment import Moment, Reading
-from pipeline.workbench.live_poses import PoseTrack
 from pipeline.workbench.live_ring import Ring
 
 if TYPE_CHECKING:
@@ -48,7 +48,8 @@ class Block:
     wrenches : (n, 6)
         Raw, S, N and N·m.
     R_WS : (n, 3, 3)
-        NaN where no pose is known.
+        NaN where no pose is known, or the reading is not to be used: the sensor hangs or flags it, or its time is a
+        guess.
     saturated : (n,) bool
     """
 
@@ -111,8 +112,8 @@ class Live:
         self.on_error: list[Callable[[Exception], None]] = []
         self._ring = Ring(_KEPT)
         self._track, self._moment = PoseTrack(np.eye(3)), Moment(_USUAL_HZ)
+        self._detector = FrozenDetector()
         self._waiting: list[WrenchSample] = []
-        self._given: float | None = None
         self._followers: list[Callable[[Block], None]] = []
         self._taps: list[Tap] = []
         self._lock = threading.RLock()  # of what waits and who gets it: samples keep their order
@@ -164,6 +165,7 @@ class Live:
         with self._lock:
             self._waiting.clear()
             self._ring.clear()
+            self._detector = FrozenDetector()
             self._track, self._moment = PoseTrack(mount), Moment(_rate_of(pair))
             self.R_ES, self.addresses, self.pair = mount, (sensor, poses), pair
         try:
@@ -304,8 +306,17 @@ class Live:
             count = sum(sample.time <= until for sample in waiting)
         if count:
             self._waiting = waiting[count:]
-            self._give(_block(waiting[:count], self._track, self._given))
-            self._given = waiting[count - 1].time
+            self._give(self._block(waiting[:count]))
+
+    def _block(self, samples: Sequence[WrenchSample]) -> Block:
+        times = np.array([sample.time for sample in samples], dtype=np.float64)
+        wrenches = np.array([(*sample.force, *sample.torque) for sample in samples], dtype=np.float64)
+        saturated = np.array([bool(sample.status & Status.OVERRANGE) for sample in samples])
+        frozen = [self._detector.see((*sample.force, *sample.torque), FROZEN_CHANCE) for sample in samples]
+        flagged = [bool(sample.status & ~(Status.LATE | Status.OVERRANGE)) for sample in samples]
+        R_WS = self._track.at(times)
+        R_WS[np.array(frozen) | np.array(flagged)] = np.nan
+        return Block(times, wrenches, R_WS, saturated)
 
     def _give(self, block: Block) -> None:
         model = self.model
@@ -324,13 +335,6 @@ class Live:
         except Exception as error:  # noqa: BLE001 - whatever goes wrong with a block, the devices go on
             for listener in tuple(self.on_error):
                 listener(error)
-
-
-def _block(samples: Sequence[WrenchSample], track: PoseTrack, before: float | None) -> Block:
-    times = spread_bursts(np.array([sample.time for sample in samples], dtype=np.float64), before)
-    wrenches = np.array([(*sample.force, *sample.torque) for sample in samples], dtype=np.float64)
-    saturated = np.array([bool(sample.status & Status.OVERRANGE) for sample in samples])
-    return Block(times, wrenches, track.at(times), saturated)
 
 
 def _rate_of(pair: Pair) -> float:

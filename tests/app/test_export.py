@@ -76,6 +76,8 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     page.settings.operator.setText("Ada Lovelace")
     page.settings.operator.editingFinished.emit()
     page.settings.force.setValue(20.0)
+    page.settings.sensor_name.setText("wrist")
+    page.settings.sensor_name.editingFinished.emit()
     window.wait(lambda: "Ada Lovelace" in page.figures.text() and "20 N" in page.figures.text())
     page.write(tmp_path / "window.zip")
     window.wait(lambda: page.exported is not None)
@@ -90,6 +92,8 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     )
     assert done.exit_code == 0, done.stderr
     assert (tmp_path / "window.zip").read_bytes() == (tmp_path / "command.zip").read_bytes()
+    assert b'sensor_name: "wrist"' in (tmp_path / "window.zip").read_bytes()
+    window.bench.undo.undo()
     window.bench.undo.undo()
     window.wait(lambda: "limits.max_force_N: 20 → 30" in page.changes.text())
 

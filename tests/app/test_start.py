@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
-from PySide6.QtWidgets import QApplication, QListWidget
+from PySide6.QtWidgets import QLabel, QListWidget, QPushButton, QToolBar
 
 from app.opening import VIRTUAL_BENCH, free_folder
 from app.settings import Recent, Settings
@@ -18,6 +18,7 @@ from app.start import Question, StartPage
 from pipeline.devices.url import DeviceAddress
 from pipeline.session import Session
 from pipeline.workbench.steps import Step
+from widgets.scrolled import Scrolled
 
 from .conftest import shown
 
@@ -76,33 +77,113 @@ def test_a_session_that_is_open_elsewhere_can_be_looked_at(qtbot, window, tmp_pa
         assert other.stdout.readline().strip() == "ready"
         window.sessions.open(folder)
         qtbot.waitUntil(lambda: "another process" in asked(window), timeout=20_000)
-        look = next(button for button in window.start.question.answers() if "Look" in button.text())
-        qtbot.mouseClick(look, Qt.MouseButton.LeftButton)
-        qtbot.waitUntil(lambda: QApplication.activeModalWidget() is not None, timeout=10_000)
-        dialog = QApplication.activeModalWidget()
-        assert "a note of theirs" in dialog.view.toPlainText()
-        dialog.close()
+        answer(qtbot, window, "Open read-only")
+        assert [note.text for note in window.bench.desk.state.notes] == ["a note of theirs"]
+        read_only(qtbot, window, "another program is writing")
         other.communicate("\n")
 
 
-@pytest.mark.parametrize("damage", ["corrupt", "newer"])
-def test_a_damaged_or_newer_session_is_refused_in_words(qtbot, window, tmp_path, damage):
+@pytest.fixture
+def damaged(tmp_path):
+    """A session with a damaged record between two notes."""
     folder = tmp_path / "s"
     with Session.create(folder) as session:
-        for number in range(5):
-            session.note(f"note {number}")
-    journal = folder / "journal"
-    content = bytearray(journal.read_bytes())
-    if damage == "corrupt":
-        content[len(content) // 2] ^= 0xFF
-    else:
-        content[:16] = b"a newer format!!"
-    journal.write_bytes(content)
-    window.sessions.open(folder)
+        session.note("before")
+        begin = (folder / "journal").stat().st_size
+        session.note("lost")
+        session.note("after")
+    content = bytearray((folder / "journal").read_bytes())
+    content[begin + 60 : begin + 90] = b"#" * 30
+    (folder / "journal").write_bytes(content)
+    return folder
+
+
+def files(folder):
+    return {str(file): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
+
+
+def answer(qtbot, window, words):
+    """Press the button of an answer, and wait until a session is shown."""
+    button = next(each for each in window.start.question.answers() if each.text() == words)
+    return shown(qtbot, window, lambda: qtbot.mouseClick(button, Qt.MouseButton.LeftButton))
+
+
+def read_only(qtbot, window, words):
+    """Check that the window says that nothing can be added, and locks its pages; a write is refused in words."""
+    lines = lambda: [each for each in window.findChildren(QToolBar, "read-only") if each.isVisible()]  # noqa: E731
+    qtbot.waitUntil(lambda: len(lines()) == 1, timeout=10_000)
+    assert words in lines()[0].findChildren(QLabel)[-1].text()
+    for step in Step:
+        window.show_step(step)
+        assert not window.docks.pages.currentWidget().isEnabled()
+    window.bench.do("Noting", lambda session: session.note("n"))
+    qtbot.waitUntil(lambda: any("reading only" in text for text in window.messages.texts()), timeout=10_000)
+    with qtbot.waitSignal(window.gone, timeout=30_000):
+        window.close_session()
+    qtbot.waitUntil(lambda: lines() == [], timeout=10_000)
+
+
+def test_a_damaged_session_is_salvaged_by_a_button(qtbot, window, damaged):
+    before = files(damaged)
+    window.sessions.open(damaged)
+    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=10_000)
+    assert window.messages.texts() == ()  # an expected error is asked about, and is no fault
+    bench = answer(qtbot, window, "Salvage a copy")
+    assert bench.desk.folder == damaged.with_name("s-salvaged")
+    assert [note.text for note in bench.desk.state.notes][:2] == ["before", "after"]
+    assert any("At least one record is lost" in text for text in window.messages.texts())
+    assert files(damaged) == before
+    bench.desk.do(lambda session: session.note("goes on")).result()
+
+
+def test_a_damaged_session_is_opened_read_only_by_a_button(qtbot, window, damaged):
+    before = files(damaged)
+    window.sessions.open(damaged)
+    qtbot.waitUntil(lambda: "is damaged" in asked(window), timeout=10_000)
+    bench = answer(qtbot, window, "Open read-only")
+    assert [note.text for note in bench.desk.state.notes][:2] == ["before", "after"]
+    read_only(qtbot, window, "this session is damaged")
+    assert files(damaged) == before
+
+
+def test_a_folder_that_cannot_be_written_is_opened_read_only(qtbot, window, tmp_path, monkeypatch):
+    with Session.create(tmp_path / "s") as session:
+        session.note("there")
+    before = files(tmp_path / "s")
+    monkeypatch.setattr("pipeline.session.lock.writable", lambda _path: False)
+    bench = shown(qtbot, window, lambda: window.sessions.open(tmp_path / "s"))
+    assert [note.text for note in bench.desk.state.notes] == ["there"]
+    read_only(qtbot, window, "the folder of this session cannot be written")
+    assert files(tmp_path / "s") == before
+
+
+def test_no_button_of_any_page_can_be_pressed_in_a_session_that_is_read_only(
+    qtbot, make_window, tmp_path, monkeypatch
+):
+    Session.create(tmp_path / "s").close()
+    monkeypatch.setattr("pipeline.session.lock.writable", lambda _path: False)
+    window = make_window()
+    shown(qtbot, window, lambda: window.sessions.open(tmp_path / "s"))
+    qtbot.waitUntil(lambda: window.findChild(QToolBar, "read-only") is not None, timeout=10_000)
+    for step in Step:
+        window.show_step(step)
+        page = window.docks.pages.currentWidget()
+        for button in page.findChildren(QPushButton):
+            button.setEnabled(True)  # as pages do when their step's state changes
+        window.pages.read_statuses()
+        assert [each.text() for each in page.findChildren(QPushButton) if each.isEnabled()] == [], step
+        for area in page.findChildren(Scrolled):
+            assert area.isEnabled(), step
+
+
+def test_what_is_no_session_any_more_is_refused_in_words(qtbot, window, damaged):
+    content = (damaged / "journal").read_bytes()
+    (damaged / "journal").write_bytes(b"a newer format!!" * (len(content) // 16))
+    window.sessions.open(damaged)
     qtbot.waitUntil(lambda: asked(window) != "", timeout=10_000)
     assert "Traceback" not in asked(window)
     assert window.bench is None
-    assert window.messages.texts() == ()  # an expected error is asked about, and is no fault
+    assert window.messages.texts() == ()
 
 
 def _cut_short(folder):

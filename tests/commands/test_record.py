@@ -18,7 +18,10 @@ from recording.recording_cases import record
 from typer.testing import CliRunner
 
 from pipeline import cli
+from pipeline.commands.record import Changes, wait
+from pipeline.devices.drive import Health, State
 from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from pipeline.devices.protocols import Counters
 from pipeline.recording import Event, RecordingError, RecordingReader, RecordingWriter, read_recording
 from pipeline.recording.recorder import Recorder
 from pipeline.study.fault_lines import resting
@@ -76,6 +79,19 @@ def test_a_gap_stays_a_gap_and_is_kept_as_an_event(tmp_path):
     states = [event.fields["state"] for event in recording.events]
     assert "silent" in states
     assert states[-1] in ("streaming", "closed")
+
+
+def test_a_device_that_comes_and_goes_is_counted_and_not_repeated(tmp_path):
+    out = tmp_path / "a.mcap"
+    script = Script([FaultEvent(0.3 + 0.6 * gap, Fault.STALL, 0.4) for gap in range(4)])
+    with emulator("sri", "serial", rate=200.0, signal=moving(), script=script) as device:
+        result = invoke("record", device.url, "--out", out, "--seconds", 2.8)
+    assert result.exit_code == 0, result.stderr
+    states = [event.fields["state"] for event in read_recording(out).events]
+    assert states.count("silent") > 2  # the recording has every one
+    lines = [line for line in result.stderr.splitlines() if line.startswith("sensor: ")]
+    assert sum(line.startswith("sensor: silent:") for line in lines) == 1
+    assert sum(" again: " in line and " times in " in line for line in lines) == 1
 
 
 def test_a_sensor_that_is_not_there(tmp_path):
@@ -305,3 +321,158 @@ def test_ports_are_listed():
 @pytest.mark.parametrize("command", ["record", "ports"])
 def test_help_has_an_example(command):
     assert f"Example: contactbench {command}" in " ".join(invoke(command, "--help").stdout.split())
+
+
+# ---- changes of devices ----------------------------------------------------------------------------
+
+
+class Device:
+    """Tells changes of one device at times of a clock that is set by hand."""
+
+    def __init__(self, name: str = "sensor") -> None:
+        self.name, self.now = name, 0.0
+        self.changes = Changes(lambda: self.now)
+
+    def is_now(
+        self, state: State, *findings: str, suspicions: tuple[str, ...] = (), after: float = 0.0
+    ) -> None:
+        self.now += after
+        health = Health(state, findings, 0, None, None, Counters(), 0, suspicions)
+        self.changes.tell(self.name, health)
+
+
+def test_what_is_new_is_said_at_once(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    device.is_now(State.CONNECTING)
+    device.is_now(State.STREAMING)
+    device.is_now(State.SILENT, "No sample for 0.4 s.")
+    device.is_now(State.SILENT, "No sample for 0.9 s.", suspicions=("It was re-zeroed.",))
+    assert capsys.readouterr().err.splitlines() == [
+        "sensor: connecting",
+        "sensor: streaming",
+        "sensor: silent: No sample for 0.4 s.",
+        "sensor: silent: No sample for 0.9 s. It was re-zeroed.",
+    ]
+    device.changes.end()
+    assert capsys.readouterr().err == ""
+
+
+def test_repeats_are_counted_and_the_line_ends_with_how_it_is_now(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    for _ in range(38):
+        device.is_now(State.SILENT, f"No sample for {device.now} s.", after=0.0625)
+        device.is_now(State.STREAMING, after=0.0625)
+    lines = capsys.readouterr().err.splitlines()
+    assert lines == ["sensor: silent: No sample for 0.0 s.", "sensor: streaming"]
+    device.changes.tick()
+    assert capsys.readouterr().err == ""  # not yet
+    device.now += 1.0
+    device.changes.end()
+    assert capsys.readouterr().err.splitlines() == ["sensor: silent, then streaming again: 37 times in 6 s"]
+    device.changes.end()
+    assert capsys.readouterr().err == ""
+
+
+def test_ten_minutes_of_coming_and_going_are_a_line_every_five_seconds(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    device = Device()
+    for _ in range(1200):
+        device.is_now(State.SILENT, f"No sample for {device.now} s.", after=0.25)
+        device.is_now(State.STREAMING, after=0.25)
+    device.changes.end()
+    lines = capsys.readouterr().err.splitlines()
+    assert 100 < len(lines) <= 600 / 5 + 3
+    counted = [line for line in lines if " times in 5 s" in line]
+    assert len(counted) == len(lines) - 3
+    assert all("streaming" in line and "silent" in line for line in counted)
+
+
+def test_what_waits_is_said_without_another_change(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    for state in (State.STREAMING, State.SILENT, State.STREAMING, State.SILENT):
+        device.is_now(state, *(["It has no power."] if state is State.SILENT else []))
+    capsys.readouterr()
+    device.now = 4.9
+    device.changes.tick()
+    assert capsys.readouterr().err == ""
+    device.now = 5.0
+    device.changes.tick()
+    assert capsys.readouterr().err == "sensor: streaming, then silent again: once in 5 s: It has no power.\n"
+
+
+def test_a_repeat_after_a_quiet_time_is_news(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    device.is_now(State.STREAMING)
+    device.is_now(State.LOST, "The line is open.")
+    device.is_now(State.STREAMING, after=60.0)
+    device.is_now(State.LOST, "The line is open.", after=3600.0)
+    assert capsys.readouterr().err.splitlines() == 2 * [
+        "sensor: streaming",
+        "sensor: lost: The line is open.",
+    ]
+
+
+def test_what_waits_comes_before_what_is_new(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    for state in (State.STREAMING, State.SILENT, State.STREAMING, State.CLOSED):
+        device.is_now(state)
+    assert capsys.readouterr().err.splitlines()[2:] == ["sensor: streaming", "sensor: closed"]
+
+
+def test_devices_are_counted_apart(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    device.is_now(State.STREAMING)
+    device.name = "robot"
+    device.is_now(State.STREAMING)
+    assert capsys.readouterr().err.splitlines() == ["sensor: streaming", "robot: streaming"]
+
+
+def test_words_that_differ_each_time_do_not_flood_either(capsys: pytest.CaptureFixture[str]) -> None:
+    device = Device()
+    for number in range(1000):
+        device.is_now(State.LOST, "x" * number)
+    assert len(capsys.readouterr().err.splitlines()) <= 50
+
+
+def test_a_closed_terminal_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise BrokenPipeError
+
+    monkeypatch.setattr("pipeline.commands.record.say", broken)
+    Device().is_now(State.STREAMING)
+
+
+def test_lines_that_wait_are_looked_at_while_it_records() -> None:
+    class Source:
+        """A source that goes by steps, and is finished after three."""
+
+        streams, stepwise, steps = (), True, 0
+
+        @property
+        def finished(self) -> bool:
+            return self.steps == 3
+
+        def step(self, _count: int) -> None:
+            self.steps += 1
+
+    class Looks:
+        count = 0
+
+        def tick(self) -> None:
+            self.count += 1
+
+    looks = Looks()
+    wait(Source(), None, threading.Event(), changes=looks)
+    assert looks.count == 3
+
+
+def test_lines_that_wait_at_the_end_are_said(tmp_path, monkeypatch):
+    ends = []
+    monkeypatch.setattr(Changes, "end", lambda _changes: ends.append(threading.active_count()))
+    with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
+        before = threading.active_count()
+        result = invoke("record", device.url, "--out", tmp_path / "a.mcap", "--seconds", 0.3)
+        assert result.exit_code == 0, result.stderr
+    assert len(ends) == 1
+    assert ends[0] <= before  # after the streams

@@ -1,6 +1,7 @@
 """recording info, convert, import-ros2."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from typer.testing import CliRunner
 
 from pipeline import cli
 from pipeline.commands.recording import recording_app
-from pipeline.devices.sample import FlangeSample, WrenchSample
+from pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
 from pipeline.recording.ros2_types import DEFINITIONS, WRENCH_STAMPED
 
@@ -53,6 +54,40 @@ def test_info(app: typer.Typer, file: Path) -> None:
     assert (wrench["topic"], wrench["samples"], wrench["lost"]) == ("/wrench", 100, 1)
     assert flange["rate"] == pytest.approx(100)
     assert "/wrench: 100 wrenches in 1.00 s (99.0 Hz), 1 lost, 0 unusable." in result.stderr
+
+
+def test_info_counts_what_is_unhealthy(app: typer.Typer, tmp_path: Path) -> None:
+    with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 5.0)) as writer:
+        for number in range(100):
+            time, delay = 5 + number / 100, 0.15 if number in (7, 8) else 0.002
+            status = {1: Status.OVERRANGE, 2: Status.LATE, 3: Status.CLOCK, 4: Status.CLOCK | Status.RAW}
+            wrench = WrenchSample(time, (1.0, 2.0, 3.0), (0.1, 0.2, 0.3), arrival=time + delay)
+            writer.wrench(replace(wrench, status=status.get(number, Status.OK)))
+            writer.flange(FlangeSample(time, np.eye(3), np.zeros(3)))
+    result = invoke(app, "info", tmp_path / "r.mcap", "--json")
+    wrench, flange = json.loads(result.stdout)["topics"]
+    assert wrench["flags"] == {"overrange": 1, "raw": 1, "late": 1, "clock": 2}
+    assert (wrench["unusable"], wrench["late"], wrench["frozen"]) == (3, 2, 0)
+    assert wrench["latency_median"] == pytest.approx(0.002)
+    assert wrench["latency_p99"] > 0.1
+    assert (flange["latency_median"], flange["late"]) == (None, 0)
+    assert (
+        "3 unusable, 1 overrange, 1 raw, 1 slower than the rate, 2 with a guessed time, 2 late by more than 0.1 s;"
+        " latency 2.0 ms (median), 150.0 ms (99th percentile)."
+    ) in result.stderr
+
+
+def test_info_counts_frozen_readings(app: typer.Typer, tmp_path: Path) -> None:
+    chance = np.random.default_rng(4)
+    with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 5.0)) as writer:
+        for number in range(1000):
+            if not 500 <= number < 700:
+                values = tuple(chance.normal(size=6).tolist())
+            writer.wrench(WrenchSample(5 + number / 100, values[:3], values[3:]))
+    result = invoke(app, "info", tmp_path / "r.mcap", "--json")
+    wrench = json.loads(result.stdout)["topics"][0]
+    assert (wrench["frozen"], wrench["unusable"]) == (201, 201)
+    assert "201 frozen" in result.stderr
 
 
 def test_info_of_a_file_that_is_cut_off(app: typer.Typer, file: Path) -> None:

@@ -6,10 +6,11 @@ import pytest
 from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 
+from pipeline.cli import app
 from pipeline.commands.session import session_app
 from pipeline.recording import RecordingInfo, RecordingWriter
 from pipeline.session import Session, SessionError
-from pipeline.session.recompute import settings_of
+from pipeline.session.recompute import RECOMPUTE, settings_of
 
 
 def invoke(*arguments):
@@ -80,6 +81,84 @@ def test_verify_ends_with_1_and_repair_mends_a_damaged_end(folder):
     done = facts("repair", folder)
     assert (folder / done["kept_as"]).read_bytes() == data
     assert facts("verify", folder)["records"] == 1
+
+
+@pytest.fixture
+def damaged(weighed_session):
+    """A session of which the record of its poses is damaged; a calibration and a note follow it."""
+    with Session.open(weighed_session) as session:
+        session.note("after")
+    data = bytearray((weighed_session / "journal").read_bytes())
+    at = data.index(b"input_added")
+    data[at - 40 : at] = b"#" * 40
+    (weighed_session / "journal").write_bytes(data)
+    return weighed_session
+
+
+def test_salvage_ends_with_1_when_something_is_lost_and_with_0_when_not(damaged, tmp_path):
+    before = (damaged / "journal").read_bytes()
+    done = facts("salvage", damaged, "--out", tmp_path / "n", code=1)
+    assert done["out"] == str(tmp_path / "n")
+    assert done["records"] == 3
+    assert not done["whole"]
+    assert list(done["stale"]) == ["calibration c.json"]
+    assert "is lost after record 1" in " ".join(done["found"])
+    assert done["unclaimed"][0].endswith("poses.csv")
+    assert (damaged / "journal").read_bytes() == before
+    found = facts("info", tmp_path / "n")
+    assert found["damage"] == ""
+    assert "in no record before it" in found["results"][0]["stale"][0]
+    assert facts("verify", tmp_path / "n")["sound"] is True
+    again = facts("salvage", tmp_path / "n")
+    assert (again["whole"], again["out"]) == (True, str(tmp_path / "n-salvaged"))
+    words = invoke("salvage", damaged, "--out", tmp_path / "m")
+    assert words.exit_code == 1
+    assert "not everything could be saved" in words.stderr
+    assert words.stdout == ""
+
+
+def test_a_damaged_session_is_told_of_with_1_and_written_by_nobody(damaged):
+    before = {str(file): file.read_bytes() for file in damaged.rglob("*") if file.is_file()}
+    found = facts("info", damaged, code=1)
+    assert "is damaged" in found["damage"]
+    assert found["results"][0]["stale"]
+    for command in (("note", damaged, "x"), ("rezero", damaged, "--sensor", "1", "--reason", "x")):
+        assert "session salvage" in str(invoke(*command).exception)
+    assert {str(file): file.read_bytes() for file in damaged.rglob("*") if file.is_file()} == before
+
+
+@pytest.mark.parametrize("arguments", [("salvage", "none"), ("info", "none")])
+def test_an_error_is_one_json_object_and_2(tmp_path, arguments):
+    result = CliRunner().invoke(app, ["session", arguments[0], str(tmp_path / arguments[1]), "--json"])
+    assert result.exit_code == 2
+    assert "holds no session" in json.loads(result.stdout)["error"]
+
+
+def test_every_command_that_writes_says_so_where_nothing_can_be_written(weighed_session, poses, monkeypatch):
+    monkeypatch.setattr("pipeline.session.lock.writable", lambda _path: False)
+    before = {str(file): file.read_bytes() for file in weighed_session.rglob("*") if file.is_file()}
+    for command in (
+        ("add", weighed_session, poses, "--kind", "poses"),
+        ("compute", weighed_session, "calibration", "c.json"),
+        ("note", weighed_session, "x"),
+        ("set", weighed_session, "calibration.tip=null"),
+        ("rezero", weighed_session, "--sensor", "1", "--reason", "x"),
+        ("repair", weighed_session),
+        ("record", weighed_session, "--sensor", "virtual://bench", "--seconds", "1"),
+    ):
+        result = CliRunner().invoke(app, ["session", *map(str, command), "--json"])
+        assert result.exit_code == 2, command
+        assert "cannot be written: open the session read-only" in json.loads(result.stdout)["error"], command
+    for command in ("info", "verify", "replay"):
+        facts(command, weighed_session)
+    assert {str(file): file.read_bytes() for file in weighed_session.rglob("*") if file.is_file()} == before
+
+
+def test_the_help_names_every_kind_that_can_be_computed():
+    words = " ".join(invoke("compute", "--help").stdout.split())
+    for kind in RECOMPUTE:
+        assert f"{kind}, from" in words, kind
+    assert "Example: contactbench session salvage" in invoke("salvage", "--help").stdout
 
 
 def test_there_and_back_as_an_archive(weighed_session, tmp_path):

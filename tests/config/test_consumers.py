@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 import re
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,9 +18,16 @@ from scipy.spatial.transform import Rotation
 from pipeline import __version__
 from pipeline.calibration import GravityModel, PoseSample, calibrate
 from pipeline.config import VerticalResidual, ft_calib_yaml, ros2_yaml, vertical_residual
-from pipeline.config.consumers import yaml_number
+from pipeline.config.consumers import (
+    CHECKED,
+    regenerate_ft_calib_yaml,
+    regenerate_ros2_yaml,
+    yaml_number,
+)
+from pipeline.config.runtime.model import VERSION
 from pipeline.errors import InputError
 
+ROS_PAGE = Path(__file__).parents[2] / "docs" / "ros.md"
 TILTED_BY = 1.3  # deg
 TRUE = GravityModel([0, 0, -9.4], [0.52, -11.3, 4.07], [0.031, -0.022, 0.085], [-0.24, 0.33, 2.5e-5])
 TILTED = GravityModel(
@@ -357,6 +367,122 @@ def test_the_admittance_controller_is_led_to_readings_without_bias(exact):
     assert "removes no bias" in unnamed
 
 
+def test_a_sensor_name_that_nobody_gave_is_a_placeholder_to_uncomment(exact):
+    unnamed = ros2_yaml(exact, sensor_frame="s", world_frame="w", broadcaster="fts")
+    assert "sensor_name" not in node(read(unnamed), "fts")
+    assert "FILL IN" in unnamed
+    filled = re.sub(r"# (sensor_name|name): (.*)SENSOR_NAME", r"\1: \2wrist", unnamed)
+    parameters = read(filled)
+    assert node(parameters, "fts")["sensor_name"] == "wrist"
+    assert node(parameters, "admittance_controller")["ft_sensor"]["name"] == "fts/wrist"
+    given = ros2_yaml(exact, sensor_frame="s", world_frame="w", sensor_name="wrist")
+    assert "FILL IN" not in given
+    assert "SENSOR_NAME" not in given
+
+
+def test_the_head_says_that_it_is_a_fragment_for_which_releases_and_what_to_beware_of(exact):
+    head = ros2_yaml(exact, sensor_frame="s", world_frame="w").split("ros__parameters")[0]
+    words = " ".join(line.removeprefix("# ") for line in head.splitlines())
+    assert "FRAGMENT" in words
+    assert f"Checked against the sources of ros2_controllers {', '.join(CHECKED)}" in words
+    for release in ("4.42.0", "4.42.1", "5.17.0", "6.9.0"):
+        assert release in words.partition("CAUTION")[2]
+    assert set(CHECKED) <= set(re.findall(r"\d+\.\d+\.\d+", ROS_PAGE.read_text("utf-8")))
+
+
+# ---- made anew from their own heads --------------------------------------------------------------
+
+NAMED = {"sensor_frame": "tool/ft", "world_frame": "w", "broadcaster": "/arm/fts", "admittance": "adm"}
+
+BUNDLED = {name: NAMED[name] for name in ("sensor_frame", "world_frame")}
+
+
+def made(model: GravityModel) -> dict[str, tuple[str, Callable[[str, GravityModel], str]]]:
+    """Return each text with the function that makes it anew."""
+    return {
+        "ros2": (ros2_yaml(model, **BUNDLED), regenerate_ros2_yaml),
+        "ros2 named": (
+            ros2_yaml(model, **BUNDLED, sensor_name="a.b-c", tool="contactbench 0.0.1.dev3+g1"),
+            regenerate_ros2_yaml,
+        ),
+        "ft_calib": (
+            ft_calib_yaml(model, com_frame="s", child_frame="load", tool="contactbench 2.0"),
+            regenerate_ft_calib_yaml,
+        ),
+    }
+
+
+@pytest.mark.parametrize("which", ["ros2", "ros2 named", "ft_calib"])
+@pytest.mark.parametrize("truth", [TRUE, TILTED], ids=["level", "tilted"])
+def test_a_text_is_made_anew_to_the_byte_from_its_head_and_the_model(truth, which):
+    model = fit(truth, noise=1.0)
+    text, anew = made(model)[which]
+    assert anew(text, model) == text
+    other = GravityModel(
+        model.gravity_W, model.force_bias + 1e-9, model.centre_of_mass_S, model.torque_bias, model.covariance
+    )
+    assert anew(text, other) != text
+
+
+@pytest.mark.parametrize("which", ["ros2", "ros2 named", "ft_calib"])
+def test_no_line_of_a_text_can_be_changed_unnoticed(exact, which):
+    text, anew = made(exact)[which]
+    lines = text.splitlines(keepends=True)
+    for number, line in enumerate(lines):
+        for instead in ("", line + line, " " + line, line[:-1] + " \n", line[:-1] + "\r\n", "# x\n" + line):
+            changed = "".join([*lines[:number], instead, *lines[number + 1 :]])
+            try:
+                found = anew(changed, exact)
+            except InputError:
+                continue
+            assert found != changed, (number, instead)
+    for changed in (text + "\n", text[:-1], text + "offset: 1.0\n", "\ufeff" + text):
+        assert anew(changed, exact) == text
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "refusal"),
+    [
+        ("# tool: contactbench", "# tool: another", "tool"),
+        ("# tool: contactbench 0", "# tool: contactbench 0 !!python/object", "tool"),
+        ("# tool: contactbench 0", f"# tool: contactbench {10**300}", "tool"),
+        ("# sensor_frame: tool/ft", "# sensor_frame: /tool/ft", "sensor_frame"),
+        ("# sensor_frame: tool/ft", "#  sensor_frame: tool/ft", r"ros2\.yaml, line 3: .*'# sensor_frame"),
+        ("# sensor_frame: tool/ft\n", "", r"ros2\.yaml, line 3: .*'# sensor_frame"),
+        ("# world_frame: w", "# world_frame: " + 201 * "w", "world_frame has 201 characters"),
+        ("# sensor_name: (not given)", "# sensor_name: ", "sensor_name"),
+    ],
+)
+def test_a_head_that_was_edited_is_refused_by_the_name_of_the_fact(exact, before, after, refusal):
+    text = ros2_yaml(exact, **BUNDLED)
+    assert before in text
+    with pytest.raises(InputError, match=refusal):
+        regenerate_ros2_yaml(text.replace(before, after), exact)
+
+
+def test_a_bundle_names_no_other_nodes(exact):
+    text = ros2_yaml(exact, **NAMED)
+    assert regenerate_ros2_yaml(text, exact) == ros2_yaml(exact, **BUNDLED) != text
+
+
+def test_the_text_belongs_to_the_version_of_the_schema():
+    """Bundles of this version are compared with it to the byte: another text needs another version."""
+    load = GravityModel(
+        [0.5, 0.25, -4.0], [1.0, -2.0, 0.5], [0.0, 0.125, 0.25], [0.5, 0.0, -0.25], np.eye(12) / 64
+    )
+    texts = [anew(text, load) for text, anew in made(load).values()]
+    digest = hashlib.sha256("".join(texts).replace(__version__, "").encode()).hexdigest()
+    assert (VERSION, digest[:16]) == (3, "0cd38edf532d10a5")
+
+
+@pytest.mark.parametrize("text", ["", "\n", "# tool: contactbench 1", 3 * "# tool: contactbench 1\n"])
+def test_a_text_without_a_head_is_refused(exact, text):
+    with pytest.raises(InputError, match=r"ros2\.yaml, line [23]: .*export"):
+        regenerate_ros2_yaml(text, exact)
+    with pytest.raises(InputError, match=r"ft_calib\.yaml, line [23]: .*export"):
+        regenerate_ft_calib_yaml(text, exact)
+
+
 def test_files_say_units_signs_and_version_but_no_date_and_no_path(exact):
     for text in (
         ros2_yaml(exact, sensor_frame="ft_sensor", world_frame="base_link"),
@@ -367,11 +493,27 @@ def test_files_say_units_signs_and_version_but_no_date_and_no_path(exact):
         assert "N*m" in text
         assert "1 sigma:" in text
         assert not re.search(r"20\d\d-|(^|\s)/\w", text)  # no date, no path
+        assert max(map(len, text.splitlines())) < 120
 
 
 @pytest.mark.parametrize(
     "name",
-    ["", " ", "a b", "/ft_sensor", "ft/", "a//b", 'a"b', "a:b", "a#b", "a\nb", "ft_sensor\n", "é", "{a}"],
+    [
+        "",
+        " ",
+        "a b",
+        201 * "a",
+        "/ft_sensor",
+        "ft/",
+        "a//b",
+        'a"b',
+        "a:b",
+        "a#b",
+        "a\nb",
+        "ft_sensor\n",
+        "é",
+        "{a}",
+    ],
 )
 @pytest.mark.parametrize("where", ["sensor_frame", "world_frame", "sensor_name"])
 def test_frames_that_a_consumer_would_refuse_are_refused_here(exact, where, name):

@@ -6,6 +6,7 @@
 #include "geodesic_checks.hpp"
 #include "search_checks.hpp"
 #include "solver_checks.hpp"
+#include "stream_checks.hpp"
 
 namespace {
 long allocation_count = 0;
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
     testing::check_search();
     testing::check_solver();
     testing::check_geodesic();
+    testing::check_streams();
     if (counts.failed > 0) {
         std::printf("%ld checks failed, %ld passed\n", counts.failed, counts.passed);
         return 1;

@@ -20,6 +20,7 @@ from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
 from pipeline import kernel
 from pipeline.config.runtime import RuntimeConfig
+from pipeline.config.runtime.canonical import encode_json
 from pipeline.runtime.engine import kernel_arguments
 
 ROOT = Path(__file__).parents[2]
@@ -69,7 +70,7 @@ class Error(ctypes.Structure):
 
 CONTACT = np.dtype(
     [(name, "<i4") for name in ("size", "reasons", "accepted", "faces", "vertices", "regions")]
-    + [("candidates", "<i4"), ("reserved", "<i4")]
+    + [("candidates", "<i4"), ("healths", "<u4")]
     + [
         ("times", "<f8"),
         ("points", "<f8", 3),
@@ -79,7 +80,7 @@ CONTACT = np.dtype(
     ]
     + [("covariances", "<f8", (3, 3)), ("filtered_points", "<f8", 3)]
     + [(name, "<f8") for name in ("misfits", "left_overs", "arms", "confidences")]
-    + [("runners_up", "<f8", 3), ("seconds", "<f8", 3)]
+    + [("runners_up", "<f8", 3), ("seconds", "<f8", 3), ("pose_age", "<f8"), ("latency", "<f8")]
 )
 
 
@@ -160,8 +161,8 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert not library.c.cb_open(None, None)
     library.c.cb_close(handle)
     library.c.cb_close(None)
-    assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(14) == b"unknown"
-    assert library.c.cb_reason_name(13) == b"two_touches"
+    assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(15) == b"unknown"
+    assert library.c.cb_reason_name(14) == b"unhealthy"
     assert library.c.cb_reason_name(-1) == b"no_answer"
     assert library.c.cb_version() == b"2.0.0"
 
@@ -193,7 +194,7 @@ def put(folder: Path, name: str, data: bytes, *, reseal: bool = True) -> None:
     if name != config.name:
         content = json.loads(config.read_text(encoding="utf-8"))
         content["provenance"]["files"][name] = hashlib.sha256(data).hexdigest()
-        config.write_text(json.dumps(content), encoding="utf-8")
+        config.write_bytes(encode_json(content))
     digest = hashlib.sha256(config.read_bytes()).hexdigest()
     (folder / "contactbench.sha256").write_text(f"{digest}  contactbench.json\n", encoding="ascii")
 
@@ -206,14 +207,14 @@ def edited(folder: Path, path: str, value: Any) -> None:
     for name in way:
         part = part[name]
     part[last] = value
-    put(folder, config.name, json.dumps(content).encode())
+    put(folder, config.name, encode_json(content))
 
 
 EDITS = [
     ("version", 4, 5, "version"),
     ("version", 0, 5, "version"),
-    ("version", 2, 4, "touch"),
-    ("version", 1, 4, "touch"),
+    ("version", 2, 4, "unknown"),
+    ("version", 1, 4, "unknown"),
     ("touch.torsion_arm_m", 1.0, 6, "touch.torsion_arm_m"),
     ("touch.mesh_deviation_m", -1e-5, 6, "touch.mesh_deviation_m"),
     ("touch.mesh_curved", 1, 4, "touch.mesh_curved"),
@@ -248,6 +249,15 @@ EDITS = [
     ("probe.file", "../probe.ply", 6, "probe.file"),
     ("probe.facets", 2_000_000, 8, "facets"),
     ("verification", None, 6, "verified"),
+    ("verification.touches", 0, 6, "verification.touches"),
+    ("verification.markers", 0, 6, "verification.markers"),
+    ("verification.limit_max_m", 0.051, 6, "verification.limit_max_m"),
+    ("verification.limit_mean_m", 1.0, 6, "verification.limit_mean_m"),
+    ("verification.p95_error_m", 0.0012, 6, "verification.p95_error_m"),
+    ("gates.saturation", [29.0, None, None, 1.0, 1.0, 1.0], 6, "gates.saturation[0]"),
+    ("limits.max_force_N", 1001.0, 6, "limits.max_force_N"),
+    ("limits.max_speed_mps", 250.0, 6, "limits.max_speed_mps"),
+    ("sensor.rate_Hz", 940.0, 6, "filters.wrench.rate_Hz"),
     ("provenance.files", {"probe.ply": "0" * 64}, 7, "probe.ply"),
 ]
 
@@ -283,6 +293,16 @@ BYTES = [
     ("contactbench.json", lambda d: d.replace(b"0.1", b"NaN", 1), True, 3),
     ("contactbench.json", lambda d: d.replace(b"0.1", b"1e999", 1), True, 3),
     ("contactbench.json", lambda d: d + b" ", False, 7),
+    ("contactbench.json", lambda d: d + b"\n", True, 3),
+    ("contactbench.json", lambda d: d.replace(b"200.0", b"2e2", 1), True, 3),
+    ("contactbench.json", lambda d: d.replace(b":", b": ", 1), True, 3),
+    ("ros2.yaml", lambda d: d + b"\n", True, 6),
+    ("ros2.yaml", lambda d: d.replace(b"    offset:", b"    offset:\n    offset:", 1), True, 6),
+    ("ros2.yaml", lambda d: d.replace(b"admittance_controller:", b"other:", 1), True, 6),
+    ("ft_calib.yaml", lambda d: d.replace(b"bias: ", b"bias: !!python/object ", 1), True, 6),
+    ("planes.csv", lambda d: d.replace(b"\n", b"\r\n"), True, 8),
+    ("planes.csv", lambda d: d[:-1], True, 8),
+    ("probe.ply", lambda d: d + b"\n", True, 8),
     ("probe.ply", lambda d: d[:-1], True, 8),
     ("probe.ply", lambda d: d[:-1] + b"\xff", False, 7),
     ("probe.ply", lambda d: d.replace(b"element vertex ", b"element vertex 9999999", 1), True, 8),
@@ -401,3 +421,90 @@ def test_every_folder_of_a_folder_is_tried(
     lines = run(BUILD / "contactbench-load_all", tmp_path).stdout.splitlines()
     assert lines[0].startswith("bad refused 2 contactbench.json: missing")
     assert lines[1] == "good loaded"
+
+
+class Sample(ctypes.Structure):
+    _fields_ = [
+        ("size", ctypes.c_uint32),
+        ("flags", ctypes.c_uint32),
+        ("wrench", ctypes.c_double * 6),
+        ("time", ctypes.c_double),
+        ("arrival", ctypes.c_double),
+    ]
+
+
+def test_poses_and_samples_as_they_come_give_what_python_gives(
+    library: Library, bundle: tuple[Path, RuntimeConfig]
+) -> None:
+    """10 Hz of poses, a hung sensor, flags, silence: the same contacts and health words, to the bit."""
+    folder, config = bundle
+    readings, R, times = stream(config, 4_000)
+    readings[1000:1300] = readings[999]
+    flags = np.zeros(len(times), dtype=int)
+    flags[1500:1520], flags[1600:1620], flags[1700:1720] = 2, 8, 32
+    live = kernel.Runtime(**kernel_arguments(config))
+    handle, _ = library.open(folder)
+    pointer = ctypes.c_void_p
+    library.c.cb_pose.argtypes = [pointer, pointer, pointer, ctypes.c_double]
+    library.c.cb_check.argtypes = [pointer, ctypes.c_double, pointer]
+    library.c.cb_update_sample.argtypes = [pointer, pointer, pointer]
+    row = np.zeros(1, CONTACT)
+    row["size"] = CONTACT.itemsize
+    assert library.c.cb_check(handle, 0.0, row.ctypes.data) == 0
+    assert (row["reasons"][0], row["healths"][0]) == (8, 2)  # stale and silent: nothing ever came
+    seen = set()
+    for i, time in enumerate(times.tolist()):
+        if i % 100 == 0 and not 2000 < i < 2500:
+            p = np.array([0.1 * np.sin(time), 0.0, 0.2])
+            used = library.c.cb_pose(handle, R[i].ctypes.data, p.ctypes.data, time)
+            assert (used == 0) is live.pose(R[i], p, time)
+        sample = Sample(ctypes.sizeof(Sample), int(flags[i]), tuple(readings[i]), time, time + 0.004)
+        assert library.c.cb_update_sample(handle, ctypes.byref(sample), row.ctypes.data) == 0
+        expected = live.locate(readings[i], time, time + 0.004, int(flags[i]))
+        assert (row["reasons"][0], row["healths"][0]) == (expected.reason, expected.health)
+        for name, value in (("points", expected.point), ("filtered_points", expected.filtered_point)):
+            if value is not None:
+                assert row[name][0].tobytes() == value.tobytes()
+        for name, number in (("pose_age", expected.pose_age), ("latency", expected.latency)):
+            assert row[name][0] == number or np.isnan([row[name][0], number]).all()
+        assert not (row["healths"][0] and row["accepted"][0])
+        seen.add(int(row["healths"][0]))
+    assert seen == {0, 1, 4, 8, 16}
+    assert library.c.cb_check(handle, times[-1] + 0.05, row.ctypes.data) == 0
+    assert row["reasons"][0] == -1
+    assert library.c.cb_check(handle, times[-1] + 0.2, row.ctypes.data) == 0
+    assert (row["reasons"][0], row["healths"][0], row["accepted"][0]) == (8, 2, 0)
+    mirror, short = np.diag([1.0, 1.0, -1.0]), Sample(ctypes.sizeof(Sample) - 8)
+    assert library.c.cb_pose(handle, mirror.ctypes.data, None, 1e3) == 6
+    assert library.c.cb_pose(None, mirror.ctypes.data, None, 1e3) == 1
+    assert library.c.cb_update_sample(handle, ctypes.byref(short), row.ctypes.data) == 1
+    assert row["reasons"][0] == -1
+    library.c.cb_close(handle)
+
+
+def test_structs_may_grow_and_a_caller_with_a_longer_one_keeps_its_end(
+    library: Library, bundle: tuple[Path, RuntimeConfig]
+) -> None:
+    handle, _ = library.open(bundle[0])
+    numbers, level = np.zeros(6), np.eye(3)
+    longer = np.full(CONTACT.itemsize + 64, 0xA5, dtype=np.uint8)
+    row = longer[: CONTACT.itemsize].view(CONTACT)
+    row["size"] = len(longer)
+    given = (handle, numbers.ctypes.data, level.ctypes.data, 0.0, longer.ctypes.data)
+    assert library.c.cb_update(*given) == 0
+    assert row["size"][0] == len(longer)
+    assert row["times"][0] == 0.0
+    assert (longer[CONTACT.itemsize :] == 0xA5).all()
+    row["size"] = CONTACT.itemsize - 1  # smaller than it ever was
+    assert library.c.cb_update(*given) == 1
+    library.c.cb_close(handle)
+
+
+@pytest.mark.skipif(shutil.which("readelf") is None, reason="no readelf")
+def test_nothing_but_the_interface_is_exported_and_it_is_bound_at_once(prefix: Path) -> None:
+    file = next(prefix.glob("lib*/libcontactbench_runtime.so"))
+    symbols = run("readelf", "--wide", "--dyn-syms", file).stdout.splitlines()
+    exported = {line.split()[7] for line in symbols if len(line.split()) > 7 and line.split()[6].isdigit()}
+    assert exported
+    assert all(name.startswith("cb_") for name in exported)
+    assert "NOW" in run("readelf", "--dynamic", file).stdout

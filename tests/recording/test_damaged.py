@@ -214,6 +214,9 @@ def test_the_crafted_messages_are_fine_unless_changed(tmp_path: Path) -> None:
         ({**POSE, "R": [1, 0, 0, 0, 1, 0, 0, 0, -1]}, 2),
         ({**POSE, "joints": [0] * 65}, 2),
         ({**POSE, "joints": "a"}, 2),
+        ({**POSE, "arrival": 1e300}, 2),
+        ({**FORCE, "arrival": None}, 1),
+        ({**FORCE, "arrival": "now"}, 1),
         ({"time": 1, "event": 3, "fields": {}}, 3),
         ({"time": 1, "event": "a", "fields": []}, 3),
         (FORCE, 77),
@@ -270,7 +273,7 @@ def test_many_faults_are_not_all_told(tmp_path: Path) -> None:
             MAGIC
             + wire_record(
                 Opcode.METADATA,
-                text("contactbench.recording") + mapping({"format": "2", "tool": "contactbench 9"}),
+                text("contactbench.recording") + mapping({"format": "3", "tool": "contactbench 9"}),
             ),
             r"newer program \(contactbench 9\): update",
         ),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -27,12 +29,11 @@ def tracks(delay, noise=0.05, seconds=20.0, angle=40.0, seed=0, start=100.0):
     wrenches = np.column_stack((forces + rng.normal(0, noise, forces.shape), np.zeros((len(heard), 3))))
     n = len(heard)
     none = np.full(n, np.nan)
-    force = WrenchTrack(heard, wrenches, np.arange(n), np.zeros(n, dtype=np.int64), none, none)
+    force = WrenchTrack(heard, wrenches, np.arange(n), np.zeros(n, dtype=np.int64), none, none, none)
     said = np.arange(-1, seconds + 1, 1 / 50) + start
     R_BE = turning(said, angle).as_matrix()
-    pose = FlangeTrack(
-        said, R_BE, np.full((len(said), 3), np.nan), np.zeros((len(said), 0)), np.full(len(said), np.nan)
-    )
+    none = np.full(len(said), np.nan)
+    pose = FlangeTrack(said, R_BE, np.full((len(said), 3), np.nan), np.zeros((len(said), 0)), none, none)
     return force, pose
 
 
@@ -62,13 +63,7 @@ def test_a_robot_that_stands_still_shows_nothing():
 def test_another_robot_is_noticed():
     force, _ = tracks(0.05)
     _, pose = tracks(0.05, angle=40.0)
-    shuffled = FlangeTrack(
-        pose.times,
-        Rotation.random(len(pose.times), random_state=0).as_matrix(),
-        pose.p_BE_B,
-        pose.joints,
-        pose.device_time,
-    )
+    shuffled = replace(pose, R_BE=Rotation.random(len(pose.times), random_state=0).as_matrix())
     found = estimate_delay(force, shuffled)
     assert found.seconds is None
     assert "is this the robot" in found.sentence
@@ -76,7 +71,7 @@ def test_another_robot_is_noticed():
 
 def test_too_little_is_refused():
     force, pose = tracks(0.0, seconds=0.3)
-    late = FlangeTrack(pose.times + 50, pose.R_BE, pose.p_BE_B, pose.joints, pose.device_time)
+    late = replace(pose, times=pose.times + 50)
     with pytest.raises(RecordingError, match="record both for longer"):
         estimate_delay(force, late)
 
@@ -93,6 +88,7 @@ def test_a_sensor_and_a_robot_on_one_grid():
         turning(both).as_matrix(),
         np.zeros((len(both), 3)),
         np.zeros((len(both), 0)),
+        np.full(len(both), np.nan),
         np.full(len(both), np.nan),
     )
     found = estimate_delay(force, pose)

@@ -59,9 +59,10 @@ def test_a_recording_comes_back_bit_for_bit(tmp_path: Path) -> None:
             TRIPLES,
             TRIPLES,
             st.none() | st.integers(0, 2**63 - 1),
-            st.integers(0, 31).map(Status),
+            st.integers(0, 63).map(Status),
             st.none() | st.floats(allow_nan=False, allow_infinity=False),
             st.none() | st.floats(allow_nan=False, allow_infinity=False),
+            st.none() | st.floats(-1e15, 1e15),
         ),
         max_size=8,
     )
@@ -76,6 +77,51 @@ def test_any_wrench_comes_back(samples: list[WrenchSample], tmp_path_factory: An
     assert list(map(repr, found)) == list(map(repr, samples))  # repr: NaN equals NaN, -0.0 is not 0.0
     tracks = read_recording(file).wrenches.values()
     assert [repr(s) for track in tracks for s in track.samples()] == list(map(repr, samples))
+
+
+def test_arrivals_are_stored_beside_times(tmp_path: Path) -> None:
+    with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
+        writer.wrench(WrenchSample(1000.0, (1.0, 2.0, 3.0), (0.0, 0.0, 0.0), arrival=1000.25))
+        writer.flange(FlangeSample(1000.0, np.eye(3), np.zeros(3), arrival=1000.5))
+        writer.flange(FlangeSample(1000.1, np.eye(3), np.zeros(3)))
+    found = read_recording(tmp_path / "r.mcap")
+    assert found.wrenches["/wrench"].arrivals.tolist() == [1000.25]
+    np.testing.assert_array_equal(found.flanges["/flange"].arrivals, [1000.5, np.nan])
+    assert found.flanges["/flange"].times.tolist() == [1000.0, 1000.1]
+
+
+@pytest.mark.parametrize(("address", "timed"), [("sri+serial:///dev/a", True), ("virtual://bench", False)])
+def test_arrivals_of_an_older_recording_become_times(
+    address: str, timed: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pipeline.recording.info.FORMAT", 1)
+    devices = (
+        DeviceInfo("wrench", "/wrench", address, rate=200.0),
+        DeviceInfo("flange", "/flange", "ur+tcp://10.0.0.2", rate=125.0),
+        DeviceInfo("flange", "/other", "elfin+tcp://10.0.0.3", rate=50.0),
+    )
+    truth = 1000 + np.arange(1000) / 200
+    arrivals = np.ceil(truth / 0.016) * 0.016
+    with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 1000.0, devices)) as writer:
+        for number, arrival in enumerate(arrivals.tolist()):
+            writer.wrench(WrenchSample(arrival, (1.0, 2.0, 3.0), (0.0, 0.0, 0.0), number))
+            if arrivals[number] != arrivals[min(number + 1, 999)]:  # a batch of poses after one of wrenches
+                for shift in (0.008, 0.0):
+                    pose = FlangeSample(arrival, np.eye(3), np.zeros(3), device_time=arrival - shift)
+                    writer.flange(pose, "/flange")
+                writer.flange(FlangeSample(arrival, np.eye(3), np.zeros(3)), "/other")
+    found = read_recording(tmp_path / "r.mcap")
+    wrenches = found.wrenches["/wrench"]
+    if timed:
+        assert (np.diff(wrenches.times) > 0).all()
+        assert np.abs(wrenches.times - truth)[200:].max() < 1.1e-3
+        np.testing.assert_array_equal(wrenches.arrivals, arrivals)
+    else:
+        np.testing.assert_array_equal(wrenches.times, arrivals)
+        assert np.isnan(wrenches.arrivals).all()
+    poses = found.flanges["/flange"]
+    assert poses.times == pytest.approx(poses.device_time, abs=1e-4)
+    assert np.isnan(found.flanges["/other"].arrivals).all()
 
 
 def test_the_reference_library_reads_it_and_agrees(tmp_path: Path) -> None:

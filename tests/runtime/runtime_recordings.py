@@ -64,13 +64,13 @@ def record(path: Path, mixed: list[WrenchSample | FlangeSample], about: Recordin
 
 
 def input_lines(mixed: list[WrenchSample | FlangeSample]) -> list[str]:
-    """Return what the C++ example is given: each wrench that follows a pose, with the newest one."""
-    lines: list[str] = []
-    R: NDArray[Any] | None = None
+    """Return what the C++ example is given: poses and samples as they came."""
+    lines = []
     for sample in mixed:
         if isinstance(sample, FlangeSample):
-            R = sample.R_BE
-        elif R is not None:
-            numbers = [sample.time, *sample.force, *sample.torque, *R.ravel().tolist()]
-            lines.append(" ".join(map(repr, numbers)))
+            words = ["pose", sample.time, *sample.R_BE.ravel().tolist(), *sample.p_BE_B.tolist()]
+        else:
+            arrival = sample.time if sample.arrival is None else sample.arrival
+            words = ["sample", sample.time, arrival, int(sample.status), *sample.force, *sample.torque]
+        lines.append(" ".join(map(str, words)))
     return lines

@@ -13,9 +13,10 @@ from scipy.spatial.transform import Rotation
 
 from pipeline import kernel
 from pipeline.config.runtime import RuntimeConfig
-from pipeline.devices.sample import Status
+from pipeline.devices.sample import FlangeSample, Status
 from pipeline.runtime import Engine
-from pipeline.runtime.engine import kernel_arguments, make_runtime, mount_rotation, sensor_rotation
+from pipeline.runtime.engine import kernel_arguments, make_runtime
+from pipeline.runtime.lines import health_names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -88,34 +89,119 @@ def test_what_a_clamp_hides_is_less_often_the_answer() -> None:
     assert answers_there(bonus) + 20 < answers_there(np.where(probe.region == 2, 0.0, bonus))
 
 
-def test_a_sample_takes_the_newest_pose_that_is_not_later() -> None:
+def turning(time: float) -> NDArray[Any]:
+    """Return R_WS of a wrist that turns at 20 degrees a second."""
+    return Rotation.from_rotvec([0.2 * time, 0.25 * time, -0.1 * time]).as_matrix()
+
+
+@pytest.mark.parametrize("behind", [0.0, 0.1])
+def test_a_sample_takes_the_pose_at_its_own_time(behind: float) -> None:
+    """Between two poses of 10 Hz, or carried on from the last one, of a wrist that turns at 20 degrees a second."""
     config = example()
-    weights = [config.gravity.predict(R) for R in TURNS]
-    engine = Engine(config)
-    engine.poses([flange(BEGIN + 0.01 * i, R) for i, R in enumerate(TURNS)])
-    for i in (5, 3, 4):  # a sample may also come late
-        answer = engine.locate(wrench(BEGIN + 0.01 * i + 0.005, weights[i]))
-        if i == 5:  # the first one: unfiltered, and nothing but its own weight
-            assert answer.contact is not None
-            assert answer.contact.wrench == pytest.approx(np.zeros(6), abs=1e-9)
-    engine = Engine(config)
-    engine.poses([flange(BEGIN + 0.01 * i, R) for i, R in enumerate(TURNS)])
-    late = engine.locate(wrench(BEGIN + 0.025, weights[2]))
-    assert late.contact is not None
-    assert late.contact.wrench == pytest.approx(np.zeros(6), abs=1e-9)
+    for time in np.linspace(1.0, 1.5, 23).tolist():
+        engine = Engine(config)
+        engine.poses(
+            [flange(t, turning(t)) for t in (0.1 * np.arange(20)).tolist() if t <= time + 0.1 - behind]
+        )
+        answer = engine.locate(wrench(time, config.gravity.predict(turning(time))))
+        assert answer.contact is not None
+        assert answer.contact.wrench == pytest.approx(np.zeros(6), abs=1e-9)  # nothing but its own weight
+        assert 0 <= answer.contact.pose_age < 0.1 + behind
 
 
-def test_an_old_pose_is_stale_and_the_kernel_is_not_asked() -> None:
-    engine = Engine(example())
-    reading = example().gravity.predict(TURNS[0])
+def test_without_a_pose_young_enough_it_is_stale_and_says_so() -> None:
+    config = example()
+    engine, reading = Engine(config), config.gravity.predict(TURNS[0])
+    ahead = config.model.streams.pose_ahead_s
     assert engine.locate(wrench(BEGIN, reading)).reason == "stale"
     engine.poses([flange(BEGIN + 1, TURNS[0])])
-    assert engine.locate(wrench(BEGIN + 0.9, reading)).reason == "stale"  # it is of the future
-    assert engine.locate(wrench(BEGIN + 1.09, reading)).reason == "low_force"
-    assert engine.locate(wrench(BEGIN + 1.2, reading)).reason == "stale"
-    still = Engine(example(), hold=math.inf)
+    before = engine.locate(wrench(BEGIN + 0.9, reading))
+    assert (before.reason, health_names(before.health)) == ("stale", ("no_pose",))
+    assert engine.locate(wrench(BEGIN + 1 + 0.99 * ahead, reading)).reason == "low_force"
+    assert engine.locate(wrench(BEGIN + 1 + 1.01 * ahead, reading)).reason == "stale"
+    still = Engine(config, hold=math.inf)
     still.poses([flange(BEGIN, TURNS[0])])
     assert still.locate(wrench(BEGIN + 1e6, reading)).reason == "low_force"
+
+
+def test_a_hung_sensor_is_never_accepted_and_is_well_again_when_it_lives() -> None:
+    config = example()
+    engine, chance = Engine(config, hold=math.inf), np.random.default_rng(5)
+    engine.poses([flange(BEGIN, TURNS[0])])
+    face = int(np.argmax(config.probe.region == 1))
+    force = -8.0 * config.probe.normals[face]
+    torque = np.cross(config.probe.vertices[config.probe.faces[face]].mean(axis=0), force)
+    reading = config.gravity.predict(TURNS[0]) + np.concatenate([force, torque])
+    answers = []
+    for i in range(600):
+        hung = 300 <= i < 500
+        if not hung:
+            noisy = reading + chance.normal(0, [0.02] * 3 + [5e-4] * 3)
+        answers.append(engine.locate(wrench(BEGIN + 0.005 * i, noisy)))
+    accepted = [answer.contact is not None and answer.contact.accepted for answer in answers]
+    frozen = [health_names(answer.health) == ("frozen",) for answer in answers]
+    assert all(accepted[10:300])
+    first = frozen.index(True)
+    assert 300 < first <= 300 + 40  # 0.2 s at 200 Hz
+    assert all(frozen[first:500])
+    assert not any(accepted[first:500])
+    assert not any(frozen[500:])
+    assert all(answer.reason == "unhealthy" for answer in answers[first:500])
+    assert all(accepted[510:])
+
+
+def test_a_sample_whose_time_is_a_guess_is_not_accepted() -> None:
+    config = example()
+    engine = Engine(config, hold=math.inf)
+    engine.poses([flange(BEGIN, TURNS[0])])
+    answer = engine.locate(wrench(BEGIN, config.gravity.predict(TURNS[0]), Status.CLOCK))
+    assert (answer.reason, health_names(answer.health)) == ("unhealthy", ("clock",))
+
+
+def test_silence_is_told() -> None:
+    config = example()
+    engine = Engine(config, hold=math.inf)
+    assert engine.silent(BEGIN) is not None
+    engine.poses([flange(BEGIN, TURNS[0])])
+    engine.locate(wrench(BEGIN, config.gravity.predict(TURNS[0])))
+    silence = config.model.streams.silence_s
+    assert engine.silent(BEGIN + 0.99 * silence) is None
+    told = engine.silent(BEGIN + 1.01 * silence)
+    assert told is not None
+    line = json.loads(told.line)
+    assert (line["health"], line["reason"], line["accepted"]) == (["silent"], "stale", False)
+    assert line["time"] == BEGIN + 1.01 * silence
+
+
+def test_what_moving_the_tool_does_is_taken_off_where_poses_have_positions() -> None:
+    """0.6 kg at 1 m/s²: 0.6 N that is no touch."""
+    config = example()
+    weight = np.linalg.norm(config.gravity.gravity_W)
+    mass, omega, R = weight / 9.80665, 2 * np.pi, TURNS[0]
+
+    def left(known: bool) -> tuple[float, float]:
+        engine, worst = Engine(config), []
+        for i in range(2_000):
+            t = BEGIN + 0.001 * i
+            if i % 8 == 0:
+                p = np.array([np.sin(omega * t) / omega**2, 0.0, 0.2])
+                engine.poses([FlangeSample(t, R, p if known else np.full(3, np.nan))])
+            pull = R.T @ np.array([mass * np.sin(omega * t), 0.0, 0.0])
+            torque = np.cross(config.gravity.centre_of_mass_S, pull)
+            answer = engine.locate(wrench(t, config.gravity.predict(R) + np.concatenate([pull, torque])))
+            assert answer.contact is not None
+            if i > 500:
+                worst.append(answer.contact.wrench)
+        rows = np.array(worst)
+        return float(np.linalg.norm(rows[:, :3], axis=1).max()), float(
+            np.linalg.norm(rows[:, 3:], axis=1).max()
+        )
+
+    force, torque = left(known=True)
+    without = left(known=False)
+    assert without[0] > 0.9 * mass
+    assert force < 0.2 * without[0]
+    assert torque < 0.2 * without[1]
 
 
 @pytest.mark.parametrize("status", [Status.INVALID, Status.RAW, Status.ERROR, Status.OVERRANGE])
@@ -137,10 +223,8 @@ def test_at_its_limits_it_is_saturated() -> None:
 def test_the_mount_turns_the_flange_into_the_sensor() -> None:
     q = Rotation.from_euler("xyz", [10, 20, 30], degrees=True).as_quat()
     config = mounted([q[3], q[0], q[1], q[2]])
-    R_ES = mount_rotation(config)
-    assert R_ES is not None
+    R_ES = kernel_arguments(config)["R_ES"]
     assert pytest.approx(Rotation.from_quat(q).as_matrix(), abs=1e-15) == R_ES
-    assert sensor_rotation(TURNS[0], R_ES) == pytest.approx(TURNS[0] @ R_ES, abs=1e-15)
     engine = Engine(config)
     engine.poses([flange(BEGIN, TURNS[0])])
     answer = engine.locate(wrench(BEGIN, config.gravity.predict(TURNS[0] @ R_ES)))
@@ -149,5 +233,10 @@ def test_the_mount_turns_the_flange_into_the_sensor() -> None:
 
 
 def test_without_a_mount_poses_are_the_sensors() -> None:
-    assert mount_rotation(mounted(None)) is None
-    assert (sensor_rotation(TURNS[1].T, None) == TURNS[1].T).all()
+    config = mounted(None)
+    assert kernel_arguments(config)["R_ES"] is None
+    engine = Engine(config)
+    engine.poses([flange(BEGIN, TURNS[1])])
+    answer = engine.locate(wrench(BEGIN, config.gravity.predict(TURNS[1])))
+    assert answer.contact is not None
+    assert answer.contact.wrench == pytest.approx(np.zeros(6), abs=1e-9)

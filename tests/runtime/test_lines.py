@@ -3,12 +3,14 @@ from __future__ import annotations
 import json
 import math
 
+import numpy as np
 import pytest
+from config.runtime.bundles import example
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.runtime import Answer
-from pipeline.runtime.lines import number
+from pipeline.runtime import Answer, make_runtime
+from pipeline.runtime.lines import HEALTH, health_names, number
 
 
 @pytest.mark.parametrize(
@@ -47,10 +49,21 @@ def test_numbers_read_back(value: float) -> None:
 
 
 def test_without_a_pose() -> None:
-    answer = Answer(2.5, None)
+    contact = make_runtime(example()).locate(np.zeros(6), 2.5, 2.625)
+    answer = Answer(contact, contact.latency)
     told = json.loads(answer.line)
     assert answer.reason == told["reason"] == "stale"
-    assert told["time"] == 2.5
+    assert (told["time"], told["latency_s"], told["pose_age_s"]) == (2.5, 0.125, None)
+    assert told["health"] == ["no_pose"]
     assert told["point_S_m"] is told["force_S_N"] is told["misfit"] is None
     assert told["accepted"] is False
     assert answer.line.endswith(b"}\n")
+    answer.let_go()
+    assert answer.contact is None
+    assert json.loads(answer.line) == told
+
+
+def test_every_bit_of_a_health_word_has_a_name() -> None:
+    assert health_names(0) == ()
+    assert health_names(0b10101) == ("frozen", "flagged", "clock")
+    assert health_names(31) == HEALTH

@@ -6,11 +6,13 @@ import socket
 import threading
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
+from config.runtime.bundles import example
 from mcap.reader import make_reader
 from runtime.runtime_recordings import ABOUT, BEGIN
 
-from pipeline.runtime import Answer, Outlet, OutputError, RunError
+from pipeline.runtime import Answer, Outlet, OutputError, RunError, make_runtime
 from pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
 
 if TYPE_CHECKING:
@@ -39,8 +41,14 @@ class Slow:
         self.closed = True
 
 
+def answers_at(times: Sequence[float]) -> list[Answer]:
+    runtime = make_runtime(example())  # nothing of the kernel may outlive the test
+    contacts = [runtime.locate(np.zeros(6), time) for time in times]
+    return [Answer(contact, contact.latency) for contact in contacts]
+
+
 def answers(count: int, begin: float = BEGIN) -> list[Answer]:
-    return [Answer(begin + 0.001 * i, None) for i in range(count)]
+    return answers_at([begin + 0.001 * i for i in range(count)])
 
 
 class TestOutlet:
@@ -115,7 +123,7 @@ class TestLines:
         os.close(reading)
         outlet = Outlet(LineTarget("pipe", writing))
         outlet.start()
-        outlet.put(Answer(1.0, None))
+        outlet.put(*answers_at([1.0]))
         outlet.close()
         assert outlet.gone
 
@@ -160,7 +168,7 @@ class TestMcap:
     def test_others_can_read_it(self, tmp_path: Path) -> None:
         outlet = Outlet(McapTarget(tmp_path / "c.mcap", ABOUT))
         outlet.start()
-        given = [*answers(1_200), Answer(1e300, None)]
+        given = [*answers(1_200), *answers_at([1e300])]
         for answer in given:
             outlet.put(answer)
         outlet.close()

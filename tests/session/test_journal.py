@@ -28,6 +28,14 @@ def test_cut_at_every_byte_the_whole_records_stay_and_the_rest_is_torn():
         assert not found.damage
 
 
+def test_a_last_record_that_lost_a_byte_in_its_text_is_damaged_and_not_torn():
+    last = ENDS[-2] + 48
+    at = DATA.index(b"text", last)
+    found = frames.scan(DATA[:at] + DATA[at + 1 :])
+    assert found.damage
+    assert found.last
+
+
 def test_blocks_of_zeros_at_the_end_are_torn():
     for cut in range(ENDS[-2], len(DATA)):
         padded = DATA[:cut] + bytes(5000)

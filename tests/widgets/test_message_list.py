@@ -37,6 +37,33 @@ def test_the_same_again_is_counted(messages):
     assert rows(messages)[0].text().endswith("(3 times)")
 
 
+def test_a_device_that_comes_and_goes_is_two_messages(messages):
+    for _ in range(40):
+        messages.add("warning", "The sensor gives nothing.")
+        messages.add("good", "All devices give samples again.")
+    assert messages.texts() == ("All devices give samples again.", "The sensor gives nothing.")
+    assert all(row.text().endswith("(40 times)") for row in rows(messages))
+
+
+def test_what_is_long_past_is_told_again(messages):
+    messages.add("warning", "The line was lost.")
+    for name in "abcdef":
+        messages.add("info", f"Wrote {name}.")
+    messages.add("warning", "The line was lost.")
+    assert len(rows(messages)) == 8
+
+
+def test_a_message_that_moves_up_stays_selected_and_hidden(messages):
+    messages.add("info", "One.")
+    messages.add("warning", "Two.")
+    rows(messages)[1].setSelected(True)
+    messages.findChild(QComboBox).setCurrentIndex(1)
+    messages.add("info", "One.")
+    assert messages.texts() == ("One.", "Two.")
+    assert rows(messages)[0].isSelected()
+    assert rows(messages)[0].isHidden()
+
+
 def test_the_filter_hides_what_matters_less(messages):
     for weight in ("info", "good", "warning", "error"):
         messages.add(weight, f"{weight}.")

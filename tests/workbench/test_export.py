@@ -66,6 +66,17 @@ def test_the_window_and_the_command_write_the_same_bytes(verified, tmp_path):
         assert model.provenance.created[:16] == session.state.current_results["report", "report.html"].at[:16]
 
 
+def test_the_sensors_name_reaches_ros2_yaml_from_the_session_and_from_the_command(verified, tmp_path):
+    given, stored = tmp_path / "given", tmp_path / "stored"
+    assert command(verified, "--sensor-name", "wrist", "--out", given).exit_code == 0
+    with Session.open(verified) as session:
+        session.set_parameter("config.sensor_name", "wrist")
+        export(session, stored)
+    text = (given / "ros2.yaml").read_text("ascii")
+    assert 'sensor_name: "wrist"' in text
+    assert (stored / "ros2.yaml").read_text("ascii") == text
+
+
 def test_a_result_of_this_sitting_is_listed_as_one_read_from_the_journal(calibrated, tmp_path):
     with Session.open(calibrated, by="ada") as session:
         probe = session.state.current_results["probe", "probe.ply"]

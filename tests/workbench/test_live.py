@@ -10,6 +10,7 @@ from pipeline.calibration import GravityModel
 from pipeline.contact import ContactSolver
 from pipeline.devices.drive import State
 from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S, PoseTrack
 from pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from pipeline.devices.url import AddressError
 from pipeline.errors import InputError
@@ -17,7 +18,6 @@ from pipeline.filtering import KalmanFilter
 from pipeline.kernel import Reason
 from pipeline.workbench.live import Live, Tap
 from pipeline.workbench.live_moment import Moment
-from pipeline.workbench.live_poses import LONGEST_GAP, PoseTrack
 from pipeline.workbench.live_ring import Ring
 from pipeline.workbench.live_trial import trial_of
 
@@ -57,19 +57,19 @@ def test_orientation_between_two_poses_is_on_the_shortest_way():
     assert degrees_of(found) == pytest.approx([-10, -5, 0, 5, 10], abs=1e-9)
 
 
-def test_orientation_is_held_for_a_while_and_then_unknown():
+def test_orientation_is_carried_on_for_a_while_and_then_unknown():
     track = PoseTrack(np.eye(3))
-    track.add([turned(0, 1.0), turned(40, 1.1)])
-    found = track.at(np.array([0.9, 1.1 + LONGEST_GAP - 0.01, 1.1 + LONGEST_GAP + 0.01]))
+    track.add([turned(0, 1.0), turned(4, 1.1)])
+    found = track.at(np.array([0.9, 1.1 + LONGEST_AHEAD_S - 0.01, 1.1 + LONGEST_AHEAD_S + 0.01]))
     assert np.isnan(found[0]).all()  # nothing is made up before the first pose
-    assert degrees_of(found[1]) == pytest.approx(40)
+    assert degrees_of(found[1]) == pytest.approx(4 + 40 * (LONGEST_AHEAD_S - 0.01))
     assert np.isnan(found[2]).all()
 
 
 def test_orientation_across_a_gap_of_poses_is_unknown_except_at_its_edge():
     track = PoseTrack(np.eye(3))
-    track.add([turned(0, 1.0), turned(90, 1.0 + 2 * LONGEST_GAP)])
-    found = track.at(np.array([1.0, 1.0 + LONGEST_GAP]))
+    track.add([turned(0, 1.0), turned(90, 1.0 + 2 * LONGEST_GAP_S)])
+    found = track.at(np.array([1.0, 1.0 + LONGEST_GAP_S]))
     assert degrees_of(found[0]) == pytest.approx(0)
     assert np.isnan(found[1]).all()
 
@@ -163,8 +163,8 @@ def test_samples_go_on_when_poses_stop(live):
     R_WS = np.concatenate([block.R_WS for block in blocks])
     known = np.isfinite(R_WS).all(axis=(1, 2))
     assert times[-1] > base + 0.9  # nobody waits for ever
-    assert times[known].max() <= base + LONGEST_GAP + 1e-9
-    assert times[known].max() > base + LONGEST_GAP - 0.06
+    assert times[known].max() <= base + LONGEST_AHEAD_S + 1e-9
+    assert times[known].max() > base + LONGEST_AHEAD_S - 0.06
 
 
 def test_a_follower_that_fails_stops_nothing(live):

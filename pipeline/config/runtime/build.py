@@ -18,12 +18,21 @@ from pipeline.config.runtime.canonical import fault_of
 from pipeline.config.runtime.check import check_config
 from pipeline.config.runtime.config import RuntimeConfig
 from pipeline.config.runtime.errors import ConfigError, UnverifiedError
-from pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel, SensorPart
+from pipeline.config.runtime.model import (
+    SCHEMA,
+    VERSION,
+    MotionPart,
+    RuntimeModel,
+    SensorPart,
+    StreamsPart,
+)
 from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
 from pipeline.config.runtime.planes import encode_planes
 from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from pipeline.config.vertical import vertical_residual
 from pipeline.contact.touch_model import TouchModel
+from pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
+from pipeline.devices.sample import FROZEN_CHANCE
 from pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
@@ -52,10 +61,11 @@ _FRAMES = {
 
 @dataclass(frozen=True)
 class RobotNames:
-    """What a robot description calls the frames S and W; for the files of other programs."""
+    """What a robot description calls the frames S and W, and the sensor itself; for the files of other programs."""
 
     sensor: str = "ft_sensor"
     world: str = "base_link"
+    sensor_name: str | None = None
 
 
 @dataclass(frozen=True)
@@ -148,11 +158,19 @@ def build_config(
         "gravity": _gravity(calibration.model),
         "noise": _noise(noise, filters.wrench, calibration.model),
         "touch": _touch(model or TouchModel(), measured=measured),
+        "streams": StreamsPart(
+            pose_gap_s=LONGEST_GAP_S,
+            pose_ahead_s=LONGEST_AHEAD_S,
+            silence_s=max(0.12, 2.5 / sensor.rate_Hz),
+            frozen_probability=FROZEN_CHANCE,
+            motion=MotionPart(window_s=0.15, gyration_m=0.035),
+        ),
         "filters": {"wrench": _kalman(filters.wrench), "location": _low_pass(filters.location)},
         "gates": gates_content(gates),
         "controller": controller,
         "limits": limits,
         "verification": verification,
+        "self_test": None,
         "verified": not reasons,
         **_surface(probe_file, gates),
         "provenance": {
@@ -209,7 +227,9 @@ def _files(
     files = {
         PROBE: encode_probe(probe, colours),
         PLANES: encode_planes(probe),
-        ROS2: ros2_yaml(gravity, sensor_frame=names.sensor, world_frame=names.world).encode("ascii"),
+        ROS2: ros2_yaml(
+            gravity, sensor_frame=names.sensor, world_frame=names.world, sensor_name=names.sensor_name
+        ).encode("ascii"),
     }
     if vertical_residual(gravity).weight > 0:  # force_torque_tools takes no mass of zero
         files[FT_CALIB] = ft_calib_yaml(gravity, com_frame=names.sensor).encode("ascii")

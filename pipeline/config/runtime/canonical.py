@@ -11,7 +11,6 @@ import json
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
-from pydantic_core import from_json
 
 from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.migrate import migrated
@@ -34,15 +33,14 @@ def encode_json(content: Mapping[str, Any]) -> bytes:
         A number is not finite, or a text is no Unicode.
     """
     try:
-        text = json.dumps(content, sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-        return (text + "\n").encode()
+        return _spelled(content)
     except ValueError as error:
         raise ConfigError(f"the config cannot be written ({error}): {_REMEDY}") from error
 
 
-def decode_json(data: bytes, name: str) -> RuntimeModel:
+def decode_json(data: bytes, name: str) -> tuple[RuntimeModel, int]:
     """
-    Read a config of this version or an older one.
+    Read a config of this version or an older one; returns the version, too, in which it was written.
 
     Parameters
     ----------
@@ -53,12 +51,12 @@ def decode_json(data: bytes, name: str) -> RuntimeModel:
     Raises
     ------
     ConfigError
-        It is no JSON object, names a key twice, is of another kind or a newer version, or a field is missing,
+        It is no JSON object in its one spelling, is of another kind or a newer version, or a field is missing,
         unknown, of the wrong type or out of range.
     """
-    content = migrated(_checked_kind(_parse(data, name), name), name)
+    written = _checked_kind(_parse(data, name), name)
     try:
-        return RuntimeModel.model_validate(content)
+        return RuntimeModel.model_validate(migrated(written, name)), written["version"]
     except ValidationError as error:
         raise ConfigError(f"{name}: {fault_of(error)}: {_REMEDY}") from None
 
@@ -68,6 +66,12 @@ def json_schema() -> bytes:
     schema = RuntimeModel.model_json_schema(by_alias=True)
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "$id": f"{SCHEMA}.{VERSION}"}
     return (json.dumps({**head, **schema}, indent=1, sort_keys=True, ensure_ascii=False) + "\n").encode()
+
+
+def first_difference(one: bytes, other: bytes) -> int:
+    """Return the place of the first byte in which two texts differ; the shorter one's end if that is all."""
+    pairs = enumerate(zip(one, other, strict=False))
+    return next((place for place, (a, b) in pairs if a != b), min(len(one), len(other)))
 
 
 def fault_of(error: ValidationError) -> str:
@@ -83,27 +87,24 @@ def fault_of(error: ValidationError) -> str:
 
 def _parse(data: bytes, name: str) -> dict[str, Any]:
     try:
-        from_json(data, allow_inf_nan=False)  # first: it bounds the depth, and takes nothing but UTF-8
-        content = json.loads(data.decode(), object_pairs_hook=_once, parse_constant=_no_number)
+        content = json.loads(data.decode())
+        spelled = _spelled(content)
     except (ValueError, RecursionError) as error:
         raise ConfigError(f"{name}: this is not sound JSON ({error!s:.200}): {_REMEDY}") from None
     if not isinstance(content, dict):
         raise ConfigError(f"{name}: this is no JSON object: {_REMEDY}")
+    # Readers differ in what they make of a key that occurs twice, of 1e999 or of a byte after the end.
+    if spelled != data:
+        raise ConfigError(
+            f"{name}: byte {first_difference(data, spelled)} is not as contactbench writes it (a space, a key that"
+            f" occurs twice or out of order, or another spelling of a number or a text): {_REMEDY}"
+        )
     return content
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Return an object; whoever reads the first of two values, and who the last, would not agree."""
-    content = dict(pairs)
-    if len(content) < len(pairs):
-        names = [key for key, _ in pairs]
-        twice = next(key for key in names if names.count(key) > 1)
-        raise ValueError(f"the key {twice!a:.{_LONGEST}} is there twice")
-    return content
-
-
-def _no_number(text: str) -> float:
-    raise ValueError(f"{text} is no number")
+def _spelled(content: object) -> bytes:
+    text = json.dumps(content, sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+    return (text + "\n").encode()
 
 
 def _checked_kind(content: dict[str, Any], name: str) -> dict[str, Any]:

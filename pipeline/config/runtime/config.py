@@ -110,11 +110,11 @@ class RuntimeConfig:
             raise ConfigError(
                 f"{name}: {CONFIG} does not have the hash in {CHECKSUM}, it was changed: {_AGAIN}"
             )
-        model = decode_json(files[CONFIG], f"{name}: {CONFIG}")
+        model, version = decode_json(files[CONFIG], f"{name}: {CONFIG}")
         others = {file: content for file, content in files.items() if file not in (CONFIG, CHECKSUM)}
         _check_hashes(model, others, name)
         probe = decode_mesh(others[PROBE], model, f"{name}: {PROBE}")
-        check_config(model, probe, others, name)
+        check_config(model, probe, others, name, version=version)
         return cls(model, probe, MappingProxyType(others))
 
     def write(self, path: str | os.PathLike[str]) -> None:

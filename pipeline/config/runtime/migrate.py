@@ -77,6 +77,13 @@ _TOUCH = {
     "mesh_deviation_m": 0.0,
     "mesh_curved": True,
 }
+_STREAMS = {
+    "pose_gap_s": 0.25,
+    "pose_ahead_s": 0.15,
+    "silence_s": 0.12,
+    "frozen_probability": 1e-10,
+    "motion": None,
+}
 _GATES = {
     "implausible_misfit": 10.827566170662935,
     "rival_odds": 100.0,
@@ -93,14 +100,19 @@ def _from_2(content: dict[str, Any]) -> dict[str, Any]:
     del gates["torque_ratio"], gates["rival_sigmas"]
     regions = [dict(region) for region in content["regions"]]
     new = {"odds", "untouchable"}
-    if "touch" in content or _GATES.keys() & gates.keys() or any(new & each.keys() for each in regions):
-        raise ValueError("touch, gates or regions: fields of version 3")
+    if (
+        {"touch", "streams", "self_test"} & content.keys()
+        or _GATES.keys() & gates.keys()
+        or any(new & each.keys() for each in regions)
+    ):
+        raise ValueError("touch, streams, self_test, gates or regions: fields of version 3")
     last = len(_REGION_ODDS) - 1
     regions = [
         {**region, "odds": _REGION_ODDS[min(index, last)], "untouchable": False}
         for index, region in enumerate(regions)
     ]
-    return {**content, "touch": _TOUCH, "gates": {**gates, **_GATES}, "regions": regions}
+    new_parts = {"touch": _TOUCH, "streams": _STREAMS, "self_test": None}
+    return {**content, **new_parts, "gates": {**gates, **_GATES}, "regions": regions}
 
 
 # Version -> what turns its JSON object into one of the next version. Version 1 is the first.

@@ -172,6 +172,34 @@ class TouchModelPart(Part):
     mesh_curved: bool
 
 
+class MotionPart(Part):
+    """
+    What takes the tool's inertia off the readings, where poses have positions.
+
+    ``window_s``: over which positions the acceleration is estimated. ``gyration_m``: the tool's radius of gyration
+    about its centre of mass, roughly; what its turning does is not taken off, but added to the uncertainty.
+    """
+
+    window_s: Annotated[float, Field(ge=0.02, le=2)]
+    gyration_m: Annotated[float, Field(ge=0, le=1)]
+
+
+class StreamsPart(Part):
+    """
+    How poses and samples come together, and when a stream is unhealthy.
+
+    The orientation at a sample lies between the poses around it, no more than ``pose_gap_s`` apart; after the last pose
+    it is carried on by the last twist, for at most ``pose_ahead_s``. After ``silence_s`` without a sample the sensor is
+    silent. ``frozen_probability``: chance of a run of equal readings below which the sensor is taken to hang.
+    """
+
+    pose_gap_s: Annotated[float, Field(gt=0, le=10)]
+    pose_ahead_s: Annotated[float, Field(ge=0, le=10)]
+    silence_s: Annotated[float, Field(gt=0, le=10)]
+    frozen_probability: Annotated[float, Field(ge=1e-30, le=1e-3)]
+    motion: MotionPart | None
+
+
 class GatesPart(Part):
     """
     As Gates; a limit of null is none. Odds are so many to one; a runtime takes them as 2 ln(odds).
@@ -366,6 +394,13 @@ class VerificationPart(Part):
     diagnosis: Annotated[str, Field(max_length=10_000)]
 
 
+class SelfTestPart(Part):
+    """Samples with the answers that a runtime must give; see docs/bundle.md."""
+
+    file: _File
+    samples: Annotated[int, Field(ge=1, le=100_000)]
+
+
 class SourcePart(Part):
     """A file that something here was computed from."""
 
@@ -401,6 +436,7 @@ class RuntimeModel(Part):
     gravity: GravityPart
     noise: NoisePart
     touch: TouchModelPart
+    streams: StreamsPart
     filters: FiltersPart
     gates: GatesPart
     probe: ProbePart
@@ -409,6 +445,7 @@ class RuntimeModel(Part):
     controller: ControllerPart | None
     limits: LimitsPart
     verification: VerificationPart | None
+    self_test: SelfTestPart | None
     verified: bool
     provenance: ProvenancePart
 

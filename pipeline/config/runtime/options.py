@@ -63,6 +63,8 @@ class ExportOptions(BaseModel):
         Gains, as the part ``controller`` of a file that ``contactbench control tune`` writes.
     sensor_frame, world_frame : str
         S and W, as the robot description names them.
+    sensor_name : str or None
+        The sensor, as the ros2_control tag of the robot description names it; None: ``ros2.yaml`` has a placeholder.
     operator : str or None
         Who is answerable.
     """
@@ -86,6 +88,7 @@ class ExportOptions(BaseModel):
     controller: ControllerPart | None = None
     sensor_frame: _Name = "ft_sensor"
     world_frame: _Name = "base_link"
+    sensor_name: _Name | None = None
     operator: _Name | None = None
 
     @classmethod
@@ -158,5 +161,5 @@ class ExportOptions(BaseModel):
             ),
             controller=self.controller,
             operator=self.operator,
-            names=RobotNames(self.sensor_frame, self.world_frame),
+            names=RobotNames(self.sensor_frame, self.world_frame, self.sensor_name),
         )

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _SCHEMA, _VERSION = "contactbench.verification", 1
 _LONGEST = 10_000
-_RATE_OFF = 0.05
+RATE_OFF = 0.05  # share by which rates may differ and count as the same
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ def rate_reasons(verified: float | None, rate: float | None, filters: Filters | 
         None: made for `rate`.
     """
     said = []
-    if verified is not None and rate is not None and abs(rate / verified - 1) > _RATE_OFF:
+    if verified is not None and rate is not None and abs(rate / verified - 1) > RATE_OFF:
         said.append(
             f"Contacts were verified at {verified:.4g} readings a second, the config is for {rate:.4g}: verify again"
             " at this rate."
@@ -109,7 +109,7 @@ def rate_reasons(verified: float | None, rate: float | None, filters: Filters | 
         ("wrench", None if filters is None or filters.wrench is None else filters.wrench.rate),
         ("contact point", None if filters is None or filters.location is None else filters.location.rate),
     ):
-        if made is not None and rate is not None and abs(rate / made - 1) > _RATE_OFF:
+        if made is not None and rate is not None and abs(rate / made - 1) > RATE_OFF:
             said.append(f"The filter of the {what} is for {made:.4g} Hz, the config for {rate:.4g}.")
     return said
 

@@ -108,8 +108,8 @@ class Damage:
             )
         if last.restarts > first.restarts:
             found["restarted"] = (
-                "The device's count or clock began anew: it was switched off and on, or its clock was set. Samples are"
-                " timed by this computer, so none is misplaced."
+                "The device's count or clock began anew: it was switched off and on, or its clock was set. The times of"
+                " the next 0.2 s are estimates and are marked."
             )
         return found
 

@@ -35,21 +35,21 @@ class Leap:
 
     def see(self, sample: WrenchSample | FlangeSample) -> bool:
         """Take one sample; tell whether the clock leapt with it."""
-        self._now = sample.time
+        self._now = sample.arrived
         device = self._device(sample)
         if device is None:
             return False
         if self._settling:
             self._settling -= 1
             return False
-        here = (sample.time, device)
+        here = (sample.arrived, device)
         self._pairs.append(here)
         arrived, told = self._pairs[0]
-        ahead = (device - told) - (sample.time - arrived)
+        ahead = (device - told) - (sample.arrived - arrived)
         # Behind is no leap: what comes late comes late.
         if ahead <= _LEAP_S:
             return False
-        self._size, self._at = ahead, sample.time
+        self._size, self._at = ahead, sample.arrived
         self._pairs.clear()
         return True
 
@@ -64,7 +64,7 @@ class Leap:
             return {}
         return {
             "leap": f"The device's clock or count leapt ahead by {self._size:.1f} s while samples came on: its clock"
-            " was set, or its count is wrong. Samples are timed by this computer, so none is misplaced."
+            " was set, or its count is wrong. The times of the next 0.2 s are estimates and are marked."
         }
 
     def _device(self, sample: WrenchSample | FlangeSample) -> float | None:

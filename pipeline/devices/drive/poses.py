@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.devices.clock import SampleClock
 from pipeline.devices.drive.kept import READ_S, KeptStream
 from pipeline.devices.drive.watch import Watch
 from pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
@@ -62,6 +64,7 @@ class UrPoses(KeptStream[FlangeSample]):
     ) -> None:
         rate = address.rate or _USUAL_RATE_HZ
         self._talk = UrStream(rate, tool)
+        self._clock = SampleClock(rate)
         self._refused = 0
         super().__init__(address, line or line_to(address), Watch(rate), on_samples, on_change)
 
@@ -76,7 +79,10 @@ class UrPoses(KeptStream[FlangeSample]):
             raise
         if output := self._talk.take_output():
             self._line.write(output)
-        return samples
+        return self._clock.stamp(samples)
+
+    def _reset(self) -> None:
+        self._clock.forget()
 
     def _troubles(self) -> dict[str, str]:
         if self._talk.stage is not Stage.STREAMING or self._talk.knows_flange:
@@ -185,7 +191,8 @@ class ElfinPoses(KeptStream[FlangeSample]):
                 self._late += 1
                 self._lateness, self._late_at = arrived - asked, arrived
                 continue
-            samples.append(flange_sample(numbers, self._order, (asked + arrived) / 2, self._robot))
+            pose = flange_sample(numbers, self._order, (asked + arrived) / 2, self._robot)
+            samples.append(replace(pose, arrival=arrived))
         return samples
 
     def _end(self) -> None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.devices.sample import Status
+from pipeline.devices.sample import FROZEN_CHANCE, Status
+from pipeline.kernel import FrozenDetector
 
 if TYPE_CHECKING:
     from pipeline.devices.sample import WrenchSample
 
-# Noise changes the last digit of one channel in this time.
+# Of a channel at the end of its range: noise changes the last digit of any other in this time.
 _STILL_S, _STILL_SAMPLES = 0.12, 10
 # A flag of one sample must be seen by people too.
 _HELD_S = 0.5
@@ -39,6 +40,7 @@ class Readings:
         self._limits = None if limits is None else (limits[0],) * 3 + (limits[1],) * 3
         self._now = 0.0
         self._last: tuple[float, ...] | None = None
+        self._detector, self._frozen = FrozenDetector(), False
         self._since = [0.0] * 6
         self._same = [0] * 6
         self._moved = [0] * 6
@@ -53,6 +55,7 @@ class Readings:
         """Take one sample."""
         self._now = sample.time
         values = (*sample.force, *sample.torque)
+        self._frozen = self._detector.see(values, FROZEN_CHANCE)
         self._compare(values)
         self._last = values
         if sample.status:
@@ -66,6 +69,7 @@ class Readings:
         """Begin anew, after a gap; the first temperature and the largest values stay."""
         self._last = None
         self._same = [0] * 6
+        self._frozen = False
 
     def acknowledge(self) -> None:
         """Take the temperature of now as the one to compare with."""
@@ -91,7 +95,7 @@ class Readings:
                 f"{which}: exactly the same for {min(self._same[k] for k in at_end)} samples, and further than ever"
                 " before: it looks like the end of the range. Take the load off, and use less force."
             )
-        elif self._last is not None and all(map(self._still, range(6))):
+        elif self._frozen:
             found["frozen"] = (
                 f"The readings have not changed in any channel for {min(self._same)} samples: the sensor hangs, or is"
                 " not connected to its box. Switch it off and on."

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from pipeline.devices.clock import SampleClock
 from pipeline.devices.drive.driver import driver_for
 from pipeline.devices.drive.kept import READ_S, KeptStream
 from pipeline.devices.drive.watch import Watch
@@ -54,6 +55,7 @@ class SensorStream(KeptStream[WrenchSample]):
         where = DeviceAddress.parse(address) if isinstance(address, str) else address
         self._driver = driver or driver_for(where)
         watch = Watch(self._driver.rate, rate_known=self._driver.rate_known, limits=self._driver.limits)
+        self._clock = SampleClock(self._driver.rate if self._driver.rate_known else None)
         self._unprepared = ""
         self._unaccepted: dict[str, str] = {}
         super().__init__(where, line or line_to(where), watch, on_samples, on_change)
@@ -104,7 +106,7 @@ class SensorStream(KeptStream[WrenchSample]):
             )
 
     def _feed(self, data: bytes, arrived: float) -> list[WrenchSample]:
-        return self._driver.parser.feed(data, arrived)
+        return self._clock.stamp(self._driver.parser.feed(data, arrived))
 
     def _end(self) -> None:
         for command in self._driver.stop:
@@ -112,6 +114,7 @@ class SensorStream(KeptStream[WrenchSample]):
 
     def _reset(self) -> None:
         self._driver.parser.reset()
+        self._clock.forget()
 
     def _troubles(self) -> dict[str, str]:
         found = dict(self._unaccepted)

@@ -24,7 +24,7 @@ _MOST_SUSPICIONS = 20
 
 class Watch:
     """
-    Looks at samples as they pass. It knows no clock but theirs.
+    Looks at samples as they pass. It knows no clock but theirs; pace and leaps are judged by arrival.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Watch:
     def see(self, samples: Sequence[WrenchSample] | Sequence[FlangeSample]) -> None:
         """Take samples, oldest first."""
         for sample in samples:
-            self._pace.see(sample.time)
+            self._pace.see(sample.arrived)
             if self._leap.see(sample):
                 self._damage.forgive()
             if isinstance(sample, WrenchSample):

@@ -127,7 +127,7 @@ def flange_sample(
     order : FieldOrder
         As `resolve_order` found it.
     time : float
-        When the answer arrived, seconds of the host's monotonic clock.
+        When the robot was there, seconds of the host's monotonic clock.
     robot : Robot, optional
         The arm.
 

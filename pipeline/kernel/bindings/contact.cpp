@@ -106,7 +106,8 @@ void bind_contact(nb::module_& m) {
                "Sure only because of the declared regions: without them another place would do as well.")
         .value("IMPLAUSIBLE", Reason::implausible,
                "No single touch explains the wrench: two touches, a wrong model, or wrong units.")
-        .value("TWO_TOUCHES", Reason::two_touches, "A second touch joined the one that is followed; both are given.");
+        .value("TWO_TOUCHES", Reason::two_touches, "A second touch joined the one that is followed; both are given.")
+        .value("UNHEALTHY", Reason::unhealthy, "The sensor hangs, or its clock has just leapt.");
 
     nb::class_<ContactCandidate>(m, "Candidate", "Another place that explains the wrench, and why it lost.")
         .def_prop_ro("point", [](const ContactCandidate& c) { return to_array(c.candidate.point); }, "(3,) S, m.")

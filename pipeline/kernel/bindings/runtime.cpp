@@ -1,5 +1,8 @@
 // The runtime for Python: the same class that the C library wraps.
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 
 #include <chrono>
@@ -48,6 +51,75 @@ std::vector<Section> to_sections(const Rows6& rows) {
         sections[i] = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
     }
     return sections;
+}
+
+void set_mount(RuntimeSettings& s, nb::object R_ES) {
+    if (R_ES.is_none()) return;
+    Matrix3 m;
+    if (!nb::try_cast(R_ES, m)) throw nb::type_error("R_ES must be a float64 matrix (3, 3) or None");
+    copy_finite(m, s.R_ES, "R_ES");
+    s.has_mount = true;
+}
+
+// `motion`: window and radius of gyration.
+void set_motion(RuntimeSettings& s, nb::object motion) {
+    if (motion.is_none()) return;
+    const auto [window, gyration] = nb::cast<std::pair<double, double>>(motion);
+    if (!(window > 0.0 && gyration >= 0.0)) throw std::invalid_argument("motion: the window must be positive");
+    s.motion = {true, window, gyration};
+}
+
+RuntimeSample to_sample(const double* wrench, double time, double arrival, std::uint32_t flags) {
+    RuntimeSample sample{};
+    std::copy(wrench, wrench + 6, sample.wrench);
+    sample.time = time, sample.arrival = arrival, sample.flags = flags;
+    return sample;
+}
+
+// Of a whole recording; what led to a run that is told frozen was frozen, too.
+nb::object frozen(Rows6 wrenches, double chance) {
+    const std::size_t n = wrenches.shape(0);
+    std::unique_ptr<bool[]> told(new bool[n]());
+    FrozenDetector detector;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double* w = wrenches.data() + 6 * i;
+        if (i > 0 && !std::equal(w, w + 6, w - 6)) begin = i;
+        if (detector.see(w, chance)) std::fill(told.get() + begin, told.get() + i + 1, true), begin = i;
+    }
+    bool* data = told.release();
+    nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<bool*>(p); });
+    return nb::cast(nb::ndarray<nb::numpy, bool>(data, {n}, owner));
+}
+
+// Of a whole recording: R (n, 3, 3), p (n, 3) and age (n,) at each of `times`; NaN where there is none.
+nb::object poses_at(Doubles moments, Rotations R, Rows3 p, Doubles times, double longest_gap, double longest_ahead) {
+    const std::size_t n = moments.shape(0), m = times.shape(0);
+    if (R.shape(0) != n || p.shape(0) != n) throw nb::value_error("moments, R and p must have one row per pose");
+    for (std::size_t i = 0; i < n; ++i)
+        if (!std::isfinite(moments.data()[i]) || (i > 0 && !(moments.data()[i] > moments.data()[i - 1])))
+            throw nb::value_error("moments must be finite and increase");
+    const auto pose = [&](std::ptrdiff_t i) {
+        Pose found;
+        found.time = moments.data()[i];
+        std::copy_n(R.data() + 9 * i, 9, found.R);
+        std::copy_n(p.data() + 3 * i, 3, found.p);
+        return found;
+    };
+    const PosePolicy policy{longest_gap, longest_ahead};
+    std::vector<double> turned(9 * m, detail::unknown), placed(3 * m, detail::unknown), age(m, detail::unknown);
+    for (std::size_t i = 0; i < m; ++i) {
+        const double t = times.data()[i];
+        const double* after = std::upper_bound(moments.data(), moments.data() + n, t);
+        const std::ptrdiff_t base = after - moments.data() - 1;
+        Pose found;
+        if (!std::isfinite(t) || !pose_at(pose, std::ptrdiff_t(n), base, t, policy, found)) continue;
+        std::copy_n(found.R, 9, turned.data() + 9 * i);
+        std::copy_n(found.p, 3, placed.data() + 3 * i);
+        age[i] = t - moments.data()[base];
+    }
+    return nb::make_tuple(make_array(std::move(turned), {m, 3, 3}), make_array(std::move(placed), {m, 3}),
+                          make_array(std::move(age), {m}));
 }
 
 // `kalman`: rate, q, r, tuned rate, 1 for per sample.
@@ -145,6 +217,10 @@ void bind_contact_class(nb::module_& m) {
         .def_prop_ro("reason", [](const C& c) { return c.reason; }, "Reason.")
         .def_prop_ro("reason_name", [](const C& c) { return std::string(reason_name(c.reason)); }, "The same in words.")
         .def_prop_ro("accepted", [](const C& c) { return c.accepted != 0; }, "Safe to act on.")
+        .def_prop_ro("health", [](const C& c) { return c.health; }, "Health word; 0: nothing is wrong.")
+        .def_prop_ro("pose_age", [](const C& c) { return c.pose_age; },
+                     "s: how much older than the sample the last pose before it is; NaN where there is none.")
+        .def_prop_ro("latency", [](const C& c) { return c.latency; }, "s: arrival less time; NaN where not known.")
         .def_prop_ro("time", [](const C& c) { return c.time; }, "s, as given.")
         .def_prop_ro("point", [](const C& c) { return point_or_none(c.point); }, "(3,) S, m, or None.")
         .def_prop_ro("normal", [](const C& c) { return point_or_none(c.normal); }, "(3,) S, outward, or None.")
@@ -192,6 +268,7 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("covariances", [](const B& b) { return column<double>(b, &C::covariance, {3, 3}); }, "(n, 3, 3) S, m².")
         .def_prop_ro("filtered_points", [](const B& b) { return column<double>(b, &C::filtered_point, {3}); }, "(n, 3) S, m.")
         .def_prop_ro("accepted", [](const B& b) { return column<std::int32_t>(b, &C::accepted, {}); }, "(n,) int32: 1 where safe to act on.")
+        .def_prop_ro("healths", [](const B& b) { return column<std::uint32_t>(b, &C::health, {}); }, "(n,) uint32.")
         .def_prop_ro("misfits", [](const B& b) { return column<double>(b, &C::misfit, {}); }, "(n,) standard deviations squared.")
         .def_prop_ro("left_overs", [](const B& b) { return column<double>(b, &C::left_over, {}); }, "(n,) N·m.")
         .def_prop_ro("arms", [](const B& b) { return column<double>(b, &C::arm, {}); }, "(n,) m.")
@@ -208,8 +285,16 @@ void bind_runtime(nb::module_& m) {
     auto runtime = nb::class_<PyRuntime>(m, "Runtime", "What a controller runs at every sample; one stream.");
     runtime.def("__init__", [](PyRuntime* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Vector12 gravity,
                                nb::object kalman, Rows6 sections, Bonus bonus, double torsion_arm,
-                               double mesh_deviation, bool mesh_curved, CONTACTBENCH_GATES) {
+                               double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
+                               double pose_ahead, double silence, double frozen_chance, nb::object motion,
+                               CONTACTBENCH_GATES) {
         RuntimeSettings s;
+        set_mount(s, std::move(R_ES));
+        set_motion(s, std::move(motion));
+        if (!(pose_gap > 0.0 && pose_ahead >= 0.0 && silence > 0.0 && frozen_chance > 0.0 && frozen_chance < 1.0))
+            throw std::invalid_argument("pose_gap, pose_ahead, silence or frozen_chance is out of range");
+        s.poses = {pose_gap, pose_ahead};
+        s.silence = silence, s.frozen_chance = frozen_chance;
         s.gates = CONTACTBENCH_GIVEN_GATES;
         s.torsion_arm = torsion_arm;
         copy_finite(noise, &s.noise.s[0][0], "the wrench covariance");
@@ -221,7 +306,38 @@ void bind_runtime(nb::module_& m) {
         new (self) PyRuntime{Runtime(to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved), s), {}};
     }, nb::arg("vertices"), nb::arg("faces").noconvert(), nb::arg("region").noconvert(), nb::arg("noise"),
        nb::arg("gravity"), nb::kw_only(), nb::arg("kalman").none(), nb::arg("sections"), nb::arg("bonus"),
-       nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"), CONTACTBENCH_GATE_NAMES);
+       nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
+       nb::arg("R_ES").none(), nb::arg("pose_gap"), nb::arg("pose_ahead"), nb::arg("silence"), nb::arg("frozen_chance"),
+       nb::arg("motion").none(),
+       CONTACTBENCH_GATE_NAMES);
+    runtime.def("pose", [](PyRuntime& s, Matrix3 R, Vector3 p, double time) {
+        const std::lock_guard lock(s.busy);
+        return s.runtime.pose(R.data(), p.data(), time);
+    }, nb::arg("R"), nb::arg("p"), nb::arg("time"),
+       "The next pose: of the flange where the mount is known, else of the sensor; R (3, 3), p (3,) m, NaN where it is"
+       " not known, s. False: it is not used.");
+    runtime.def("locate", [](PyRuntime& s, Vector6 wrench, double time, double arrival, std::uint32_t flags) {
+        const std::lock_guard lock(s.busy);
+        return s.runtime.update(to_sample(wrench.data(), time, arrival, flags));
+    }, nb::arg("wrench"), nb::arg("time"), nb::arg("arrival") = detail::unknown, nb::arg("flags") = 0,
+       "The next sample, with the orientation at its time; `flags` as pipeline.devices.sample.Status.");
+    runtime.def("silent", [](PyRuntime& s, double now) -> std::optional<RuntimeContact> {
+        const std::lock_guard lock(s.busy);
+        RuntimeContact out;
+        if (!s.runtime.silent(now, out)) return std::nullopt;
+        return out;
+    }, nb::arg("now"), "A contact that says that no sample comes, or None while they do.");
+    nb::class_<FrozenDetector>(m, "FrozenDetector", "Tells readings that repeat beyond chance.")
+        .def(nb::init<>())
+        .def("see", [](FrozenDetector& d, std::array<double, 6> wrench, double chance) {
+            return d.see(wrench.data(), chance);
+        }, nb::arg("wrench"), nb::arg("chance"), "Takes the next reading (6 numbers).");
+    m.def("frozen", &frozen, nb::arg("wrenches"), nb::arg("chance"),
+          "(n,) bool: which of n readings (n, 6) in a row are part of a run that repeats beyond chance, its beginning"
+          " included.");
+    m.def("poses_at", &poses_at, nb::arg("moments"), nb::arg("R"), nb::arg("p"), nb::arg("times"),
+          nb::arg("longest_gap"), nb::arg("longest_ahead"),
+          "R (m, 3, 3), p (m, 3) and age (m,) at times among n poses of increasing moments; NaN where there is none.");
     runtime.def("update", [](PyRuntime& s, Vector6 wrench, Matrix3 R_WS, double time) {
         const std::lock_guard lock(s.busy);
         return s.runtime.update(wrench.data(), R_WS.data(), time);

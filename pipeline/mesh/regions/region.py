@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -180,7 +181,7 @@ def check_list(regions: Sequence[Region]) -> None:
         raise RegionError(f"{len(regions)} regions, more than {MOST_REGIONS}: merge or remove some.")
     names = [region.name for region in regions]
     if len(set(names)) < len(names):
-        twice = next(name for name in names if names.count(name) > 1)
+        twice = next(name for name, count in Counter(names).items() if count > 1)
         raise RegionError(f"two regions are called {twice!r}: rename one.")
 
 

@@ -51,7 +51,8 @@ OLD_GAINS = {
 def of_version_2(files: dict[str, bytes], **changes: object) -> dict[str, bytes]:
     """Return a bundle as contactbench wrote it before version 3: touches were ranked by rules."""
     content = json.loads(files["contactbench.json"])
-    del content["touch"]
+    for name in ("touch", "streams", "self_test"):
+        del content[name]
     new = ("implausible_misfit", "rival_odds", "first_odds", "follow_odds", "accept_by_region")
     old = {name: value for name, value in content["gates"].items() if name not in new}
     content["gates"] = {**old, "torque_ratio": 1.5, "rival_sigmas": 3.0}

@@ -6,6 +6,7 @@ import io
 import itertools
 import json
 import threading
+import time
 import zipfile
 from datetime import UTC, datetime
 from pathlib import Path
@@ -130,11 +131,11 @@ def test_planes_come_in_the_order_of_priority():
         ({"gravity__gravity_W_N": [0.0, 0.0, -0.062]}, "were they kN"),
         ({"gravity__gravity_W_N": [0.0, 0.0, 6.2]}, "points up"),
         ({"gravity__centre_of_mass_S_m": [0.0, 0.0, 90.0]}, "were they mm"),
-        ({"gravity__force_bias_N": [1.0, 2.0, 3.0]}, "ros2.yaml: offset"),
+        ({"gravity__force_bias_N": [1.0, 2.0, 3.0]}, "ros2.yaml: line [0-9]+ is not what"),
         ({"gravity__torque_bias_Nm": [0.0, 250.0, 0.0]}, "N\\*mm"),
         ({"gravity__covariance__0__11": 1.0}, "gravity.covariance is not symmetric"),
         ({"gravity__covariance__0__0": 1e-320}, "gravity.covariance has a correlation beyond 1"),
-        ({"gravity__gravity_W_N": [0.0, 0.0, -6.0]}, "ros2.yaml: CoG.force|wrench_covariance"),
+        ({"gravity__gravity_W_N": [0.0, 0.0, -6.0]}, "noise.wrench_covariance"),
         ({"filters__wrench__tuned_rate_Hz": 1e-300, "filters__wrench__q": 1e-300}, "noise.wrench_covariance"),
         ({"filters__location__cutoff_Hz": 1e-300}, "too slow"),
         ({"noise__force_N": [0.0, 1.0, 1.0]}, "noise.force_N"),
@@ -167,6 +168,21 @@ def test_planes_come_in_the_order_of_priority():
         ({"planes__count": 5}, "planes.count"),
         ({"verification__passed": False}, "verified is true"),
         ({"verification__max_error_m": 0.0021}, "exceeds its limit"),
+        ({"verification__touches": 0}, "verification.touches is 0"),
+        ({"verification__markers": 0}, "verification.markers is 0"),
+        ({"verification__limit_max_m": 0.051}, "verification.limit_max_m is 0.051, more than 0.05 m"),
+        ({"verification__limit_mean_m": 1.0}, "verification.limit_mean_m is 1"),
+        ({"verification__p95_error_m": 0.0012}, "verification.p95_error_m is more than"),
+        ({"verification__max_error_m": 0.0003}, "verification.mean_error_m is more than"),
+        (
+            {"gates__saturation": [None, 29.0, None, 1.0, 1.0, 1.0]},
+            "gates.saturation.1 is 29: the sensor cannot",
+        ),
+        ({"limits__max_force_N": 1001.0}, "limits.max_force_N is 1001, more than 1000"),
+        ({"limits__max_torque_Nm": 3e3}, "limits.max_torque_Nm is 3000"),
+        ({"limits__max_speed_mps": 250.0}, "limits.max_speed_mps is 250"),
+        ({"limits__max_turn_radps": 180.0}, "limits.max_turn_radps is 180"),
+        ({"sensor__rate_Hz": 940.0}, "filters.wrench.rate_Hz is 1000, but .* which is 940"),
         ({"provenance__stale": ["zeroed"]}, "provenance.stale says: zeroed"),
         ({"units__force": "kN"}, "units.force is 'kN'"),
         ({"limits__max_force_N": 10**400}, "limits.max_force_N"),
@@ -188,10 +204,23 @@ def test_what_cannot_be_true_is_refused_and_named(changes, words):
 @pytest.mark.parametrize(
     ("data", "words"),
     [
-        (b'{"schema":"contactbench.runtime","schema":"contactbench.runtime"}', "there twice"),
+        (b'{"schema":"contactbench.runtime","schema":"contactbench.runtime"}\n', "byte 32 is not .* twice"),
+        (b'{"b":1,"a":1}\n', "byte 2 is not"),
+        (b'{"a": 1}\n', "byte 5 is not"),
+        (b'{"a":1}', "byte 7 is not"),
+        (b'{"a":1}\n\n', "byte 8 is not"),
+        (b'{"a":1}\r\n', "byte 7 is not"),
+        (b'{"a":1e0}\n', "byte 6 is not"),
+        (b'{"a":-0}\n', "byte 5 is not"),
+        (b'{"a":1e-400}\n', "byte 5 is not"),
+        (b'{"a":"\\u0041"}\n', "byte 6 is not"),
+        (b'{"a":1e400}\n', "not sound JSON"),
+        (b'{"a":"\\ud800"}\n', "not sound JSON"),
+        (b'{"a":01}\n', "not sound JSON"),
+        (b'\xef\xbb\xbf{"a":1}\n', "JSON"),
         (b'{"a":NaN}', "not sound JSON"),
         (b"[" * 100_000, "not sound JSON"),
-        (b"[1]", "no JSON object"),
+        (b"[1]\n", "no JSON object"),
         (b"\xff", "not sound JSON"),
         (b'{"a":' + b"9" * 10_000 + b"}", "JSON"),
     ],
@@ -214,8 +243,71 @@ def test_a_sealed_change_of_the_mesh_is_seen_in_the_planes():
     at = other.index(b"end_header\n") + 11 + 24 * 200
     moved = np.frombuffer(other, "<f8", 3, at) * (1 + 1e-12)
     other[at : at + 24] = moved.tobytes()
-    with pytest.raises(ConfigError, match=r"planes.csv: row \d+ is not the plane of facet"):
+    with pytest.raises(ConfigError, match=r"planes.csv: line \d+ is not that of the mesh"):
         RuntimeConfig.from_files(seal({**files, "probe.ply": bytes(other)}))
+
+
+def test_forces_that_the_sensor_just_measures_and_a_rate_that_is_nearly_it_are_taken():
+    changes = {"gates__saturation": [30.0, 30.0, 30.0, None, None, None], "sensor__rate_Hz": 960.0}
+    assert RuntimeConfig.from_files(edited(**changes)).model.verified
+
+
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("ros2.yaml", lambda text: text.replace("    offset:", "    offset:\n    offset:", 1)),
+        ("ros2.yaml", lambda text: text.replace("\nadmittance_controller:", "\nanother:", 1)),
+        ("ros2.yaml", lambda text: text + 'x: !!python/object/apply:os.system ["true"]\n'),
+        ("ros2.yaml", lambda text: text + "a: &a [x, x]\nb: &b [*a, *a, *a]\n"),
+        ("ros2.yaml", lambda text: text.replace("# 1 sigma", "# 2 sigma", 1)),
+        ("ros2.yaml", lambda text: text.replace("# sensor_frame: ft_sensor", "# sensor_frame: other")),
+        ("ros2.yaml", lambda text: text.replace("# sensor_frame: ft_sensor\n", "")),
+        ("ros2.yaml", lambda text: text.replace("\n", "\r\n")),
+        ("ros2.yaml", lambda text: text.removesuffix("\n")),
+        ("ros2.yaml", lambda text: "\ufeff" + text),
+        ("ft_calib.yaml", lambda text: text.replace("gripper_mass: ", "gripper_mass: !!float ")),
+        ("ft_calib.yaml", lambda text: text.replace("gripper_mass: 0", "gripper_mass: 1")),
+        ("planes.csv", lambda text: text.replace("\n", "\r\n")),
+        ("planes.csv", lambda text: text.removesuffix("\n")),
+        ("planes.csv", lambda text: text.replace("0.0,", "0,", 1)),
+    ],
+)
+def test_files_for_other_programs_are_those_that_the_bundle_makes_to_the_byte(name, change):
+    files = example().encoded()
+    changed = change(files[name].decode()).encode()
+    assert changed != files[name]
+    with pytest.raises(ConfigError, match=name):
+        RuntimeConfig.from_files(seal({**files, name: changed}))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda data: data + b"\n",
+        lambda data: data.replace(b"comment metres\n", b"comment metres\ncomment x\n", 1),
+        lambda data: data.replace(b"element face ", b"element face 0", 1),
+        lambda data: data[:-1] + bytes([data[-1] ^ 1]),  # a colour
+    ],
+)
+def test_a_mesh_that_is_not_as_contactbench_writes_it_is_refused(change):
+    files = example().encoded()
+    with pytest.raises(ConfigError, match=r"probe.ply: byte \d+ is not as contactbench writes this mesh"):
+        RuntimeConfig.from_files(seal({**files, "probe.ply": change(files["probe.ply"])}))
+
+
+def test_a_tool_that_weighs_nothing_for_sure_is_no_error_in_the_program():
+    changes = {"gravity__gravity_W_N": [0.0] * 3, "gravity__covariance": [[0.0] * 12] * 12}
+    with pytest.raises(ConfigError, match=r"noise\.wrench_covariance"):
+        RuntimeConfig.from_files(edited(**changes))
+
+
+def test_many_keys_take_linear_time():
+    keys = "".join(f'"{number:06d}":0,' for number in range(80_000))
+    data = ("{" + keys + '"079999":0}\n').encode()
+    begin = time.process_time()
+    with pytest.raises(ConfigError, match="byte"):
+        decode_json(data, "c")
+    assert time.process_time() - begin < 2
 
 
 def test_strangers_links_and_missing_files_in_a_folder(tmp_path):
@@ -415,7 +507,7 @@ def test_every_unit_frame_and_kind_is_needed():
         with pytest.raises(ConfigError, match=name):
             decode_json(encode_json(whole), "c")
         part[name] = value
-    assert decode_json(encode_json(whole), "c") == example().model
+    assert decode_json(encode_json(whole), "c")[0] == example().model
 
 
 def test_a_config_larger_than_a_mebibyte_is_refused():

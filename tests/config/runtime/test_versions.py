@@ -25,7 +25,7 @@ def test_an_older_version_is_carried_over(monkeypatch):
     content["gravity"]["mass_W_kg"] = [each / 9.80665 for each in weight]
     del content["gates"]["region_only"]
     old = encode_json({**content, "version": 0})
-    model = decode_json(old, "old")
+    model, _ = decode_json(old, "old")
     assert model.version == 3
     assert model.controller.force.damping_Nspm == 80.0
     assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)

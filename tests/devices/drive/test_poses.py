@@ -30,6 +30,10 @@ def test_a_robot_tells_its_joints_and_orientation(protocol):
     for sample in heard.samples:
         assert sample.joints == pytest.approx(JOINTS, abs=1e-5)
         assert pytest.approx(np.eye(3), abs=1e-9) == sample.R_BE @ sample.R_BE.T
+        assert sample.time <= sample.arrival
+    if protocol == "ur":
+        clock = [sample.device_time - sample.time for sample in heard.samples]
+        assert np.ptp(clock) < 2e-3  # within the first second, arrivals may still move the line
     assert device.refused == []  # it was asked, never moved
     if protocol == "elfin":
         R_BE, p_BE_B = Robot.named("elfin3").flange_pose(np.array(JOINTS))

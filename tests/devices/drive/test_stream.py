@@ -9,6 +9,7 @@ import pytest
 
 from pipeline.devices.drive import SensorStream, State, driver_for
 from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from pipeline.devices.sample import Status
 from pipeline.devices.url import AddressError, DeviceAddress
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]
@@ -72,7 +73,9 @@ def test_every_sample_was_sent_and_in_order(protocol, carrier):
     assert heard.states()[0] is State.CONNECTING
     assert heard.states()[-1] is State.CLOSED
     times = [sample.time for sample in heard.samples]
-    assert times == sorted(times)
+    assert times == sorted(set(times))
+    assert all(sample.arrival is not None and sample.time <= sample.arrival for sample in heard.samples)
+    assert not any(Status.CLOCK in sample.status for sample in heard.samples)
     assert device.refused == []  # nothing but what it takes to stream was sent
     sent = iter([entry.reading.values for entry in device.intact()])
     for sample in heard.samples:  # each one was sent, in this order: none is made up
@@ -112,6 +115,7 @@ def test_a_lost_line_is_opened_again(protocol, carrier):
         count = len(heard.samples)
         heard.until(lambda: len(heard.samples) > count + 10)
         assert stream.health.reconnected >= 1
+    assert Status.CLOCK in heard.samples[count].status
     assert "line is lost" in " ".join(heard.findings())
 
 

@@ -157,7 +157,8 @@ def test_a_pause_of_the_computer_is_no_wrong_rate_and_no_leap():
     late = [1.62 if 1.5 <= t < 1.62 else t for t in times]  # they wait, and then come at once
     watch = Watch(100.0)
     for t, device in zip(late, times, strict=True):
-        watch.see([noisy(t, sequence=round(100 * device), device_time=device)])
+        measured = noisy(device, sequence=round(100 * device), device_time=device)
+        watch.see([dataclasses.replace(measured, time=t)])
         assert watch.findings() == {}
 
 

@@ -22,8 +22,9 @@ enum class Reason : std::uint8_t {
     by_region,
     implausible,
     two_touches,
+    unhealthy,
 };
-inline constexpr int reason_count = 14;
+inline constexpr int reason_count = 15;
 
 // Does an answer with this reason carry a point?
 inline bool has_point(Reason r) {

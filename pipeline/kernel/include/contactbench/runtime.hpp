@@ -3,6 +3,11 @@
 // Contract
 //   units      S frame, N, N*m, m, s. R_WS turns S into W (v_W = R_WS v_S), row major.
 //   update     one stream, not thread-safe. noexcept, and no allocation after construction.
+//   pose       poses come beside the samples, each with its time; a sample takes the one at its own time (see
+//              pose_track.hpp), or comes with an orientation that the caller answers for.
+//   health     a word beside the reason; what is unhealthy is never accepted. A frozen sample, and one whose time is a
+//              guess, are lost ones: the filters hold.
+//   motion     where poses have positions, what the tool's inertia does is taken off, and its uncertainty is added.
 //   clock      a time far ahead makes those after it stale: when stale times have increased for more than
 //              `gates.max_age`, or 50 samples, without one that is not, the stream starts anew, as after reset.
 //   order      not_finite, stale and not_a_rotation leave everything as it was. Saturation is judged on the
@@ -13,10 +18,14 @@
 //              `gates.recent_samples` samples, and started anew after that.
 #pragma once
 
+#include "health.hpp"
+#include "motion.hpp"
 #include "runtime_filters.hpp"
 #include "solver.hpp"
 
 namespace contactbench {
+
+inline constexpr double standard_gravity = 9.80665;  // m/s^2
 
 // A still sensor reads F = R_SW g + F0, M = L x (R_SW g) + M0.
 struct GravityLoad {
@@ -31,13 +40,27 @@ struct RuntimeSettings {
     bool filter_wrench = false;
     KalmanSettings kalman;
     std::vector<Section> sections;  // of the location's low-pass; none: not filtered
+    bool has_mount = false;         // poses are the flange's, R_WS = R_WE R_ES; else they are the sensor's own
+    double R_ES[9] = {};
+    PosePolicy poses;
+    MotionSettings motion;
+    double silence = 0.12;         // s without a sample
+    double frozen_chance = 1e-10;  // of one run of repeats
+};
+
+// A raw reading, and what is known of it.
+struct RuntimeSample {
+    double wrench[6];
+    double time;  // when it was measured
+    double arrival = std::numeric_limits<double>::quiet_NaN();  // when it came, on the same clock; NaN: not known
+    std::uint32_t flags = 0;  // bits of Flag
 };
 
 inline const char* reason_name(std::int32_t reason) {
     static constexpr const char* names[] = {"ok",          "vertex",         "ambiguous", "low_force",
                                             "tangential",  "off_surface",    "outside_region", "saturated",
                                             "stale",       "not_finite",     "not_a_rotation", "by_region",
-                                            "implausible", "two_touches"};
+                                            "implausible", "two_touches",    "unhealthy"};
     static_assert(sizeof names / sizeof *names == reason_count);
     return reason >= 0 && reason < reason_count ? names[reason] : "unknown";
 }
@@ -52,6 +75,8 @@ struct RuntimeContact {
     std::int32_t face = -1, vertex = -1, region = 0;
     std::int32_t candidates = 0;
     std::int32_t accepted = 0;  // 1: a controller may use it
+    std::uint32_t health = 0;   // bits of Health
+    std::int32_t reserved = 0;
     double time = detail::unknown;
     double point[3] = {detail::unknown, detail::unknown, detail::unknown};
     double normal[3] = {detail::unknown, detail::unknown, detail::unknown};
@@ -67,8 +92,10 @@ struct RuntimeContact {
     double confidence = 0.0;             // 0 to 1
     double runner_up[3] = {detail::unknown, detail::unknown, detail::unknown};  // the likeliest other place
     double second[3] = {detail::unknown, detail::unknown, detail::unknown};     // a touch that joined this one
+    double pose_age = detail::unknown;  // s: how much older than the sample the last pose before it is
+    double latency = detail::unknown;   // s: arrival less time
 };
-static_assert(sizeof(RuntimeContact) == 6 * 4 + 36 * 8);
+static_assert(sizeof(RuntimeContact) == 8 * 4 + 38 * 8);
 
 // Each column and row of unit length and at right angles to within 1e-3, and not a mirror.
 inline bool is_rotation(const double R[9]) {
@@ -78,12 +105,15 @@ inline bool is_rotation(const double R[9]) {
     return off <= 1e-3 && dot(cross(x, y), z) > 0.0;
 }
 
-// What the tissue does to the probe: the reading without bias and weight.
-inline Wrench compensate(const GravityLoad& load, const double wrench[6], const double R_WS[9]) {
-    const Vec3 g = load.gravity_W;
-    const Vec3 weight_S{g.x * R_WS[0] + g.y * R_WS[3] + g.z * R_WS[6],
-                        g.x * R_WS[1] + g.y * R_WS[4] + g.z * R_WS[7],
-                        g.x * R_WS[2] + g.y * R_WS[5] + g.z * R_WS[8]};
+inline Vec3 to_sensor(const double R_WS[9], Vec3 v) {
+    return {v.x * R_WS[0] + v.y * R_WS[3] + v.z * R_WS[6], v.x * R_WS[1] + v.y * R_WS[4] + v.z * R_WS[7],
+            v.x * R_WS[2] + v.y * R_WS[5] + v.z * R_WS[8]};
+}
+
+// What the tissue does to the probe: the reading without bias and weight. `gravity_W`: the weight, or, of a tool that is
+// accelerated, its weight less mass times acceleration.
+inline Wrench compensate(const GravityLoad& load, Vec3 gravity_W, const double wrench[6], const double R_WS[9]) {
+    const Vec3 weight_S = to_sensor(R_WS, gravity_W);
     const Vec3 F{wrench[0], wrench[1], wrench[2]}, M{wrench[3], wrench[4], wrench[5]};
     return {F - (weight_S + load.force_bias), M - (cross(load.centre_of_mass_S, weight_S) + load.torque_bias)};
 }
@@ -91,38 +121,82 @@ inline Wrench compensate(const GravityLoad& load, const double wrench[6], const 
 class Runtime {
 public:
     Runtime(std::shared_ptr<const Model> model, const RuntimeSettings& settings)
-        : gravity_(settings.gravity), gates_(settings.gates), filter_wrench_(settings.filter_wrench),
-          kalman_(settings.kalman), low_pass_(settings.sections),
+        : settings_(settings), kalman_(settings.kalman), low_pass_(settings.sections),
           solver_(model, settings.noise, settings.torsion_arm, unsaturated(settings.gates)) {}
 
-    RuntimeContact update(const double wrench[6], const double R_WS[9], double time) noexcept {
+    // The next pose, of the flange or of the sensor itself (`has_mount`). `p`: of its origin in W, m, or null. Returns
+    // false for one that is not used.
+    bool pose(const double R[9], const double* p, double time) noexcept {
+        Pose next;
+        next.time = time;
+        if (settings_.has_mount) detail::times(R, settings_.R_ES, next.R);
+        else std::copy(R, R + 9, next.R);
+        if (p && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) std::copy(p, p + 3, next.p);
+        if (!is_rotation(next.R) || !track_.add(next, settings_.poses)) return false;
+        if (settings_.motion.on) fit_.see(track_, settings_.motion.window);
+        return true;
+    }
+
+    // The orientation of the sensor, R_WS, at a time, and how old the pose is that it rests on; false: it is not known.
+    bool orientation(double time, double R_WS[9], double& age) const noexcept {
+        Pose found;
+        if (!track_.at(time, settings_.poses, found, age)) return false;
+        std::copy(found.R, found.R + 9, R_WS);
+        return true;
+    }
+
+    // With the orientation at its time.
+    RuntimeContact update(const RuntimeSample& sample) noexcept {
         RuntimeContact out;
-        out.time = time;
-        out.reason = refusal(wrench, R_WS, time);
-        if (out.reason == std::int32_t(Reason::stale) && clock_went_back(time)) {
-            reset();
-            out.reason = refusal(wrench, R_WS, time);
+        double R_WS[9];
+        if (!std::isfinite(sample.time) || orientation(sample.time, R_WS, out.pose_age)) {
+            if (!std::isfinite(sample.time)) std::fill(R_WS, R_WS + 9, detail::unknown);
+            take(sample, R_WS, out);
+            return out;
         }
-        if (out.reason != std::int32_t(Reason::ok)) return out;
-        if (running_ && time - last_time_ > gates_.max_age) reset();
-        const double dt = running_ ? time - last_time_ : 0.0;
-        running_ = true;
-        last_time_ = time;
-        stale_ = 0;
-        const Wrench raw{{wrench[0], wrench[1], wrench[2]}, {wrench[3], wrench[4], wrench[5]}};
-        const bool saturated = gate(raw, gates_) == Reason::saturated;
-        const bool known = saturated ? skip(dt) : filter(compensate(gravity_, wrench, R_WS), dt);
-        if (known) put(out.wrench, filtered_.F), put(out.wrench + 3, filtered_.M);
-        // An age of NaN is never recent enough: the solver counts a miss.
-        solver_.track(filtered_, saturated ? detail::unknown : 0.0, answer_);
-        out.reason = std::int32_t(saturated ? Reason::saturated : answer_.reason);
-        describe(out);
-        follow_point(out);
+        // Nothing can be said of where it was touched, but much of the sensor.
+        out.time = sample.time, out.latency = sample.arrival - sample.time;
+        out.reason = std::int32_t(Reason::stale);
+        out.health = health_of(sample) | Health::no_pose;
         return out;
+    }
+
+    // With an orientation from elsewhere.
+    RuntimeContact update(const RuntimeSample& sample, const double R_WS[9]) noexcept {
+        RuntimeContact out;
+        take(sample, R_WS, out);
+        return out;
+    }
+
+    RuntimeContact update(const double wrench[6], const double R_WS[9], double time) noexcept {
+        RuntimeSample sample{};
+        std::copy(wrench, wrench + 6, sample.wrench);
+        sample.time = time;
+        return update(sample, R_WS);
+    }
+
+    // Whether samples have stopped coming; `out` is then a contact of `now` that says so.
+    bool silent(double now, RuntimeContact& out) const noexcept {
+        if (running_ && now - last_time_ <= settings_.silence) return false;
+        out = RuntimeContact{};
+        out.time = now;
+        out.reason = std::int32_t(Reason::stale);
+        out.health = Health::silent;
+        return true;
     }
 
     // Forget the stream: the next sample is a first one, whatever its time.
     void reset() noexcept {
+        begin_anew();
+        track_.clear();
+        fit_.reset();
+        frozen_.reset();
+    }
+
+    const Model& model() const noexcept { return solver_.model(); }
+
+private:
+    void begin_anew() noexcept {
         kalman_.reset();
         low_pass_.reset();
         solver_.reset();
@@ -131,9 +205,87 @@ public:
         filtered_ = {};
     }
 
-    const Model& model() const noexcept { return solver_.model(); }
+    void take(const RuntimeSample& sample, const double R_WS[9], RuntimeContact& out) noexcept {
+        const double time = sample.time;
+        out.time = time, out.latency = sample.arrival - time;
+        out.health = health_of(sample);
+        double wrench[6];
+        reading_of(sample, wrench);
+        out.reason = refusal(wrench, R_WS, time);
+        if (out.reason == std::int32_t(Reason::stale) && clock_went_back(time)) {
+            begin_anew();
+            out.reason = refusal(wrench, R_WS, time);
+        }
+        if (out.reason != std::int32_t(Reason::ok)) return;
+        if (running_ && time - last_time_ > settings_.gates.max_age) begin_anew();
+        const double dt = running_ ? time - last_time_ : 0.0;
+        running_ = true;
+        last_time_ = time;
+        stale_ = 0;
+        const Wrench raw{{wrench[0], wrench[1], wrench[2]}, {wrench[3], wrench[4], wrench[5]}};
+        const bool saturated = gate(raw, settings_.gates) == Reason::saturated;
+        const bool unhealthy = (out.health & (Health::frozen | Health::clock)) != 0;
+        const bool lost = saturated || unhealthy;
+        const bool known = lost ? skip(dt) : filter(compensate(settings_.gravity, load_at(R_WS, time), wrench, R_WS), dt);
+        if (known) put(out.wrench, filtered_.F), put(out.wrench + 3, filtered_.M);
+        // An age of NaN is never recent enough: the solver counts a miss.
+        solver_.track(filtered_, lost ? detail::unknown : 0.0, answer_);
+        out.reason = std::int32_t(saturated ? Reason::saturated : unhealthy ? Reason::unhealthy : answer_.reason);
+        describe(out);
+        follow_point(out);
+    }
 
-private:
+    std::uint32_t health_of(const RuntimeSample& sample) noexcept {
+        std::uint32_t health = 0;
+        if (frozen_.see(sample.wrench, settings_.frozen_chance)) health |= Health::frozen;
+        if (sample.flags & ~std::uint32_t(Flag::late | Flag::clock_leapt)) health |= Health::flagged;
+        if (sample.flags & Flag::clock_leapt) health |= Health::clock;
+        return health;
+    }
+
+    // What the sensor itself calls no measurement is none; but at the end of its range it says so by its value.
+    void reading_of(const RuntimeSample& sample, double wrench[6]) const noexcept {
+        std::copy(sample.wrench, sample.wrench + 6, wrench);
+        const std::uint32_t wrong = sample.flags & ~std::uint32_t(Flag::late | Flag::clock_leapt);
+        bool at_end = false;
+        for (int i = 0; i < 6; ++i) at_end |= std::fabs(wrench[i]) >= settings_.gates.saturation[i];
+        if (wrong != 0 && !(wrong == Flag::overrange && at_end)) std::fill(wrench, wrench + 6, detail::unknown);
+    }
+
+    // The tool's weight in W, less what accelerating it takes; the solver is told how well that is known.
+    Vec3 load_at(const double R_WS[9], double time) noexcept {
+        const Vec3 weight = settings_.gravity.gravity_W;
+        Motion motion;
+        const bool moving = settings_.motion.on && fit_.at(time, settings_.poses.longest_ahead, motion);
+        if (!moving) {
+            if (inertial_) solver_.set_noise(settings_.noise);
+            inertial_ = false;
+            return weight;
+        }
+        const double mass = norm(weight) / standard_gravity;
+        const Vec3 c = settings_.gravity.centre_of_mass_S;
+        const Vec3 r{R_WS[0] * c.x + R_WS[1] * c.y + R_WS[2] * c.z, R_WS[3] * c.x + R_WS[4] * c.y + R_WS[5] * c.z,
+                     R_WS[6] * c.x + R_WS[7] * c.y + R_WS[8] * c.z};
+        const Vec3 a = motion.acceleration + cross(motion.spin_rate, r) + cross(motion.spin, cross(motion.spin, r));
+        // A bundle does not know how far the flange, which the position is of, is from the sensor.
+        const double lever = flange_to_sensor * (norm(motion.spin_rate) + norm2(motion.spin));
+        const double force2 = mass * mass * (motion.sigma * motion.sigma + lever * lever);
+        const double turning = mass * settings_.motion.gyration * settings_.motion.gyration * norm(motion.spin_rate);
+        WrenchCovariance noise = settings_.noise;
+        const double X[3][3] = {{0, -c.z, c.y}, {c.z, 0, -c.x}, {-c.y, c.x, 0}};
+        for (int i = 0; i < 3; ++i) {
+            noise.s[i][i] += force2;
+            noise.s[3 + i][3 + i] += turning * turning;
+            for (int j = 0; j < 3; ++j) {
+                noise.s[3 + i][j] += force2 * X[i][j], noise.s[j][3 + i] += force2 * X[i][j];
+                for (int k = 0; k < 3; ++k) noise.s[3 + i][3 + j] += force2 * X[i][k] * X[j][k];
+            }
+        }
+        solver_.set_noise(noise);
+        inertial_ = true;
+        return weight - mass * a;
+    }
+
     static Gates unsaturated(Gates g) {
         for (double& limit : g.saturation) limit = HUGE_VAL;
         return g;
@@ -145,7 +297,7 @@ private:
     bool clock_went_back(double time) noexcept {
         if (stale_ == 0 || !(time > stale_last_)) stale_ = 0, stale_first_ = time;
         stale_last_ = time;
-        return ++stale_ > most_stale || time - stale_first_ > gates_.max_age;
+        return ++stale_ > most_stale || time - stale_first_ > settings_.gates.max_age;
     }
 
     std::int32_t refusal(const double wrench[6], const double R_WS[9], double time) const noexcept {
@@ -159,7 +311,7 @@ private:
 
     bool filter(const Wrench& w, double dt) noexcept {
         filtered_ = w;
-        if (filter_wrench_) {
+        if (settings_.filter_wrench) {
             const double sample[6] = {w.F.x, w.F.y, w.F.z, w.M.x, w.M.y, w.M.z};
             kalman_.update(sample, dt);
             const double* s = kalman_.state();
@@ -169,7 +321,7 @@ private:
     }
 
     bool skip(double dt) noexcept {
-        if (filter_wrench_ && kalman_.started()) kalman_.skip(dt);
+        if (settings_.filter_wrench && kalman_.started()) kalman_.skip(dt);
         return has_wrench_;
     }
 
@@ -177,7 +329,7 @@ private:
         out.candidates = answer_.count;
         out.misfit = answer_.misfit, out.left_over = answer_.left_over, out.arm = answer_.arm;
         out.confidence = answer_.confidence;
-        out.accepted = accepted(Reason(out.reason), gates_);
+        out.accepted = out.health == 0 && accepted(Reason(out.reason), settings_.gates);
         const Candidate* c = answer_.contact();
         if (!c) return;
         put(out.point, c->point);
@@ -202,9 +354,12 @@ private:
         if (holding_) put(out.filtered_point, held_);
     }
 
-    GravityLoad gravity_;
-    Gates gates_;
-    bool filter_wrench_;
+    static constexpr double flange_to_sensor = 0.05;  // m, roughly
+    RuntimeSettings settings_;
+    PoseTrack track_;
+    MotionFit fit_;
+    FrozenDetector frozen_;
+    bool inertial_ = false;  // the solver's noise is not that of the settings
     WrenchKalman kalman_;
     PointLowPass low_pass_;
     Solver solver_;

@@ -33,6 +33,13 @@ public:
           doubled_(twice(noise), torsion_arm, model_->frame), gates_(gates) {}
 
     const Model& model() const { return *model_; }
+    // Another uncertainty of the wrench from the next call on.
+    void set_noise(const WrenchCovariance& noise) {
+        const double arm = uncertainty_.torsion_arm;
+        uncertainty_ = Uncertainty(noise, arm, model_->frame);
+        doubled_ = Uncertainty(twice(noise), arm, model_->frame);
+    }
+
     const Uncertainty& uncertainty() const { return uncertainty_; }
     const Gates& gates() const { return gates_; }
 

@@ -3,6 +3,11 @@
 // A sample a line: time Fx Fy Fz Mx My Mz and the nine numbers of R_WS, row by row; s, N, N*m. Spaces, commas
 // and brackets between them are all the same, so a JSON array of the sixteen does as well. A contact a line, as
 // a JSON object. A line that is no sample ends the program with status 1 and its number.
+//
+// Or poses and samples as they come, and the library finds the orientation at each sample:
+//   pose time R R R R R R R R R x y z                  of the flange or the sensor, m; nan where it is not known
+//   sample time arrival flags Fx Fy Fz Mx My Mz
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -15,9 +20,9 @@
 
 namespace {
 
-constexpr int numbers = 16;
+constexpr int most_numbers = 16;
 
-bool parse(std::string_view line, double out[numbers]) {
+bool parse(std::string_view line, int numbers, double out[most_numbers]) {
     constexpr std::string_view between = " \t\r,[]";
     int count = 0;
     for (;;) {
@@ -65,10 +70,48 @@ void print_one(const char* name, double value) {
     print_number(value);
 }
 
+void print_health(unsigned word) {
+    constexpr const char* names[] = {"frozen", "silent", "flagged", "no_pose", "clock"};
+    std::fputs(",\"health\":[", stdout);
+    bool first = true;
+    for (int bit = 0; bit < 5; ++bit)
+        if (word >> bit & 1) std::printf("%s\"%s\"", first ? "" : ",", names[bit]), first = false;
+    std::fputc(']', stdout);
+}
+
+// Takes the line as what it says it is; returns why it is none, or null. `told`: there is a contact to print.
+const char* take(cb_runtime* runtime, std::string_view line, cb_contact& contact, bool& told) {
+    double v[most_numbers];
+    told = false;
+    const auto says = [&](std::string_view word) {
+        if (line.substr(0, word.size()) != word) return false;
+        line.remove_prefix(word.size());
+        return true;
+    };
+    if (says("pose ")) {
+        if (!parse(line, 13, v)) return "no pose: time, R (9), x y z";
+        cb_pose(runtime, v + 1, v + 10, v[0]);  // one that is not used is as good as none
+        return nullptr;
+    }
+    told = true;
+    if (says("sample ")) {
+        if (!parse(line, 9, v)) return "no sample: time arrival flags Fx Fy Fz Mx My Mz";
+        cb_sample sample = CB_SAMPLE_INIT;
+        sample.time = v[0], sample.arrival = v[1], sample.flags = v[2] >= 0 && v[2] < 256 ? std::uint32_t(v[2]) : 0;
+        std::copy(v + 3, v + 9, sample.wrench);
+        return cb_update_sample(runtime, &sample, &contact) == CB_OK ? nullptr : "the runtime did not take it";
+    }
+    if (!parse(line, 16, v)) return "not sixteen numbers: time Fx Fy Fz Mx My Mz R_WS";
+    return cb_update(runtime, v + 1, v + 7, v[0], &contact) == CB_OK ? nullptr : "the runtime did not take it";
+}
+
 void print(const cb_contact& c) {
     std::fputs("{\"time\":", stdout);
     print_number(c.time);
     std::printf(",\"reason\":\"%s\",\"accepted\":%s", cb_reason_name(c.reason), c.accepted ? "true" : "false");
+    print_health(c.health);
+    print_one("latency_s", c.latency);
+    print_one("pose_age_s", c.pose_age);
     print_array("point_S_m", c.point, 3);
     print_array("filtered_point_S_m", c.filtered_point, 3);
     print_array("normal_S", c.normal, 3);
@@ -103,16 +146,13 @@ int main(int argc, char** argv) {
     std::string line;
     cb_contact contact = CB_CONTACT_INIT;
     for (long n = 1; std::getline(std::cin, line); ++n) {
-        double v[numbers];
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-        if (!parse(line, v)) {
-            std::fprintf(stderr, "line %ld: not sixteen numbers: time Fx Fy Fz Mx My Mz R_WS\n", n);
+        bool told = false;
+        if (const char* wrong = take(runtime.get(), line, contact, told)) {
+            std::fprintf(stderr, "line %ld: %s\n", n, wrong);
             return 1;
         }
-        if (cb_update(runtime.get(), v + 1, v + 7, v[0], &contact) != CB_OK) {
-            std::fprintf(stderr, "line %ld: the runtime did not take it\n", n);
-            return 1;
-        }
+        if (!told) continue;
         print(contact);
     }
     return std::fflush(stdout) == 0 ? 0 : 1;

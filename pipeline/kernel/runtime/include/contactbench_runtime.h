@@ -6,13 +6,17 @@
  * Units: N, N*m, m, s; the sensor's frame S. R_WS turns S into W (v_W = R_WS v_S), row major.
  * W: the frame that the orientations of the calibration were given in, normally the robot's base. It need not be
  * level: the bundle holds gravity in it. R_WS from any other frame leaves part of the tool's weight in the force.
- * Threads: one cb_runtime serves one stream; different ones are independent.
+ * Threads: each function says what it may run beside. "One thread": only one call at a time on one cb_runtime;
+ * different ones are independent. "Any thread": beside whatever else.
+ * Structs begin with their size. Set it by the INIT macros, or to sizeof: later versions of the library add members at
+ * the end, and fill in as many as your size has room for. Smaller than in version 2.0 is refused.
  * Memory: nothing is allocated or freed between cb_open and cb_close.
  * No function throws; NULL is refused, never followed.
  */
 #ifndef CONTACTBENCH_RUNTIME_H
 #define CONTACTBENCH_RUNTIME_H
 
+#include <math.h>
 #include <stdint.h>
 
 #if defined(__GNUC__)
@@ -33,7 +37,7 @@ typedef struct cb_runtime cb_runtime;
 /* What cb_open, or a wrong call, says. */
 enum {
     CB_OK = 0,
-    CB_ERROR_ARGUMENT = 1,  /* NULL, or a struct of a size this library does not know */
+    CB_ERROR_ARGUMENT = 1,  /* NULL, or a struct that is too small */
     CB_ERROR_FILE = 2,      /* missing, unreadable or too large */
     CB_ERROR_JSON = 3,      /* contactbench.json is not well-formed */
     CB_ERROR_SCHEMA = 4,    /* another schema, or a field missing, unknown or of the wrong type */
@@ -42,7 +46,8 @@ enum {
     CB_ERROR_HASH = 7,      /* a file is not the one that was exported */
     CB_ERROR_MESH = 8,      /* probe.ply is not a mesh, or not the one described */
     CB_ERROR_MEMORY = 9,
-    CB_ERROR_PROCESSOR = 10 /* the library was built for a newer one */
+    CB_ERROR_PROCESSOR = 10, /* the library was built for a newer one */
+    CB_ERROR_SELF_TEST = 11  /* cb_selftest: no test vectors, or this library answers otherwise */
 };
 
 /* Why a contact was, or was not, given: cb_contact.reason. Act only where cb_contact.accepted is 1: for CB_OK_FACET and
@@ -62,11 +67,31 @@ enum {
     CB_NOT_A_ROTATION = 10, /* R_WS is off by more than 1e-3; the sample was not used */
     CB_BY_REGION = 11,      /* sure only because of the declared regions */
     CB_IMPLAUSIBLE = 12,    /* no single touch explains the wrench: `misfit`, `left_over` and `arm` say by how much */
-    CB_TWO_TOUCHES = 13     /* a second touch has joined the one that was followed: `point` and `second` */
+    CB_TWO_TOUCHES = 13,    /* a second touch has joined the one that was followed: `point` and `second` */
+    CB_UNHEALTHY = 14       /* `health` says why: the sensor hangs, or its clock has just leapt; the filters hold */
 };
 
-/* Start as CB_ERROR_INIT, or give NULL. `message` names the file, the field and the remedy. Where `size` is not
- * sizeof(cb_error), cb_open returns NULL and writes nothing: not a word of why. */
+/* Bits of cb_contact.health; 0: nothing is wrong. What is unhealthy is never accepted. */
+enum {
+    CB_HEALTH_FROZEN = 1,  /* all six channels repeat beyond chance: the sensor hangs */
+    CB_HEALTH_SILENT = 2,  /* cb_check: no sample comes */
+    CB_HEALTH_FLAGGED = 4, /* the sensor itself says that the reading is no good */
+    CB_HEALTH_NO_POSE = 8, /* cb_update_sample: no pose is young enough */
+    CB_HEALTH_CLOCK = 16   /* CB_FLAG_CLOCK: when this was measured is a guess */
+};
+
+/* Bits of cb_sample.flags: what the sensor says of a reading. */
+enum {
+    CB_FLAG_OVERRANGE = 1, /* a channel is at its limit */
+    CB_FLAG_INVALID = 2,   /* the numbers are no measurement */
+    CB_FLAG_RAW = 4,       /* not calibrated by the sensor */
+    CB_FLAG_LATE = 8,      /* the sensor cannot keep its rate; the reading counts */
+    CB_FLAG_ERROR = 16,
+    CB_FLAG_CLOCK = 32     /* the sensor's clock or count has just leapt */
+};
+
+/* Start as CB_ERROR_INIT, or give NULL. `message` names the file, the field and the remedy. Where `size` is too
+ * small, cb_open returns NULL and writes nothing: not a word of why. */
 typedef struct {
     uint32_t size;
     int32_t code;
@@ -81,7 +106,7 @@ typedef struct {
     int32_t face, vertex; /* vertex: when the contact is on one */
     int32_t region;       /* rank, 0 for none */
     int32_t candidates;   /* the chosen one included */
-    int32_t reserved;
+    uint32_t health;      /* bits CB_HEALTH_*; 0: well */
     double time;
     double point[3], normal[3]; /* outward */
     double torque_about_normal; /* local torque k on the probe, k * normal */
@@ -94,14 +119,26 @@ typedef struct {
     double confidence;   /* 0 to 1: that this place is touched and no other */
     double runner_up[3]; /* the likeliest other place */
     double second[3];    /* of CB_TWO_TOUCHES, the touch that joined */
+    double pose_age;     /* s: how much older than the sample the last pose before it is */
+    double latency;      /* s: arrival less time */
 } cb_contact;
+
+/* A raw reading Fx Fy Fz Mx My Mz. Start as CB_SAMPLE_INIT. */
+typedef struct {
+    uint32_t size;
+    uint32_t flags; /* bits CB_FLAG_* */
+    double wrench[6];
+    double time;    /* when it was measured, s */
+    double arrival; /* when it came, on the same clock; NaN: not known */
+} cb_sample;
 
 #define CB_ERROR_INIT {sizeof(cb_error), CB_OK, ""}
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
         sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
-            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}                                                                        \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0                                                              \
     }
+#define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
 
 /* Set `size` to sizeof(cb_info). */
 typedef struct {
@@ -135,23 +172,46 @@ typedef struct {
     double max_force_N, max_torque_Nm, max_speed_mps, max_turn_radps; /* limits: also for other controllers */
 } cb_controller;
 
-/* Returns NULL after a failure, with `error` filled in. */
+/* Returns NULL after a failure, with `error` filled in. Any thread. */
 CB_API cb_runtime* cb_open(const char* bundle_folder, cb_error* error);
-/* One raw reading Fx Fy Fz Mx My Mz. Returns CB_OK when `contact` was filled in: its reason says the rest. After a
- * failure its reason is CB_NO_ANSWER, `accepted` is 0, and nothing else of it was written. */
+
+/* Loads the bundle and replays its test vectors (docs/bundle.md): some 300 samples, a few milliseconds. Returns CB_OK where
+ * every answer is the one that the export gave, else a code, and `error` names the first difference. Any thread. */
+CB_API int cb_selftest(const char* bundle_folder, cb_error* error);
+
+/* With an orientation of your own, R_WS at `time`, and one raw reading Fx Fy Fz Mx My Mz. Returns CB_OK when `contact`
+ * was filled in: its reason says the rest. After a failure its reason is CB_NO_ANSWER, `accepted` is 0, and nothing else
+ * of it was written. One thread. */
 CB_API int cb_update(cb_runtime* runtime, const double wrench[6], const double R_WS[9], double time,
                      cb_contact* contact);
+
+/* Or leave the orientation to the library: give poses as they come, each with its time, then samples. A sample takes the
+ * pose at its own time, between two poses or carried on from the last, as far as the bundle allows (docs/bundle.md).
+ *
+ * R turns the flange into W where the bundle knows the mounting, else the sensor; p_W: position of that frame, m, or NULL.
+ * With positions the tool's inertia is taken off the readings, where the bundle says so. CB_ERROR_VALUE: not used, for it
+ * is no rotation, not finite, or not later than the one before. One thread. */
+CB_API int cb_pose(cb_runtime* runtime, const double R[9], const double* p_W, double time);
+/* As cb_update; where no pose is young enough the reason is CB_STALE. One thread. */
+CB_API int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_contact* contact);
+/* To be called while nothing comes: `now` on the samples' clock, s. Returns CB_OK and a contact with CB_STALE and
+ * CB_HEALTH_SILENT where samples have stopped, or never came; CB_OK and CB_NO_ANSWER while they come. One thread. */
+CB_API int cb_check(const cb_runtime* runtime, double now, cb_contact* contact);
+
 /* R_WS from the flange's orientation R_WE, by the mounting that the bundle holds; CB_ERROR_VALUE where it holds
- * none and R_WS has to come from elsewhere. */
+ * none and R_WS has to come from elsewhere. Any thread. */
 CB_API int cb_sensor_rotation(const cb_runtime* runtime, const double R_WE[9], double R_WS[9]);
+/* Any thread. */
 CB_API int cb_describe(const cb_runtime* runtime, cb_info* info);
-/* CB_ERROR_VALUE where the bundle holds no controller: only the limits were then written. */
+/* CB_ERROR_VALUE where the bundle holds no controller: only the limits were then written. Any thread. */
 CB_API int cb_describe_controller(const cb_runtime* runtime, cb_controller* controller);
-/* The next sample is a first one, whatever its time: after a clock was set, or the tool was changed. A time that lies
- * in the future makes those after it stale; once stale times have increased without a break for 50 samples, or
- * for longer than max_age_s, the stream starts anew by itself. */
+/* The next sample and the next pose are the first ones, whatever their times: after a clock was set, or the tool was
+ * changed. A time that lies in the future makes those after it stale; once stale times have increased without a break for
+ * 50 samples, or for longer than max_age_s, the stream starts anew by itself. One thread. */
 CB_API int cb_reset(cb_runtime* runtime);
+/* The last call on it. One thread. */
 CB_API void cb_close(cb_runtime* runtime);
+/* Any thread. */
 CB_API const char* cb_version(void);
 CB_API const char* cb_reason_name(int reason);
 

@@ -1,12 +1,14 @@
 // The C boundary: no exception crosses it, no NULL is followed.
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <new>
 
 #include "bundle.hpp"
 #include "processor.hpp"
+#include "self_test.hpp"
 
 using contactbench::Runtime;
 using contactbench::RuntimeContact;
@@ -28,7 +30,26 @@ constexpr bool needs_avx2 = false;
 using contactbench::Reason;
 static_assert(CB_OK_FACET == int(Reason::ok) && CB_NOT_A_ROTATION == int(Reason::not_a_rotation) &&
               CB_BY_REGION == int(Reason::by_region) && CB_IMPLAUSIBLE == int(Reason::implausible) &&
-              CB_TWO_TOUCHES == int(Reason::two_touches) && CB_TWO_TOUCHES + 1 == contactbench::reason_count);
+              CB_UNHEALTHY == int(Reason::unhealthy) && CB_UNHEALTHY + 1 == contactbench::reason_count);
+using contactbench::Flag;
+using contactbench::Health;
+static_assert(CB_HEALTH_FROZEN == Health::frozen && CB_HEALTH_SILENT == Health::silent &&
+              CB_HEALTH_FLAGGED == Health::flagged && CB_HEALTH_NO_POSE == Health::no_pose &&
+              CB_HEALTH_CLOCK == Health::clock && CB_FLAG_OVERRANGE == Flag::overrange &&
+              CB_FLAG_LATE == Flag::late && CB_FLAG_CLOCK == Flag::clock_leapt);
+
+// As they were in version 2.0: what a caller has room for at least. They only grow, at the end.
+constexpr std::size_t error_2_0 = 520, contact_2_0 = 336, sample_2_0 = 72, info_2_0 = 432, controller_2_0 = 352;
+static_assert(sizeof(cb_error) >= error_2_0 && sizeof(cb_contact) >= contact_2_0 && sizeof(cb_sample) >= sample_2_0 &&
+              sizeof(cb_info) >= info_2_0 && sizeof(cb_controller) >= controller_2_0);
+
+// As many members as both sides know; `size` stays the caller's.
+template <class Struct>
+void hand_over(const Struct& from, Struct* to) noexcept {
+    constexpr std::size_t head = sizeof to->size;
+    const std::size_t size = std::min<std::size_t>(to->size, sizeof from);
+    std::memcpy(reinterpret_cast<char*>(to) + head, reinterpret_cast<const char*>(&from) + head, size - head);
+}
 
 // `reason` and `accepted` have the same place in every version of the struct: they can be told whatever the size says.
 int nothing(cb_contact* contact) noexcept {
@@ -37,9 +58,33 @@ int nothing(cb_contact* contact) noexcept {
 }
 
 void tell(cb_error* error, int code, const char* message) noexcept {
-    if (!error || error->size != sizeof(cb_error)) return;
+    if (!error || error->size < error_2_0) return;
     error->code = code;
     std::snprintf(error->message, sizeof error->message, "%s", message);
+}
+
+// Returns what `load` threw, by its code; `error` says it in words.
+template <class Load>
+int attempt(const char* folder, cb_error* error, Load&& load) noexcept {
+    if (error && error->size < error_2_0) return CB_ERROR_ARGUMENT;
+    const auto failed = [&](int code, const char* message) { return tell(error, code, message), code; };
+    tell(error, CB_OK, "");
+    if (!folder) return failed(CB_ERROR_ARGUMENT, "the folder is NULL; give the path of a bundle");
+    if (!processor_suits(needs_avx2))
+        return failed(CB_ERROR_PROCESSOR,
+                      "this processor has no AVX2; build the library with -DCONTACTBENCH_MARCH=x86-64");
+    try {
+        load();
+        return CB_OK;
+    } catch (const LoadError& e) {
+        return failed(e.code(), e.what());
+    } catch (const std::bad_alloc&) {
+        return failed(CB_ERROR_MEMORY, "not enough memory for this probe; simplify it");
+    } catch (const std::exception& e) {  // of the file system: no path that it can hold
+        return failed(CB_ERROR_FILE, e.what());
+    } catch (...) {
+        return failed(CB_ERROR_FILE, "the bundle cannot be read; copy or export it again");
+    }
 }
 
 template <std::size_t N>
@@ -50,10 +95,11 @@ void copy_text(char (&to)[N], const std::string& from) noexcept {
 void copy(double* to, const double* from, int n) noexcept { std::copy(from, from + n, to); }
 
 // Member by member: each of the two structs may grow on its own.
-void fill(cb_contact& out, const RuntimeContact& c) noexcept {
+void fill(cb_contact* contact, const RuntimeContact& c) noexcept {
+    cb_contact out = CB_CONTACT_INIT;
     out.reason = c.reason, out.accepted = c.accepted;
     out.face = c.face, out.vertex = c.vertex;
-    out.region = c.region, out.candidates = c.candidates, out.reserved = 0;
+    out.region = c.region, out.candidates = c.candidates, out.health = c.health;
     out.time = c.time;
     copy(out.point, c.point, 3), copy(out.normal, c.normal, 3);
     out.torque_about_normal = c.torque_about_normal;
@@ -61,7 +107,11 @@ void fill(cb_contact& out, const RuntimeContact& c) noexcept {
     copy(out.covariance, c.covariance, 9), copy(out.filtered_point, c.filtered_point, 3);
     out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
     copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
+    out.pose_age = c.pose_age, out.latency = c.latency;
+    hand_over(out, contact);
 }
+
+bool fits(const cb_contact* contact) noexcept { return contact && contact->size >= contact_2_0; }
 
 template <std::size_t N>
 void copy(double (&to)[N], const std::array<double, N>& from) noexcept {
@@ -95,32 +145,44 @@ void fill_behaviour(cb_controller& out, const Controller& c) noexcept {
 extern "C" {
 
 cb_runtime* cb_open(const char* folder, cb_error* error) {
-    if (error && error->size != sizeof(cb_error)) return nullptr;
-    tell(error, CB_OK, "");
-    if (!folder) return tell(error, CB_ERROR_ARGUMENT, "the folder is NULL; give the path of a bundle"), nullptr;
-    if (!processor_suits(needs_avx2))
-        return tell(error, CB_ERROR_PROCESSOR,
-                    "this processor has no AVX2; build the library with -DCONTACTBENCH_MARCH=x86-64"),
-               nullptr;
-    try {
+    cb_runtime* made = nullptr;
+    attempt(folder, error, [&] {
         Bundle bundle = load_bundle(folder);
         Runtime runtime(bundle.model, bundle.config.settings);
-        return new cb_runtime{std::move(runtime), std::move(bundle.config)};
-    } catch (const LoadError& e) {
-        tell(error, e.code(), e.what());
-    } catch (const std::bad_alloc&) {
-        tell(error, CB_ERROR_MEMORY, "not enough memory for this probe; simplify it");
-    } catch (const std::exception& e) {  // of the file system: no path that it can hold
-        tell(error, CB_ERROR_FILE, e.what());
-    } catch (...) {
-        tell(error, CB_ERROR_FILE, "the bundle cannot be read; copy or export it again");
-    }
-    return nullptr;
+        made = new cb_runtime{std::move(runtime), std::move(bundle.config)};
+    });
+    return made;
+}
+
+int cb_selftest(const char* folder, cb_error* error) {
+    return attempt(folder, error, [&] { replay_self_test(folder); });
 }
 
 int cb_update(cb_runtime* runtime, const double wrench[6], const double R_WS[9], double time, cb_contact* contact) {
-    if (!runtime || !wrench || !R_WS || !contact || contact->size != sizeof(cb_contact)) return nothing(contact);
-    fill(*contact, runtime->runtime.update(wrench, R_WS, time));
+    if (!runtime || !wrench || !R_WS || !fits(contact)) return nothing(contact);
+    fill(contact, runtime->runtime.update(wrench, R_WS, time));
+    return CB_OK;
+}
+
+int cb_pose(cb_runtime* runtime, const double R[9], const double* p_W, double time) {
+    if (!runtime || !R) return CB_ERROR_ARGUMENT;
+    return runtime->runtime.pose(R, p_W, time) ? CB_OK : CB_ERROR_VALUE;
+}
+
+int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_contact* contact) {
+    if (!runtime || !sample || sample->size < sample_2_0 || !fits(contact)) return nothing(contact);
+    contactbench::RuntimeSample given{};
+    copy(given.wrench, sample->wrench, 6);
+    given.time = sample->time, given.arrival = sample->arrival, given.flags = sample->flags;
+    fill(contact, runtime->runtime.update(given));
+    return CB_OK;
+}
+
+int cb_check(const cb_runtime* runtime, double now, cb_contact* contact) {
+    if (!runtime || !fits(contact)) return nothing(contact);
+    RuntimeContact found;
+    if (!runtime->runtime.silent(now, found)) found.reason = CB_NO_ANSWER;
+    fill(contact, found);
     return CB_OK;
 }
 
@@ -137,27 +199,34 @@ int cb_sensor_rotation(const cb_runtime* runtime, const double R_WE[9], double R
 }
 
 int cb_describe(const cb_runtime* runtime, cb_info* info) {
-    if (!runtime || !info || info->size != sizeof(cb_info)) return CB_ERROR_ARGUMENT;
+    if (!runtime || !info || info->size < info_2_0) return CB_ERROR_ARGUMENT;
     const Config& c = runtime->config;
-    info->verified = c.verified;
-    info->facets = std::int32_t(c.facets), info->vertices = std::int32_t(c.vertices);
-    info->rate_Hz = c.rate, info->max_age_s = c.settings.gates.max_age;
-    info->max_force_N = c.max_force, info->max_torque_Nm = c.max_torque;
-    copy_text(info->sensor_model, c.sensor_model), copy_text(info->sensor_serial, c.sensor_serial);
-    copy_text(info->probe, c.probe_name);
+    cb_info out{};
+    out.verified = c.verified;
+    out.facets = std::int32_t(c.facets), out.vertices = std::int32_t(c.vertices);
+    out.rate_Hz = c.rate, out.max_age_s = c.settings.gates.max_age;
+    out.max_force_N = c.max_force, out.max_torque_Nm = c.max_torque;
+    copy_text(out.sensor_model, c.sensor_model), copy_text(out.sensor_serial, c.sensor_serial);
+    copy_text(out.probe, c.probe_name);
+    hand_over(out, info);
     return CB_OK;
 }
 
-int cb_describe_controller(const cb_runtime* runtime, cb_controller* out) {
-    if (!runtime || !out || out->size != sizeof(cb_controller)) return CB_ERROR_ARGUMENT;
+int cb_describe_controller(const cb_runtime* runtime, cb_controller* controller) {
+    if (!runtime || !controller || controller->size < controller_2_0) return CB_ERROR_ARGUMENT;
     const Config& c = runtime->config;
-    out->max_force_N = c.max_force, out->max_torque_Nm = c.max_torque;
-    out->max_speed_mps = c.max_speed, out->max_turn_radps = c.max_turn;
-    if (!c.controller) return CB_ERROR_VALUE;
-    out->aware = c.controller->aware, out->reserved = 0;
-    fill_gains(*out, *c.controller);
-    fill_behaviour(*out, *c.controller);
-    return CB_OK;
+    cb_controller out{};
+    // What is not told stays as it was.
+    if (!c.controller) std::memcpy(&out, controller, std::min<std::size_t>(controller->size, sizeof out));
+    out.max_force_N = c.max_force, out.max_torque_Nm = c.max_torque;
+    out.max_speed_mps = c.max_speed, out.max_turn_radps = c.max_turn;
+    if (c.controller) {
+        out.aware = c.controller->aware;
+        fill_gains(out, *c.controller);
+        fill_behaviour(out, *c.controller);
+    }
+    hand_over(out, controller);
+    return c.controller ? CB_OK : CB_ERROR_VALUE;
 }
 
 int cb_reset(cb_runtime* runtime) {

@@ -1,15 +1,21 @@
 #include "bundle.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
 
 #include "folder.hpp"
+#include "physics.hpp"
 #include "ply.hpp"
 #include "sha256.hpp"
 #include "tables.hpp"
+#include "yaml.hpp"
 
 namespace contactbench::runtime {
 
 namespace {
+
+constexpr double flat = 1e-12;  // of the cube about a probe: less volume is rounding
 
 void check_hashes(const Files& files, const Config& c) {
     std::size_t listed = 0;
@@ -25,29 +31,45 @@ void check_hashes(const Files& files, const Config& c) {
 
 bool same(Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
+double largest_extent(const Config& c) {
+    const Vec3 extent = c.high - c.low;
+    return std::max({extent.x, extent.y, extent.z});
+}
+
+// Colours of the regions, whose names differ.
+std::vector<std::string> colours_of(const Json& regions) {
+    std::vector<std::string> colours;
+    std::set<std::string_view> names;
+    for (const Json& region : regions.items) {
+        colours.push_back(region["colour"].text);
+        if (!names.insert(region["name"].text).second) refuse("regions", "two have the same name");
+    }
+    return colours;
+}
+
+std::vector<double> covariance_of(const Json& gravity) {
+    std::vector<double> out;
+    for (const Json& row : gravity["covariance"].items)
+        for (const Json& x : row.items) out.push_back(x.number);
+    return out;
+}
+
 void check_probe(const ProbeMesh& mesh, const Config& c) {
-    if (mesh.faces.size() != c.facets) refuse_file(CB_ERROR_MESH, c.probe_file, "not the number of facets in probe.facets");
-    if (mesh.vertices.size() != c.vertices)
-        refuse_file(CB_ERROR_MESH, c.probe_file, "not the number of vertices in probe.vertices");
-    Vec3 low = mesh.vertices[0], high = low;
-    for (const Vec3& v : mesh.vertices) {
-        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
+    Vec3 low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
+    for (const Triangle& t : mesh.faces)
+        for (const std::int32_t i : t) {
+            const Vec3& v = mesh.vertices[std::size_t(i)];
+            low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+            high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+        }
     if (!same(low, c.low) || !same(high, c.high)) refuse_file(CB_ERROR_MESH, c.probe_file, "not the bounds in probe.bounds_S_m");
+    const double size = largest_extent(c);
+    if (!(size >= 0.005 && size <= 2.0)) refuse_file(CB_ERROR_MESH, c.probe_file, "no probe is so small or so large");
     std::vector<std::int64_t> counts(c.regions.size() + 1, 0);
-    for (const std::int32_t region : mesh.region) {
-        if (std::size_t(region) >= counts.size()) refuse_file(CB_ERROR_MESH, c.probe_file, "a region that regions does not list");
-        ++counts[std::size_t(region)];
-    }
+    for (const std::int32_t region : mesh.region) ++counts[std::size_t(region)];
     for (std::size_t i = 0; i < c.regions.size(); ++i)
         if (counts[i + 1] != c.regions[i].facets)
             refuse_file(CB_ERROR_MESH, c.probe_file, "not the facets that regions[" + std::to_string(i) + "] counts");
-    std::string untouchable;
-    for (const RegionRow& region : c.regions)
-        if (region.untouchable) (untouchable += ' ') += std::to_string(region.rank);
-    if (mesh.untouchable != untouchable)
-        refuse_file(CB_ERROR_MESH, c.probe_file, "not the untouchable regions that regions lists");
 }
 
 // 2 ln(odds) of a touch on each facet.
@@ -76,13 +98,22 @@ Bundle load_bundle(const std::string& folder) {
     const std::string& text = files.at(config_name);
     if (files.at(checksum_name) != sha256(text) + "  " + config_name + "\n")
         refuse_file(CB_ERROR_HASH, config_name, std::string("does not have the hash in ") + checksum_name);
+    const Json root = parse_json(text);
+    const std::string spelled = encode_json(root);
+    if (spelled != text)
+        refuse_file(CB_ERROR_JSON, config_name,
+                    "byte " + std::to_string(first_difference(text, spelled)) + " is not as contactbench writes it");
     Bundle bundle{read_config(text), nullptr};
+    check_verified(root);
     check_hashes(files, bundle.config);
-    ProbeMesh mesh = read_probe(files.at(bundle.config.probe_file), bundle.config.probe_file);
+    ProbeMesh mesh = read_probe(files.at(bundle.config.probe_file), bundle.config, colours_of(root["regions"]));
     check_probe(mesh, bundle.config);
     check_planes(files.at(planes_name), mesh, bundle.config);
-    check_gravity_files(files, bundle.config.settings.gravity);
-    const bool outward = signed_volume(mesh, bundle.config) > 0.0;
+    // The text of those files belongs to a version of the schema; those of older ones are read by nobody here.
+    if (bundle.config.version == CB_BUNDLE_VERSION)
+        check_gravity_files(files, bundle.config.settings.gravity, covariance_of(root["gravity"]));
+    const double size = largest_extent(bundle.config);
+    const bool outward = signed_volume(mesh, bundle.config) > flat * size * size * size;
     const std::vector<double> bonus = bonus_of(mesh, bundle.config);
     try {
         bundle.model = std::make_shared<const Model>(make_model(std::move(mesh.vertices), mesh.faces,

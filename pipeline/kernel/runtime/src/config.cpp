@@ -46,6 +46,8 @@ void read_frames(const Json& json, Config& c) {
     c.R_ES = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
               2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
               2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+    c.settings.has_mount = true;
+    std::copy(c.R_ES->begin(), c.R_ES->end(), c.settings.R_ES);
 }
 
 void read_sensor(const Json& json, Config& c) {
@@ -108,6 +110,23 @@ void read_touch(const Json& json, Config& c) {
     sigma.insert(sigma.end(), torque.begin(), torque.end());
     for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t j = 0; j < 6; ++j) c.settings.noise.s[i][j] += i == j ? sigma[i] * sigma[i] : 0.0;
+}
+
+void read_streams(const Json& json, RuntimeSettings& s) {
+    const Fields f(json, "streams", {"pose_gap_s", "pose_ahead_s", "silence_s", "frozen_probability", "motion"});
+    s.poses = {f.number("pose_gap_s", {0.0, 10.0, true}), f.number("pose_ahead_s", {0.0, 10.0})};
+    s.silence = f.number("silence_s", {0.0, 10.0, true});
+    s.frozen_chance = f.number("frozen_probability", {1e-30, 1e-3});
+    if (f.is_null("motion")) return;
+    const Fields motion(f.at("motion"), "streams.motion", {"window_s", "gyration_m"});
+    s.motion = {true, motion.number("window_s", {0.02, 2.0}), motion.number("gyration_m", {0.0, 1.0})};
+}
+
+void read_self_test(const Json& json, Config& c) {
+    if (json.type == Json::Type::null) return;
+    const Fields f(json, "self_test", {"file", "samples"});
+    c.self_test = f.file("file");
+    c.self_test_samples = std::size_t(f.integer("samples", 1, 100000));
 }
 
 // What so many to one are worth in d2; by the same function as the Python runtime, to the last bit.
@@ -321,6 +340,8 @@ bool read_provenance(const Json& json, Config& c) {
 constexpr std::string_view touch_of_old =
     R"({"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],)"
     R"("measured":false},"mesh_deviation_m":0.0,"mesh_curved":true})";
+constexpr std::string_view streams_of_old =
+    R"({"pose_gap_s":0.25,"pose_ahead_s":0.15,"silence_s":0.12,"frozen_probability":1e-10,"motion":null})";
 constexpr std::string_view gates_of_old =
     R"({"implausible_misfit":10.827566170662935,"rival_odds":100.0,"first_odds":7.38905609893065,)"
     R"("follow_odds":1000.0,"accept_by_region":true})";
@@ -355,6 +376,8 @@ void carry_over(Json& root) {
         }
     }
     root.members.emplace_back("touch", parse_json(touch_of_old));
+    root.members.emplace_back("streams", parse_json(streams_of_old));
+    root.members.emplace_back("self_test", Json{});
 }
 
 }  // namespace
@@ -365,10 +388,11 @@ Config read_config(std::string_view text) {
     const std::int64_t version = read_kind(root);
     if (version < 3) carry_over(root);
     const Fields f(root, "",
-                   {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "filters", "gates",
-                    "probe", "regions", "planes", "controller", "limits", "verification", "verified",
-                    "provenance"});
+                   {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "streams", "filters",
+                    "gates", "probe", "regions", "planes", "controller", "limits", "verification", "self_test",
+                    "verified", "provenance"});
     Config c;
+    c.version = version;
     read_units(f.at("units"));
     read_frames(f.at("frames"), c);
     read_sensor(f.at("sensor"), c);
@@ -378,12 +402,14 @@ Config read_config(std::string_view text) {
     read_low_pass(filters.at("location"), c);
     read_noise(f.at("noise"), c, calibration);
     read_touch(f.at("touch"), c);
+    read_streams(f.at("streams"), c.settings);
     read_gates(f.at("gates"), c.settings.gates);
     read_probe_part(f.at("probe"), c);
     read_regions(f.array("regions", 0, 1000), c);
     read_planes(f.at("planes"), c);
     read_controller(f.at("controller"), version, c);
     read_limits(f.at("limits"), c);
+    read_self_test(f.at("self_test"), c);
     const bool passed = read_verification(f.at("verification"));
     const bool fresh = read_provenance(f.at("provenance"), c);
     c.verified = f.flag("verified");

@@ -39,6 +39,7 @@ struct Controller {
 
 struct Config {
     RuntimeSettings settings;
+    std::int64_t version = 0;  // as it was written
     bool verified = false;
     std::string sensor_model, sensor_serial, probe_name, probe_file;
     std::size_t facets = 0, vertices = 0, planes = 0;
@@ -49,6 +50,8 @@ struct Config {
     double max_speed = HUGE_VAL, max_turn = HUGE_VAL;  // tip, m/s and rad/s
     std::optional<Controller> controller;
     std::optional<std::array<double, 9>> R_ES;
+    std::string self_test;  // a file; empty: none
+    std::size_t self_test_samples = 0;
     std::vector<std::pair<std::string, std::string>> files;  // name, SHA-256
 };
 

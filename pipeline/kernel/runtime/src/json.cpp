@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <system_error>
+#include <utility>
 
 namespace contactbench::runtime {
 
@@ -215,8 +216,74 @@ private:
     std::size_t at_ = 0;
 };
 
+void write_text(std::string& out, std::string_view text) {
+    static constexpr std::string_view from = "\"\\\b\f\n\r\t", to = "\"\\bfnrt";
+    out += '"';
+    for (const char c : text) {
+        const std::size_t i = from.find(c);
+        if (i != std::string_view::npos)
+            (out += '\\') += to[i];
+        else if (static_cast<unsigned char>(c) < 0x20)
+            ((out += "\\u00") += c < 0x10 ? '0' : '1') += "0123456789abcdef"[c & 15];
+        else
+            out += c;
+    }
+    out += '"';
+}
+
+void write(std::string& out, const Json& v) {
+    const char* between = "";
+    switch (v.type) {
+        case Json::Type::null: out += "null"; break;
+        case Json::Type::boolean: out += v.boolean ? "true" : "false"; break;
+        case Json::Type::integer: out += std::to_string(v.integer); break;
+        case Json::Type::number: out += repr(v.number); break;
+        case Json::Type::text: write_text(out, v.text); break;
+        case Json::Type::array:
+            out += '[';
+            for (const Json& item : v.items) write(out += std::exchange(between, ","), item);
+            out += ']';
+            break;
+        case Json::Type::object: {
+            std::vector<const std::pair<std::string, Json>*> sorted;
+            for (const auto& member : v.members) sorted.push_back(&member);
+            std::sort(sorted.begin(), sorted.end(), [](auto a, auto b) { return a->first < b->first; });
+            out += '{';
+            for (const auto* member : sorted) {
+                write_text(out += std::exchange(between, ","), member->first);
+                write(out += ':', member->second);
+            }
+            out += '}';
+        }
+    }
+}
+
 }  // namespace
 
 Json parse_json(std::string_view text) { return Parser(text).document(); }
+
+std::string encode_json(const Json& value) {
+    std::string out;
+    write(out, value);
+    return out += '\n';
+}
+
+std::string repr(double x) {
+    char text[64];
+    const auto written = [&](std::chars_format format) {
+        return std::string_view(text, std::size_t(std::to_chars(text, text + sizeof text, x, format).ptr - text));
+    };
+    const std::string_view digits = written(std::chars_format::scientific);
+    const std::string_view exponent = digits.substr(std::min(digits.find('e'), digits.size() - 1) + 1);
+    int e = 0;
+    std::from_chars(exponent.data() + (exponent[0] == '+'), exponent.data() + exponent.size(), e);
+    if (e < -4 || e >= 16) return std::string(digits);
+    std::string out(written(std::chars_format::fixed));
+    return out.find('.') == std::string::npos ? out + ".0" : out;
+}
+
+std::size_t first_difference(std::string_view one, std::string_view other) {
+    return std::size_t(std::mismatch(one.begin(), one.end(), other.begin(), other.end()).first - one.begin());
+}
 
 }  // namespace contactbench::runtime

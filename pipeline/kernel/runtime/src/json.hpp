@@ -26,9 +26,18 @@ struct Json {
             if (name == key) return &value;
         return nullptr;
     }
+    // Of an object that was checked: the member is there.
+    const Json& operator[](std::string_view key) const { return *find(key); }
 };
 
 // Throws LoadError (CB_ERROR_JSON) that tells the byte.
 Json parse_json(std::string_view text);
+
+// The one spelling, as contactbench writes a bundle's JSON: keys in the order of their bytes, no spaces, a line feed.
+std::string encode_json(const Json& value);
+// The shortest digits that read back as the same double, as Python's repr has them.
+std::string repr(double x);
+// Of the first byte in which two texts differ.
+std::size_t first_difference(std::string_view one, std::string_view other);
 
 }  // namespace contactbench::runtime

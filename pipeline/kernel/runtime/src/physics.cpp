@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "fields.hpp"
 
@@ -10,8 +11,10 @@ namespace contactbench::runtime {
 
 namespace {
 
-constexpr double rounding = 1e-9, standard_gravity = 9.80665;
+constexpr double rounding = 1e-9;
 constexpr double sure = 3.0, up = 2.0;  // sigma
+constexpr double largest_error = 0.05;  // m, of what was verified
+constexpr double rate_off = 0.05;       // share by which rates may differ and count as the same
 
 // Cholesky's decomposition of the correlations, with room for rounding: units of the rows differ by far.
 bool nonnegative_definite(std::vector<double> R, std::size_t n) {
@@ -69,6 +72,47 @@ void add_share(const GravityLoad& load, const std::vector<double>& C, const doub
             for (std::size_t k = 0; k < 12; ++k) out[i][j] += weight * JC[i][k] * J[j][k];
 }
 
+// Of a symmetric matrix, by Jacobi's rotations.
+double largest_eigenvalue(std::array<std::array<double, 3>, 3> A) {
+    for (int sweep = 0; sweep < 20; ++sweep)
+        for (const auto& [p, q, r] : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 1}, {1, 2, 0}}) {
+            if (A[p][q] == 0.0) continue;
+            const double angle = 0.5 * std::atan2(2.0 * A[p][q], A[q][q] - A[p][p]);
+            const double c = std::cos(angle), s = std::sin(angle);
+            const double pp = A[p][p], qq = A[q][q], pq = A[p][q], pr = A[p][r], qr = A[q][r];
+            A[p][p] = c * c * pp - 2.0 * s * c * pq + s * s * qq;
+            A[q][q] = s * s * pp + 2.0 * s * c * pq + c * c * qq;
+            A[p][q] = A[q][p] = 0.0;
+            A[p][r] = A[r][p] = c * pr - s * qr;
+            A[q][r] = A[r][q] = s * pr + c * qr;
+        }
+    return std::max({A[0][0], A[1][1], A[2][2], 0.0});
+}
+
+// Of a checked object: the number, or nothing where it is null.
+std::optional<double> number(const Json& object, std::string_view name) {
+    const Json& value = object[name];
+    return value.type == Json::Type::null ? std::nullopt : std::optional(value.number);
+}
+
+void refuse_above(const std::string& part, const Json& object, const char* name, double most) {
+    if (number(object, name).value_or(0.0) > most)
+        refuse(part + "." + name, "more than any robot or probe has it: is the unit right?");
+}
+
+void check_figures(const Json& v) {
+    for (const char* name : {"touches", "markers"})
+        if (v[name].integer < 1) refuse(std::string("verification.") + name, "0, but verified is true");
+    for (const char* name : {"limit_mean_m", "limit_max_m"}) refuse_above("verification", v, name, largest_error);
+    for (const char* name : {"mean_error_m", "p95_error_m"})
+        if (v[name].number > v["max_error_m"].number * (1.0 + rounding))
+            refuse(std::string("verification.") + name, "more than verification.max_error_m");
+}
+
+}  // namespace
+
+void refuse(const std::string& field, const std::string& what) { fail(CB_ERROR_VALUE, field, what); }
+
 // The mean over the 24 rotations of a cube, which for a second degree is that over all rotations.
 void mean_share(const GravityLoad& load, const std::vector<double>& C, double out[6][6]) {
     constexpr int turns[6][4] = {{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}, {0, 2, 1, -1}, {2, 1, 0, -1}, {1, 0, 2, -1}};
@@ -81,32 +125,15 @@ void mean_share(const GravityLoad& load, const std::vector<double>& C, double ou
         }
 }
 
-// Standard deviation of the weight's size, N; in the worst direction, where the weight's own is hardly known.
 double weight_sigma(Vec3 weight, const std::vector<double>& C) {
-    const auto times = [&](Vec3 v) {
-        return Vec3{C[0] * v.x + C[1] * v.y + C[2] * v.z, C[12] * v.x + C[13] * v.y + C[14] * v.z,
-                    C[24] * v.x + C[25] * v.y + C[26] * v.z};
-    };
-    double worst = 0.0;
-    for (const Vec3 start : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-        Vec3 v = start;
-        for (int i = 0; i < 100; ++i) {
-            const Vec3 next = times(v);
-            const double size = norm(next);
-            worst = std::max(worst, size);
-            if (!(size > 0.0)) break;
-            v = (1.0 / size) * next;
-        }
-    }
-    worst = std::sqrt(worst);
+    const double worst = std::sqrt(largest_eigenvalue({{{C[0], C[1], C[2]}, {C[12], C[13], C[14]}, {C[24], C[25], C[26]}}}));
     const double size = norm(weight);
     if (size < sure * worst) return worst;
-    return size > 0.0 ? std::sqrt(std::max(dot(weight, times(weight)), 0.0)) / size : 0.0;
+    const Vec3 Cw{C[0] * weight.x + C[1] * weight.y + C[2] * weight.z,
+                  C[12] * weight.x + C[13] * weight.y + C[14] * weight.z,
+                  C[24] * weight.x + C[25] * weight.y + C[26] * weight.z};
+    return size > 0.0 ? std::sqrt(std::max(dot(weight, Cw), 0.0)) / size : 0.0;
 }
-
-}  // namespace
-
-void refuse(const std::string& field, const std::string& what) { fail(CB_ERROR_VALUE, field, what); }
 
 void check_covariance(const std::string& field, const std::vector<double>& C, std::size_t n) {
     std::vector<double> deviation(n), R(n * n, 0.0);
@@ -161,6 +188,25 @@ void check_noise(const std::vector<double>& force, const std::vector<double>& to
                   rounding * std::sqrt(wanted[i][i]) * std::sqrt(wanted[j][j])))
                 refuse("noise.wrench_covariance",
                        "not what the noise of a reading, the filter and gravity.covariance make together");
+}
+
+void check_verified(const Json& root) {
+    if (!root["verified"].boolean) return;
+    check_figures(root["verification"]);
+    const Json& limits = root["limits"];
+    refuse_above("limits", limits, "max_force_N", 1000.0), refuse_above("limits", limits, "max_torque_Nm", 200.0);
+    refuse_above("limits", limits, "max_speed_mps", 10.0), refuse_above("limits", limits, "max_turn_radps", 50.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Json& limit = root["gates"]["saturation"].items[axis];
+        if (limit.type != Json::Type::null && limit.number < limits["max_force_N"].number)
+            refuse("gates.saturation[" + std::to_string(axis) + "]", "the sensor cannot measure limits.max_force_N");
+    }
+    for (const char* name : {"wrench", "location"}) {
+        const Json& filter = root["filters"][name];
+        if (filter.type == Json::Type::null) continue;
+        if (!(std::fabs(root["sensor"]["rate_Hz"].number / filter["rate_Hz"].number - 1.0) <= rate_off))
+            refuse(std::string("filters.") + name + ".rate_Hz", "not sensor.rate_Hz, at which the sensor was verified");
+    }
 }
 
 }  // namespace contactbench::runtime

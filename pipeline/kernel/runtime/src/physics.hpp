@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "contactbench/runtime.hpp"
+#include "json.hpp"
 
 namespace contactbench::runtime {
+
+inline constexpr double standard_gravity = 9.80665;
 
 [[noreturn]] void refuse(const std::string& field, const std::string& what);
 
@@ -18,5 +21,12 @@ void check_low_pass(const std::vector<Section>& sections, double rate, double cu
 // The wrench covariance against the noise of a reading, the filter, and the calibration's covariance (12, 12).
 void check_noise(const std::vector<double>& force, const std::vector<double>& torque,
                  const RuntimeSettings& settings, const std::vector<double>& calibration);
+
+// What cannot be true of a config that was verified. `root` is contactbench.json, every field of which was checked.
+void check_verified(const Json& root);
+// Standard deviation of the weight's size, N; in the worst direction, where the weight's own is hardly known.
+double weight_sigma(Vec3 weight, const std::vector<double>& calibration);
+// Adds what the calibration leaves in a compensated wrench: the mean over all rotations.
+void mean_share(const GravityLoad& load, const std::vector<double>& calibration, double out[6][6]);
 
 }  // namespace contactbench::runtime

@@ -1,5 +1,6 @@
 #include "ply.hpp"
 
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -12,64 +13,52 @@ static_assert(std::endian::native == std::endian::little, "the numbers of the fi
 namespace {
 
 constexpr std::size_t vertex_bytes = 3 * 8, face_bytes = 1 + 3 * 4 + 4 + 1 + 3;
-constexpr std::size_t most = 2'000'000;
 
-constexpr std::string_view untouchable_line = "comment untouchable regions";
-constexpr std::string_view vertex_lines[] = {"property double x", "property double y", "property double z"};
-constexpr std::string_view face_lines[] = {"property list uchar int vertex_indices", "property int region",
-                                           "property uchar invented", "property uchar red",
-                                           "property uchar green", "property uchar blue"};
+using Colour = std::array<unsigned, 3>;
+constexpr Colour plain{0xc8, 0xc8, 0xc8}, invented_colour{0x46, 0x46, 0x46};
+
+Colour to_colour(std::string_view text) {
+    Colour out{};
+    for (std::size_t i = 0; i < 3; ++i)
+        std::from_chars(text.data() + 1 + 2 * i, text.data() + 3 + 2 * i, out[i], 16);
+    return out;
+}
+
+std::string header_of(const Config& c) {
+    std::string untouchable;
+    for (const RegionRow& region : c.regions)
+        if (region.untouchable) (untouchable += ' ') += std::to_string(region.rank);
+    if (!untouchable.empty()) untouchable = "comment untouchable regions" + untouchable + "\n";
+    return "ply\nformat binary_little_endian 1.0\ncomment contactbench probe 1\ncomment metres\n" + untouchable +
+           "element vertex " + std::to_string(c.vertices) +
+           "\nproperty double x\nproperty double y\nproperty double z\nelement face " + std::to_string(c.facets) +
+           "\nproperty list uchar int vertex_indices\nproperty int region\nproperty uchar invented\n"
+           "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
+}
 
 class Reader {
 public:
-    Reader(std::string_view data, const std::string& name) : data_(data), name_(name) {}
-
-    [[noreturn]] void fail(const std::string& what) const {
-        throw LoadError(CB_ERROR_MESH, name_ + ": " + what + "; export the bundle again");
+    Reader(std::string_view data, const Config& config, const std::vector<std::string>& colours)
+        : data_(data), config_(config), colours_{plain} {
+        for (const std::string& colour : colours) colours_.push_back(to_colour(colour));
     }
 
     ProbeMesh read() {
-        expect("ply");
-        expect("format binary_little_endian 1.0");
-        const std::size_t vertices = count("element vertex ");
-        for (const std::string_view l : vertex_lines) expect(l);
-        const std::size_t faces = count("element face ");
-        for (const std::string_view l : face_lines) expect(l);
-        expect("end_header");
-        if (data_.size() - at_ != vertices * vertex_bytes + faces * face_bytes)
+        const std::string header = header_of(config_);
+        if (data_.substr(0, header.size()) != header)
+            fail("the header is not that of probe.facets, probe.vertices and the untouchable regions");
+        if (data_.size() != header.size() + config_.vertices * vertex_bytes + config_.facets * face_bytes)
             fail("its length does not fit its header: cut short, or something follows");
+        at_ = header.size();
         ProbeMesh mesh;
-        mesh.untouchable = untouchable_;
-        read_vertices(mesh, vertices);
-        read_faces(mesh, faces);
+        read_vertices(mesh);
+        read_faces(mesh);
         return mesh;
     }
 
 private:
-    std::string_view line() {
-        for (;;) {
-            const std::size_t end = data_.substr(0, 4096).find('\n', at_);
-            if (end == std::string_view::npos) fail("the header has no end");
-            const std::string_view text = data_.substr(at_, end - at_);
-            at_ = end + 1;
-            if (text.substr(0, 8) != "comment ") return text;
-            if (text.substr(0, untouchable_line.size()) == untouchable_line)
-                untouchable_ += text.substr(untouchable_line.size());
-        }
-    }
-
-    void expect(std::string_view wanted) {
-        if (line() != wanted) fail("the header lacks '" + std::string(wanted) + "' where it belongs");
-    }
-
-    std::size_t count(std::string_view prefix) {
-        const std::string_view text = line();
-        std::size_t n = 0;
-        const char *first = text.data() + std::min(prefix.size(), text.size()), *last = text.data() + text.size();
-        const auto read = std::from_chars(first, last, n);
-        if (text.substr(0, prefix.size()) != prefix || read.ec != std::errc() || read.ptr != last || n > most || n < 4)
-            fail(std::string(prefix) + "needs a count from 4 to " + std::to_string(most));
-        return n;
+    [[noreturn]] void fail(const std::string& what) const {
+        throw LoadError(CB_ERROR_MESH, config_.probe_file + ": " + what + "; export the bundle again");
     }
 
     template <class T>
@@ -80,9 +69,9 @@ private:
         return value;
     }
 
-    void read_vertices(ProbeMesh& mesh, std::size_t n) {
-        mesh.vertices.resize(n);
-        for (std::size_t i = 0; i < n; ++i) {
+    void read_vertices(ProbeMesh& mesh) {
+        mesh.vertices.resize(config_.vertices);
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
             for (double* x : {&mesh.vertices[i].x, &mesh.vertices[i].y, &mesh.vertices[i].z}) {
                 *x = take<double>();
                 if (!(std::fabs(*x) <= 1e3)) fail("vertex " + std::to_string(i) + " is not a place on a probe");
@@ -90,31 +79,42 @@ private:
         }
     }
 
-    void read_faces(ProbeMesh& mesh, std::size_t n) {
-        mesh.faces.resize(n);
-        mesh.region.resize(n);
-        for (std::size_t f = 0; f < n; ++f) {
+    void read_faces(ProbeMesh& mesh) {
+        mesh.faces.resize(config_.facets);
+        mesh.region.resize(config_.facets);
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
             const std::string facet = "facet " + std::to_string(f);
             if (take<unsigned char>() != 3) fail(facet + " is not a triangle");
             for (std::int32_t& v : mesh.faces[f]) {
                 v = take<std::int32_t>();
                 if (v < 0 || std::size_t(v) >= mesh.vertices.size()) fail(facet + " names a vertex that is not there");
             }
-            mesh.region[f] = take<std::int32_t>();
-            if (mesh.region[f] < 0 || mesh.region[f] > 1000) fail(facet + " has region " + std::to_string(mesh.region[f]));
-            if (take<unsigned char>() > 1) fail(facet + ": invented is neither 0 nor 1");
-            at_ += 3;  // its colour
+            const std::int32_t region = mesh.region[f] = take<std::int32_t>();
+            if (region < 0 || std::size_t(region) >= colours_.size())
+                fail(facet + " has region " + std::to_string(region) + ", which regions does not list");
+            const unsigned char invented = take<unsigned char>();
+            if (invented > 1) fail(facet + ": invented is neither 0 nor 1");
+            for (std::size_t i = 0; i < 3; ++i)
+                if (take<unsigned char>() != shade(std::size_t(region), invented, i)) fail(facet + " has another colour");
         }
     }
 
+    // Half of each for what was made up in a region; as pipeline.mesh.colours has it.
+    unsigned shade(std::size_t region, bool invented, std::size_t i) const {
+        if (!invented) return colours_[region][i];
+        return region > 0 ? (colours_[region][i] + invented_colour[i]) / 2 : invented_colour[i];
+    }
+
     std::string_view data_;
-    const std::string& name_;
-    std::string untouchable_;
+    const Config& config_;
+    std::vector<Colour> colours_;  // by region
     std::size_t at_ = 0;
 };
 
 }  // namespace
 
-ProbeMesh read_probe(std::string_view data, const std::string& name) { return Reader(data, name).read(); }
+ProbeMesh read_probe(std::string_view data, const Config& config, const std::vector<std::string>& colours) {
+    return Reader(data, config, colours).read();
+}
 
 }  // namespace contactbench::runtime

@@ -1,4 +1,4 @@
-// What else the bundle says of gravity and of the mesh, for other programs: the same as contactbench.json does.
+// planes.csv: what the mesh says, for other programs.
 #pragma once
 
 #include "config.hpp"
@@ -7,9 +7,8 @@
 
 namespace contactbench::runtime {
 
-// planes.csv: a facet a line, in priority order, n . p + d = 0. Throws LoadError (CB_ERROR_MESH).
+// A facet a line, in priority order, n . p + d = 0; to the byte as contactbench writes it. Throws LoadError
+// (CB_ERROR_MESH), also for a facet without area.
 void check_planes(const std::string& table, const ProbeMesh& mesh, const Config& config);
-// ros2.yaml and, where there is one, ft_calib.yaml. Throws LoadError (CB_ERROR_VALUE).
-void check_gravity_files(const Files& files, const GravityLoad& gravity);
 
 }  // namespace contactbench::runtime

@@ -1,0 +1,281 @@
+"""
+What is left of a damaged journal: every whole record, and the results that can no longer be relied on.
+
+The chain of hashes tells more than where the damage is. It proves a record of which only the header or one bit of the
+payload is damaged, puts records that were moved back into order, and tells junk between two records from a lost record.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import zlib
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from pipeline.session import frames
+from pipeline.session.actions import (
+    VERSION,
+    Note,
+    Record,
+    ResultMarked,
+    SessionCreated,
+    files_of,
+    parse_payload,
+    payload_of,
+    read_entry,
+)
+from pipeline.session.entries import entry, user
+from pipeline.session.errors import JournalError
+from pipeline.session.journal import read_journal, refuse_damage
+from pipeline.session.migrate import version_of
+from pipeline.session.reading import content_of
+from pipeline.session.sources import sources_of
+from pipeline.session.state import MESH, fold
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator, Mapping
+    from pathlib import Path
+
+    from pipeline.session.frames import Frame
+    from pipeline.session.reading import Content
+    from pipeline.session.sources import Source
+    from pipeline.session.state import Result, State
+
+# A hostile journal must not keep anybody waiting: more is not tried.
+_MENDED_BYTES, _MENDED_GAPS, _SORTED_RUNS = 8192, 50, 1000
+_LONGEST_NOTE = 9000
+
+
+@dataclass(frozen=True)
+class Remains:
+    """
+    A journal of the records that are left.
+
+    Attributes
+    ----------
+    data : bytes
+        A whole journal, of the version of the damaged one.
+    losses : frozenset of int
+        Numbers of the records in it after which at least one is missing.
+    sentences : tuple of str
+        What was found.
+    """
+
+    data: bytes
+    losses: frozenset[int]
+    sentences: tuple[str, ...]
+
+
+def remains_of(folder: Path, data: bytes) -> Remains:
+    """
+    Gather what is left of a journal; of a whole one, all of it.
+
+    Raises
+    ------
+    SessionError
+        Not one record is whole, or the journal is of a newer version.
+    """
+    found, sentences, end_is_lost = _found(data)
+    if not found:
+        refuse_damage(folder, frames.scan(data))
+    lines = _lines(found, sentences)
+    counts = list(accumulate(map(len, lines)))
+    losses = set(counts if end_is_lost else counts[:-1])
+    payloads = [frame.payload for line in lines for frame in line]
+    if _follows(frames.GENESIS, lines[0]):
+        version = version_of(folder, frames.Scan(tuple(lines[0]), 0))
+    else:
+        identity = hashlib.sha256(data).hexdigest()[:32]
+        payloads.insert(0, payload_of(entry(SessionCreated(id=identity), user(), None)))
+        losses, version = {1, *(after + 1 for after in losses)}, VERSION
+        sentences.append("The first record is lost, so the session gets a new identity.")
+    if version == VERSION:  # what an older version wrote can only be read once it is migrated
+        payloads, losses = _readable(payloads, losses, sentences)
+    sentences += [f"At least one record is lost after record {after}." for after in sorted(losses)]
+    return Remains(frames.encode_all(payloads), frozenset(losses), tuple(sentences))
+
+
+def _found(data: bytes) -> tuple[list[Frame], list[str], bool]:
+    """Return the whole and mended records as they lie in the file, what to say, and whether the end is lost."""
+    found: list[Frame] = []
+    sentences: list[str] = []
+    at = gaps = 0
+    while at < len(data):
+        frame = frames.whole(data, at)
+        if frame is not None:
+            found.append(frame)
+            at = frame.end
+            continue
+        gaps += 1
+        follows = frames.next_whole(data, at + 1)
+        end = len(data) if follows is None else follows
+        before = found[-1].chain if found else frames.GENESIS
+        following = None if follows is None else frames.whole(data, follows)
+        if mended := _mended(data, at, end, before, following) if gaps <= _MENDED_GAPS else None:
+            found.append(mended)
+            sentences.append(f"The damaged record at byte {at} is restored; its hash proves it.")
+        elif follows is None and frames.unfinished(data, at):
+            sentences.append(f"The record at byte {at} was never finished, so nobody relied on it.")
+        else:
+            sentences.append(f"Bytes {at} to {end - 1} of the journal are damaged.")
+            if follows is None:
+                return found, sentences, True
+        at = end
+    return found, sentences, False
+
+
+def _mended(data: bytes, at: int, end: int, before: bytes, following: Frame | None) -> Frame | None:
+    """Return the one damaged record between two places, if a hash proves what it was."""
+    payload = data[at + frames.HEADER.size : end]
+    if not 0 < len(payload) <= frames.LONGEST_PAYLOAD:
+        return None
+    _, _, checksum, chain, _ = frames.HEADER.unpack_from(data, at)
+    digest = frames.chained(before, payload)
+    if digest == chain or (following is not None and _follows(digest, [following])):
+        return frames.Frame(at, payload, digest)
+    changed = bytearray(payload if len(payload) <= _MENDED_BYTES else b"")
+    for bit in range(8 * len(changed)):
+        changed[bit // 8] ^= 1 << bit % 8
+        if zlib.crc32(changed) == checksum and frames.chained(before, bytes(changed)) == chain:
+            return frames.Frame(at, bytes(changed), chain)
+        changed[bit // 8] ^= 1 << bit % 8
+    return None
+
+
+def _follows(chain: bytes, run: list[Frame]) -> bool:
+    return frames.chained(chain, run[0].payload) == run[0].chain
+
+
+def _lines(found: list[Frame], sentences: list[str]) -> list[list[Frame]]:
+    """Return the records once each, in the order in which they were written; between two lines, some are missing."""
+    runs: list[list[Frame]] = []
+    seen: set[bytes] = set()
+    for frame in found:
+        if frame.chain in seen:
+            sentences.append(f"The record at byte {frame.offset} is there twice; one is kept.")
+        elif runs and _follows(runs[-1][-1].chain, [frame]):
+            runs[-1].append(frame)
+        else:
+            runs.append([frame])
+        seen.add(frame.chain)
+    following = _links(runs)
+    heads = sorted(
+        set(range(len(runs))) - set(following.values()),
+        key=lambda head: (not _follows(frames.GENESIS, runs[head]), head),
+    )
+    lines = []
+    for head in heads:
+        line, at = [], head
+        while at >= 0:
+            line += runs[at]
+            at = following.get(at, -1)
+        lines.append(line)
+    offsets = [frame.offset for line in lines for frame in line]
+    if offsets != sorted(offsets):
+        sentences.append("Records were out of order; their hashes put them back.")
+    return lines
+
+
+def _links(runs: list[list[Frame]]) -> dict[int, int]:
+    """Return which run follows which, where one does."""
+    following: dict[int, int] = {}
+    for index, run in enumerate(runs[:_SORTED_RUNS]):
+        for earlier, other in enumerate(runs[:_SORTED_RUNS]):
+            if earlier not in following and earlier != index and _follows(other[-1].chain, run):
+                following[earlier] = index
+                break
+    return following
+
+
+def _readable(payloads: list[bytes], losses: set[int], sentences: list[str]) -> tuple[list[bytes], set[int]]:
+    """Leave out what is whole and yet no record, as in a journal made by hand."""
+    kept: list[bytes] = []
+    moved: set[int] = set()
+    for number, payload in enumerate(payloads, 1):
+        try:
+            read_entry(parse_payload(payload, len(kept) + 1), len(kept) + 1)
+            kept.append(payload)
+        except JournalError:
+            moved.add(len(kept))
+            sentences.append(f"The record after record {len(kept)} cannot be read, and is left out.")
+        if number in losses:
+            moved.add(len(kept))
+    return kept, moved
+
+
+# ---- what rests on it ------------------------------------------------------------------------------
+
+
+def doubts(state: State, losses: Collection[int], wrong: Mapping[str, str]) -> Iterator[ResultMarked]:
+    """
+    Yield the marks that keep results from being relied on after a loss.
+
+    A lost record may have replaced an input or a result, set a parameter, rejected a result or told of a re-zeroed
+    sensor. So a result holds only if it, and the recordings that it was computed from, came after the last loss. A
+    result of which an input is in no record at all is stale by itself, and one that rests on a stale one, too.
+
+    Parameters
+    ----------
+    state : State
+        Of what is left.
+    losses : collection of int
+        See `Remains`.
+    wrong : mapping
+        Place of a file in the session -> what is wrong with it.
+    """
+    sources, last = sources_of(state), max(losses, default=0)
+    for result in state.current_results.values():
+        if result.mark is not None and result.mark.mark != "accepted":
+            continue  # it does not hold anyway, and that mark says why
+        reason = _doubt(result, sources[result.number], last, wrong)
+        if reason:
+            yield ResultMarked(kind=result.action.kind, name=result.action.name, mark="stale", reason=reason)
+
+
+def _doubt(result: Result, sources: tuple[Source, ...], last: int, wrong: Mapping[str, str]) -> str:
+    for ref in files_of(result.action):
+        if ref.path in wrong:
+            return f"its file {wrong[ref.path]}; compute it again"
+    if result.number <= last:
+        return "a record that came after it is lost and may have changed what it rests on; compute it again"
+    for used in (each for source in sources for each in source.inputs):
+        for ref in (used.file, *used.companions.values()):
+            if ref.path in wrong:
+                return f"the {used.kind} {used.name} cannot be relied on, because {wrong[ref.path]}"
+        if used.kind != MESH and used.number <= last:
+            return (
+                f"a record that came after the {used.kind} {used.name} is lost and may have told of a re-zeroed sensor;"
+                " compute it again if the sensor was not re-zeroed"
+            )
+    return ""
+
+
+def note_of(sentences: Collection[str]) -> Note:
+    """Return what a salvaged session's journal says of its salvage."""
+    return Note(text=" ".join(("Salvaged from a damaged session.", *sentences))[:_LONGEST_NOTE])
+
+
+def read_damaged(folder: Path) -> Content:
+    """
+    Read a session as its salvaged copy would hold it, apart from files, which nobody looks at; changes nothing.
+
+    Raises
+    ------
+    SessionError
+        There is no session, not one record is whole, or it is of a newer version.
+    """
+    data = read_journal(folder)
+    found = frames.scan(data)
+    if not found.damage:
+        return content_of(folder, data)
+    remains = remains_of(folder, data)
+    content = content_of(folder, remains.data)
+    records, by = list(content.records), user()
+    added: list[Note | ResultMarked] = [note_of(remains.sentences)]
+    added += doubts(fold(records), remains.losses, {})
+    for action in added:
+        made = entry(action, by, None)
+        chain = frames.chained(bytes.fromhex(records[-1].hash), payload_of(made))
+        records.append(Record(len(records) + 1, chain.hex(), made))
+    return replace(content, records=tuple(records), notes=(*content.notes, *remains.sentences), found=found)

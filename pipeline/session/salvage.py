@@ -1,0 +1,183 @@
+"""A new session of all that is whole in a damaged one, which itself is never changed."""
+
+from __future__ import annotations
+
+import hashlib
+import secrets
+import shutil
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from pipeline.durable import sync_folder, write_durably
+from pipeline.session.actions import files_of
+from pipeline.session.errors import SessionError
+from pipeline.session.files import (
+    FOLDERS,
+    UNFINISHED,
+    chunks_of,
+    own_file,
+    refuse_links,
+    unclaimed,
+    write_file,
+    wrong_with,
+)
+from pipeline.session.journal import JOURNAL, read_journal
+from pipeline.session.migrate import original_of
+from pipeline.session.reading import content_of
+from pipeline.session.remains import doubts, note_of, remains_of
+from pipeline.session.store import Session
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from pipeline.session.remains import Remains
+
+
+@dataclass(frozen=True)
+class Salvage:
+    """
+    What a salvage gave.
+
+    Attributes
+    ----------
+    out : Path
+        The new session.
+    records : int
+        Records of the damaged session that are in it.
+    whole : bool
+        Nothing is lost.
+    found : tuple of str
+        What is damaged, restored and lost, in sentences.
+    unclaimed : tuple of str
+        Whole files of the new session that belong to no record: those of lost records.
+    stale : mapping
+        Title of each result that is stale in the new session -> why.
+    """
+
+    out: Path
+    records: int
+    whole: bool
+    found: tuple[str, ...]
+    unclaimed: tuple[str, ...]
+    stale: Mapping[str, tuple[str, ...]]
+
+
+def salvage(
+    folder: Path, out: Path | None = None, progress: Callable[[int, int], None] | None = None
+) -> Salvage:
+    """
+    Write all that is whole in a session into a new one; whatever goes wrong, nothing is left of that.
+
+    Parameters
+    ----------
+    folder : path
+        The damaged session. A whole one is copied.
+    out : path, optional
+        Folder to make; left out, one beside it.
+    progress : callable, optional
+        Takes the number of files that are done, and of all.
+
+    Raises
+    ------
+    SessionError
+        There is no session, not one of its records is whole, it is of a newer version, or `out` is there already or
+        cannot be written.
+    """
+    data = read_journal(folder)
+    refuse_links(folder)
+    out = _free_place(folder) if out is None else out
+    _refuse_place(folder, out)
+    remains = remains_of(folder, data)
+    scratch = out.with_name(f".{out.name}.{secrets.token_hex(8)}.tmp")
+    try:
+        for place in (scratch, *(scratch / name for name in FOLDERS)):
+            place.mkdir()
+        wrong, extra = _copy(folder, scratch, remains, progress)
+        write_durably(scratch / JOURNAL, remains.data)
+        done = _settle(scratch, out, remains, wrong, extra)
+        scratch.rename(out)
+        sync_folder(out.absolute().parent)
+    except OSError as error:
+        raise SessionError(
+            f"{out}: the copy cannot be written ({error}): choose another place with --out."
+        ) from error
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+    return done
+
+
+def _free_place(folder: Path) -> Path:
+    folder = folder.absolute()
+    first = place = folder.with_name(f"{folder.name}-salvaged")
+    number = 2
+    while place.exists():
+        place = first.with_name(f"{first.name}-{number}")
+        number += 1
+    return place
+
+
+def _refuse_place(folder: Path, out: Path) -> None:
+    try:
+        taken = out.exists() or out.is_symlink()
+        inside = out.resolve().is_relative_to(folder.resolve())
+    except (OSError, ValueError, RuntimeError) as error:  # RuntimeError: links in a circle
+        raise SessionError(f"{out}: no place for a session ({error}): choose another.") from error
+    if taken:
+        raise SessionError(f"{out}: there is something already: choose another name.")
+    if inside:
+        raise SessionError(f"{out}: this is inside the damaged session: choose another place.")
+
+
+def _copy(
+    folder: Path, target: Path, remains: Remains, progress: Callable[[int, int], None] | None
+) -> tuple[dict[str, str], tuple[str, ...]]:
+    """Copy every whole file; return what is wrong with the others, and which belong to no record."""
+    content = content_of(folder, remains.data)
+    refs = {ref.path: ref for record in content.records for ref in files_of(record.action)}
+    extra = [place for place in unclaimed(folder, refs) if _is_whole(folder, place)]
+    wrong = {}
+    for done, (place, ref) in enumerate(refs.items(), 1):
+        # Read before it is copied: what cannot be read is the session's damage, and not the copy's.
+        if why := wrong_with(folder, ref):
+            wrong[place] = why
+        else:
+            write_file(target / place, chunks_of(folder / place))
+        if progress is not None:
+            progress(done, len(refs))
+    for place in extra:
+        write_file(target / place, chunks_of(folder / place))
+    for version in content.origins:
+        if (original := original_of(folder, version)).is_file():
+            write_durably(target / original.name, original.read_bytes())
+    for name in FOLDERS:
+        sync_folder(target / name)
+    return wrong, tuple(place for place in extra if not place.startswith(f"raw/{UNFINISHED}"))
+
+
+def _is_whole(folder: Path, place: str) -> bool:
+    """Tell whether a file that no record speaks of is as it was stored, under its hash; unfinished recordings count."""
+    name = place.partition("/")[2]
+    try:
+        digest = hashlib.sha256()
+        for chunk in chunks_of(own_file(folder / place)):
+            digest.update(chunk)
+    except (OSError, SessionError):
+        return False
+    return name.startswith((UNFINISHED, f"{digest.hexdigest()[:12]}-"))
+
+
+def _settle(
+    scratch: Path, out: Path, remains: Remains, wrong: Mapping[str, str], extra: tuple[str, ...]
+) -> Salvage:
+    """Write into the new session what is lost, and mark what rested on it."""
+    found = (*remains.sentences, *(f"{why}." for why in wrong.values()))
+    with Session.open(scratch) as session:
+        records = len(session.records)
+        marks = list(doubts(session.state, remains.losses, wrong))
+        if found:
+            session.note(note_of(found).text)
+        for mark in marks:
+            session.mark(mark.kind, mark.name, mark.mark, mark.reason)
+        stale = {" ".join(slot): reasons for slot, reasons in session.stale().items() if reasons}
+    return Salvage(out, records, not (remains.losses or wrong), found, extra, stale)

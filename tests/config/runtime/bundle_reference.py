@@ -1,0 +1,849 @@
+"""
+A runtime written from docs/bundle.md alone, in NumPy: slow, and of no use but to tell whether that page is complete.
+
+Nothing of the project is imported. Numbers in brackets are sections of the page.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray[Any, np.dtype[np.float64]]
+
+STANDARD_GRAVITY = 9.80665
+BEHIND_DISTANCE, SAME_TOUCH, MOST_CANDIDATES = 0.003, 4.5, 8
+STEEPEST, GRAZING, SHARP = 0.001, 0.0174524064372835, 0.7660444431189780
+LEAST_VARIANCE, MOST_Q, FAR = 1e-12, 1.75, 1000.0
+MOST_STALE, LEAST_FROZEN, FROZEN_MEMORY = 50, 5, 20000
+TWIST_SPAN, MOST_TURN, POSE_CAPACITY = 0.04, 2.6, 512
+LEAST_FIT, FIT_SPAN, FINEST, UNFOLLOWED, FLANGE_LEVER = 8, 0.7, 2e-5, 0.1, 0.05
+LATE, CLOCK, OVERRANGE = 8, 32, 1
+FROZEN, SILENT, FLAGGED, NO_POSE, LEAPT = 1, 2, 4, 8, 16
+POINTS = {"ok", "vertex", "ambiguous", "by_region", "two_touches"}
+UNKNOWN = np.full(3, np.nan)
+
+
+def skew(v: Array) -> Array:
+    return np.array([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], v[0], 0]])
+
+
+def rotvec(R: Array) -> Array:
+    v = 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    e, c = float(np.linalg.norm(v)), 0.5 * (R[0, 0] + R[1, 1] + R[2, 2] - 1)
+    return v * (np.arctan2(e, c) / e) if e > 1e-12 else v
+
+
+def rot(w: Array) -> Array:
+    a = float(np.linalg.norm(w))
+    A = np.sin(a) / a if a > 1e-4 else 1 - a * a / 6
+    B = (1 - np.cos(a)) / (a * a) if a > 1e-4 else 0.5 - a * a / 24
+    return np.eye(3) + A * skew(w) + B * (skew(w) @ skew(w))
+
+
+def is_rotation(R: Array) -> bool:
+    x, y, z = R
+    off = [abs(x @ x - 1), abs(y @ y - 1), abs(z @ z - 1), abs(x @ y), abs(y @ z), abs(z @ x)]
+    return max(off) <= 1e-3 and float(np.cross(x, y) @ z) > 0
+
+
+# ---- the probe (4) -----------------------------------------------------------------------------
+
+
+@dataclass
+class Mesh:
+    vertices: Array  # m
+    faces: Any  # lowest vertex first
+    normals: Array
+    region: Any
+    centre: Array
+    scale: float
+    corners: Array  # (n, 3, 3), mesh scales, lowest vertex first
+    spread: Array
+    bend: Array
+    prior: Array
+
+
+def read_mesh(data: bytes, touch: dict[str, Any], regions: list[dict[str, Any]]) -> Mesh:
+    head, body = data.split(b"end_header\n", 1)
+    count = {
+        words[1]: int(words[2])
+        for words in map(str.split, head.decode().splitlines())
+        if words[0] == "element"
+    }
+    V, N = count["vertex"], count["face"]
+    vertices = np.frombuffer(body, "<f8", 3 * V).reshape(V, 3)
+    row = np.dtype([("three", "u1"), ("v", "<i4", 3), ("region", "<i4"), ("rest", "u1", 4)])
+    rows = np.frombuffer(body, row, N, offset=24 * V)
+    faces, region = rows["v"].astype(int), rows["region"].astype(int)
+    used = vertices[faces.ravel()]
+    low, high = used.min(axis=0), used.max(axis=0)
+    half = 0.5 * (high - low)
+    centre, scale = low + half, float(half.max())
+    p = (1 / scale) * (vertices - centre)
+    n = np.cross(p[faces[:, 1]] - p[faces[:, 0]], p[faces[:, 2]] - p[faces[:, 0]])
+    normals = n / np.linalg.norm(n, axis=1)[:, None]
+    spread, bend = np.zeros(N), np.zeros(N)
+    if touch["mesh_curved"]:
+        edges: dict[tuple[int, int], list[tuple[int, bool]]] = {}
+        for f, t in enumerate(faces.tolist()):
+            for i in range(3):
+                u, w = t[i], t[(i + 1) % 3]
+                edges.setdefault((min(u, w), max(u, w)), []).append((f, u < w))
+        turn, arch, middle = np.zeros(N), np.zeros(N), p[faces].mean(axis=1)
+        for users in edges.values():
+            if len(users) != 2 or users[0][1] == users[1][1]:
+                continue
+            f, g = users[0][0], users[1][0]
+            cosine = float(normals[f] @ normals[g])
+            if cosine >= SHARP:
+                theta = np.arccos(min(1.0, cosine))
+                bow = theta * np.linalg.norm(middle[f] - middle[g])
+                for each in (f, g):
+                    turn[each], arch[each] = max(turn[each], theta), max(arch[each], bow)
+        spread, bend = (0.7 / 8 * arch) ** 2, (0.5 * turn) ** 2
+    spread = spread + (touch["mesh_deviation_m"] / scale) ** 2
+    first = faces.argmin(axis=1)
+    turned = faces[np.arange(N)[:, None], (first[:, None] + np.arange(3)) % 3]
+    bonus = np.array([0.0, *(2 * np.log(each["odds"]) for each in regions)])
+    return Mesh(vertices, turned, normals, region, centre, scale, p[turned], spread, bend, bonus[region])
+
+
+# ---- a touch on a facet (13) -------------------------------------------------------------------
+
+
+class Wrench:
+    """What section 13 makes of a wrench."""
+
+    def __init__(self, mesh: Mesh, F: Array, M: Array, C: Array, arm: float) -> None:
+        c, s = mesh.centre, mesh.scale
+        self.F, self.M, self.mesh = F, M, mesh
+        self.size = float(np.linalg.norm(F))
+        T = np.eye(6)
+        T[3:, :3] = -skew(c)
+        D = T @ C @ T.T
+        D[3:, :] /= s
+        D[:, 3:] /= s
+        f, mu = F / self.size, (M - np.cross(c, F)) / (self.size * s)
+        sg = -1.0 if np.signbit(f[2]) else 1.0
+        e = -1 / (sg + f[2])
+        a = np.array([1 + sg * f[0] * f[0] * e, sg * f[0] * f[1] * e, -sg * f[0]])
+        b = np.array([f[0] * f[1] * e, sg + f[1] * f[1] * e, -f[1]])
+        self.f, self.a, self.b, self.mu = f, a, b, mu
+        self.h, self.ma, self.mb = float(mu @ f), float(mu @ a), float(mu @ b)
+        self.foot = np.cross(f, mu)
+        out = float(np.linalg.norm(self.foot))
+        q = self.foot * (MOST_Q / out) if out > MOST_Q else self.foot
+        self.l2 = (arm / s) ** 2
+        zero = np.zeros(3)
+        Gf, Ga, Gb = (np.concatenate([np.cross(q, u), u]) for u in (f, a, b))
+        Ta, Tb = np.concatenate([b, zero]), np.concatenate([-a, zero])
+
+        def pair(x: Array, y: Array) -> float:
+            return float(x @ D @ y) / (self.size * self.size)
+
+        self.ff = pair(Gf, Gf) + LEAST_VARIANCE
+        self.fa = (pair(Ga, Gf), pair(Ta, Gf), 0.0)
+        self.fb = (pair(Gb, Gf), pair(Tb, Gf), 0.0)
+        self.aa = (pair(Ga, Ga) + LEAST_VARIANCE, 2 * pair(Ga, Ta), pair(Ta, Ta))
+        self.ab = (pair(Ga, Gb), pair(Ga, Tb) + pair(Gb, Ta), pair(Ta, Tb))
+        self.bb = (pair(Gb, Gb) + LEAST_VARIANCE, 2 * pair(Gb, Tb), pair(Tb, Tb))
+
+    def given(self, n: Any, t: Any, spread: Any, bend: Any) -> dict[str, Any]:
+        """V(n, t), of one facet or of many."""
+        at = lambda d: d[0] + t * (d[1] + t * d[2])  # noqa: E731
+        fa, fb, aa, ab, bb = (at(d) for d in (self.fa, self.fb, self.aa, self.ab, self.bb))
+        c = np.maximum(-(n @ self.f), 1e-6)
+        na, nb = n @ self.a, n @ self.b
+        bent = bend * self.h**2 / c**2
+        ua, ub = na + fa * c / self.ff, nb + fb * c / self.ff
+        T = self.ff + self.l2 * c**2
+        v = self.l2 * self.ff / T
+        kappa = -self.l2 * self.h * c / T
+        ka, kb = v * ua, v * ub
+        return {
+            "pitch2": self.h**2 / T,
+            "kappa": kappa,
+            "ka": ka,
+            "kb": kb,
+            "wa": self.h * fa / self.ff + ua * kappa,
+            "wb": self.h * fb / self.ff + ub * kappa,
+            "aa": aa + bent + spread * nb**2 - fa**2 / self.ff + ka * ua,
+            "ab": ab - spread * na * nb - fa * fb / self.ff + ka * ub,
+            "bb": bb + bent + spread * na**2 - fb**2 / self.ff + kb * ub,
+        }
+
+    def on_facets(self) -> dict[str, Any]:
+        """d2, torque, weights and point on every facet."""
+        m = self.mesh
+        along = m.corners @ self.f
+        c = np.maximum(-(m.normals @ self.f), 1e-6)
+        met = (m.normals @ self.foot - (m.normals * m.corners[:, 0]).sum(axis=1)) / c
+        t = np.clip(met, along.min(axis=1), along.max(axis=1))
+        g = self.given(m.normals, t, m.spread, m.bend)
+        L11 = np.sqrt(g["aa"])
+        L21 = g["ab"] / L11
+        L22 = np.sqrt(np.maximum(g["bb"] - L21**2, 1e-12 * g["bb"]))
+        x = (self.ma - m.corners @ self.b - g["wa"][:, None]) / L11[:, None]
+        y = (self.mb + m.corners @ self.a - g["wb"][:, None] - L21[:, None] * x) / L22[:, None]
+        C = np.stack(
+            [x[:, (i + 2) % 3] * y[:, (i + 1) % 3] - x[:, (i + 1) % 3] * y[:, (i + 2) % 3] for i in range(3)],
+            1,
+        )
+        total = C.sum(axis=1)
+        inside = (C >= 0).all(axis=1) & (total > 0)
+        with np.errstate(all="ignore"):
+            W = C / total[:, None]
+        X, Y, miss = np.zeros(len(t)), np.zeros(len(t)), np.full(len(t), np.inf)
+        W[~inside] = 0
+        for i in range(3):
+            j = (i + 1) % 3
+            ex, ey = x[:, j] - x[:, i], y[:, j] - y[:, i]
+            length = ex**2 + ey**2
+            with np.errstate(all="ignore"):
+                share = np.where(length > 0, np.clip(-(x[:, i] * ex + y[:, i] * ey) / length, 0, 1), 0)
+            px, py = x[:, i] + share * ex, y[:, i] + share * ey
+            d = px**2 + py**2
+            here = ~inside & (d < miss)
+            miss[here], X[here], Y[here] = d[here], px[here], py[here]
+            W[here] = 0
+            W[here, i], W[here, j] = 1 - share[here], share[here]
+        miss[inside] = 0
+        ta = g["ka"] / L11
+        tb = (g["kb"] - L21 * ta) / L22
+        v = m.vertices[m.faces]
+        return {
+            "d2": g["pitch2"] + miss,
+            "k": (g["kappa"] + ta * X + tb * Y) * self.size * m.scale,
+            "weights": W,
+            "point": W[:, :1] * v[:, 0] + (W[:, 1:2] * v[:, 1] + W[:, 2:] * v[:, 2]),
+        }
+
+    def depth(self, point: Array) -> float:
+        return float((point - self.mesh.centre) / self.mesh.scale @ self.f)
+
+    def at_touch(self, face: int, point: Array) -> dict[str, Any]:
+        m = self.mesh
+        return self.given(m.normals[face], self.depth(point), m.spread[face], m.bend[face])
+
+    def covariance(self, face: int, point: Array) -> Array:
+        n, g = self.mesh.normals[face], self.at_touch(face, point)
+        push = float(n @ self.f)
+        if abs(push) <= 1e-9:
+            push = -1e-9
+        A = (n @ self.b / push) * self.f - self.b
+        B = self.a - (n @ self.a / push) * self.f
+        both = np.outer(A, B)
+        V = g["aa"] * np.outer(A, A) + g["ab"] * (both + both.T) + g["bb"] * np.outer(B, B)
+        scaled: Array = self.mesh.scale**2 * V
+        return scaled
+
+
+@dataclass
+class Touch:
+    face: int
+    point: Array
+    normal: Array
+    k: float
+    d2: float
+    prior: float
+    near: float
+    vertex: int
+    region: int
+    radius: float
+    slope: Array
+    hidden: float = 0.0
+
+    def apart(self, x: Array) -> float:
+        d = x - self.point
+        return float(np.sqrt(max(0.0, float(d @ d) - float(d @ self.slope) ** 2)))
+
+    @property
+    def unhidden(self) -> float:
+        return self.d2 - self.near - self.prior
+
+    @property
+    def free(self) -> float:
+        return self.d2 - self.near + self.hidden
+
+    @property
+    def cost(self) -> float:
+        return self.free - self.prior
+
+
+@dataclass
+class Found:
+    """What is said of one wrench, sections 14 to 16."""
+
+    reason: str
+    chosen: Touch | None = None
+    runner_up: Touch | None = None
+    candidates: int = 0
+    misfit: float = np.nan
+    left_over: float = np.nan
+    arm: float = np.nan
+    confidence: float = 0.0
+    second: Touch | None = None
+
+
+@dataclass
+class Answer:
+    time: float
+    reason: str = "stale"
+    accepted: bool = False
+    health: int = 0
+    pose_age: float = np.nan
+    latency: float = np.nan
+    wrench: Array = field(default_factory=lambda: np.full(6, np.nan))
+    point: Array = field(default_factory=UNKNOWN.copy)
+    normal: Array = field(default_factory=UNKNOWN.copy)
+    filtered: Array = field(default_factory=UNKNOWN.copy)
+    second: Array = field(default_factory=UNKNOWN.copy)
+    runner_up: Array = field(default_factory=UNKNOWN.copy)
+    covariance: Array = field(default_factory=lambda: np.full((3, 3), np.nan))
+    k: float = np.nan
+    candidates: int = 0
+    region: int = 0
+    confidence: float = 0.0
+    misfit: float = np.nan
+    left_over: float = np.nan
+    arm: float = np.nan
+
+
+# ---- parts of a stream -------------------------------------------------------------------------
+
+
+@dataclass
+class Pose:
+    time: float
+    R: Array
+    p: Array
+
+
+class FrozenTest:
+    """(8)."""
+
+    def __init__(self, probability: float) -> None:
+        self.probability = probability
+        self.last, self.run, self.longest, self.repeats, self.seen, self.frozen = (
+            np.zeros(6),
+            0,
+            0,
+            0.0,
+            0.0,
+            False,
+        )
+
+    def see(self, channels: Array) -> bool:
+        if bool((channels == self.last).all()):
+            self.run += 1
+            if self.run >= LEAST_FROZEN:
+                p = min((self.repeats + 9) / (self.seen + 10), 0.999)
+                needed = max(
+                    int(np.ceil(np.log(self.probability) / np.log(p))), 2 * self.longest + LEAST_FROZEN
+                )
+                self.frozen = self.run >= needed
+            return self.frozen
+        told = min(self.run, LEAST_FROZEN) if self.frozen else self.run
+        self.repeats += told
+        self.seen += told + 1
+        if not self.frozen:
+            self.longest = max(self.longest, self.run)
+        if self.seen > FROZEN_MEMORY:
+            self.repeats, self.seen, self.longest = (
+                self.repeats / 2,
+                self.seen / 2,
+                self.longest - self.longest // 4,
+            )
+        self.last, self.run, self.frozen = channels.copy(), 0, False
+        return False
+
+
+class Kalman:
+    """(11)."""
+
+    def __init__(self, part: dict[str, Any] | None) -> None:
+        self.part = part
+        self.reset()
+
+    def reset(self) -> None:
+        self.v, self.x = np.inf, np.zeros(6)
+
+    def _q(self, dt: float) -> float:
+        assert self.part is not None
+        q: float = self.part["q"]
+        return q if self.part["per_sample"] else q * dt * self.part["tuned_rate_Hz"]
+
+    def take(self, z: Array, dt: float) -> Array:
+        if self.part is None:
+            return z
+        R = (
+            self.part["r"]
+            if self.part["per_sample"]
+            else self.part["r"] * self.part["rate_Hz"] / self.part["tuned_rate_Hz"]
+        )
+        G = 1.0 if np.isinf(self.v) else 1 / (1 + R / (self.v + self._q(dt)))
+        self.x, self.v = G * z + (1 - G) * self.x, G * R
+        return self.x
+
+    def skip(self, dt: float) -> None:
+        if self.part is not None and np.isfinite(self.v):
+            self.v += self._q(dt)
+
+
+class LowPass:
+    """(19)."""
+
+    def __init__(self, sections: list[list[float]]) -> None:
+        self.sections = sections
+        self.z: list[Array] | None = None
+
+    def reset(self) -> None:
+        self.z = None
+
+    def take(self, x: Array) -> Array:
+        if self.z is None:
+            self.z, g = [], 1.0
+            for b0, b1, b2, _, a1, a2 in self.sections:
+                Y = (b0 + b1 + b2) / (1 + a1 + a2)
+                self.z.append(np.array([g * (Y - b0) * x, g * (b2 - a2 * Y) * x]))
+                g *= Y
+        for z, (b0, b1, b2, _, a1, a2) in zip(self.z, self.sections, strict=True):
+            y = b0 * x + z[0]
+            z[0] = b1 * x - a1 * y + z[1]
+            z[1] = b2 * x - a2 * y
+            x = y
+        return x
+
+
+class TwoTouches:
+    """The state of (18)."""
+
+    def __init__(self) -> None:
+        self.before: tuple[Array, Touch] | None = None
+        self.later: tuple[Array, Touch] | None = None
+        self.age, self.doubts, self.told = 0, 0, False
+        self.second: Touch | None = None
+
+
+# ---- the runtime -------------------------------------------------------------------------------
+
+
+class Reference:
+    """A bundle's runtime (5): poses and samples, in the order in which they come."""
+
+    def __init__(self, folder: Path) -> None:
+        about = json.loads((folder / "contactbench.json").read_text(encoding="utf-8"))
+        self.mesh = read_mesh((folder / "probe.ply").read_bytes(), about["touch"], about["regions"])
+        gravity, self.gates, self.streams = about["gravity"], about["gates"], about["streams"]
+        self.g, self.L = np.array(gravity["gravity_W_N"]), np.array(gravity["centre_of_mass_S_m"])
+        self.bias = np.concatenate([gravity["force_bias_N"], gravity["torque_bias_Nm"]])
+        error = about["touch"]["model_error"]
+        sigma = np.concatenate([error["force_N"], error["torque_Nm"]])
+        self.C = np.array(about["noise"]["wrench_covariance"]) + np.diag(sigma**2)
+        self.arm = about["touch"]["torsion_arm_m"]
+        self.c_min = max(float(np.cos(self.gates["friction_angle_rad"])), STEEPEST)
+        self.rival, self.behind, self.follow = (
+            2 * float(np.log(self.gates[f"{name}_odds"])) for name in ("rival", "first", "follow")
+        )
+        self.limits = np.array([np.inf if each is None else each for each in self.gates["saturation"]])
+        quaternion = about["frames"]["quaternion_ES"]
+        self.R_ES = None
+        if quaternion is not None:
+            w, *v = np.array(quaternion) / np.linalg.norm(quaternion)
+            X = skew(np.array(v))
+            self.R_ES = np.eye(3) + 2 * w * X + 2 * X @ X
+        self.kalman = Kalman(about["filters"]["wrench"])
+        location = about["filters"]["location"]
+        self.low_pass = LowPass([] if location is None else location["sections"])
+        self.frozen = FrozenTest(self.streams["frozen_probability"])
+        self.poses: list[Pose] = []
+        self.fit: tuple[Pose, Array, Array, float] | None = None
+        self.start_anew()
+
+    def start_anew(self) -> None:
+        self.last_time: float | None = None
+        self.kalman.reset()
+        self.low_pass.reset()
+        self.wrench: Array | None = None
+        self.held: Array | None = None
+        self.previous: Array | None = None
+        self.misses = 0
+        self.pair = TwoTouches()
+        self.stale_count, self.stale_begin, self.stale_last = 0, 0.0, 0.0
+
+    # -- poses (6)
+
+    def pose(self, R: Array, p: Array, time: float) -> bool:
+        R_WS = R if self.R_ES is None else R @ self.R_ES
+        if not (np.isfinite(time) and np.isfinite(R_WS).all() and is_rotation(R_WS)):
+            return False
+        if self.poses and time <= self.poses[-1].time:
+            if self.poses[-1].time - time <= self.streams["pose_gap_s"]:
+                return False
+            self.poses.clear()
+        self.poses.append(Pose(time, R_WS, p if np.isfinite(p).all() else UNKNOWN))
+        del self.poses[:-POSE_CAPACITY]
+        if self.streams["motion"] is not None:
+            self.fit = self._fitted()
+        return True
+
+    def orientation(self, t: float) -> tuple[Array | None, float]:
+        gap = self.streams["pose_gap_s"]
+        base = len(self.poses) - 1
+        while base >= 0 and self.poses[base].time > t:
+            base -= 1
+        if base < 0:
+            return None, np.nan
+        a = self.poses[base]
+        age = t - a.time
+        if age == 0:
+            return a.R, age
+        if base + 1 < len(self.poses) and (wide := self.poses[base + 1].time - a.time) <= gap:
+            return self._moved(a, a, self.poses[base + 1], age / wide), age
+        if age > self.streams["pose_ahead_s"]:
+            return None, age
+        z = base
+        while (
+            z > 0
+            and a.time - self.poses[z].time < TWIST_SPAN
+            and self.poses[z].time - self.poses[z - 1].time <= gap
+        ):
+            z -= 1
+        if z == base:
+            return a.R, age
+        if np.linalg.norm(rotvec(self.poses[z].R.T @ a.R)) > MOST_TURN:
+            return None, age
+        return self._moved(a, self.poses[z], a, age / (a.time - self.poses[z].time)), age
+
+    @staticmethod
+    def _moved(c: Pose, a: Pose, b: Pose, q: float) -> Array:
+        turned: Array = c.R @ rot(q * rotvec(a.R.T @ b.R))
+        return turned
+
+    # -- motion (7)
+
+    def _fitted(self) -> tuple[Pose, Array, Array, float] | None:
+        window, newest = self.streams["motion"]["window_s"], self.poses[-1]
+        used: list[Pose] = []
+        for pose in reversed(self.poses):
+            if newest.time - pose.time > window or np.isnan(pose.p[0]):
+                break
+            used.append(pose)
+        if len(used) < LEAST_FIT or newest.time - used[-1].time < FIT_SPAN * window:
+            return None
+        U = np.array([[((pose.time - newest.time) / window) ** r for r in range(4)] for pose in used])
+        Y = np.array([[*(pose.p - newest.p), *rotvec(newest.R.T @ pose.R)] for pose in used])
+        K = np.linalg.inv(U.T @ U)
+        c = K @ (U.T @ Y)
+        left = (Y - U @ c)[:, :3]
+        variance = max(float((left**2).sum()) / (3 * (len(used) - 4)), FINEST**2)
+        return newest, c, K, variance
+
+    def load(self, R_WS: Array, t: float) -> tuple[Array, Array]:
+        """g' and C."""
+        if self.fit is None:
+            return self.g, self.C
+        newest, c, K, variance = self.fit
+        window, gyration = self.streams["motion"]["window_s"], self.streams["motion"]["gyration_m"]
+        u = (t - newest.time) / window
+        if t - newest.time > self.streams["pose_ahead_s"] or u < -1:
+            return self.g, self.C
+        b1, b2 = np.array([0, 1, 2 * u, 3 * u * u]) / window, np.array([0, 0, 2, 6 * u]) / window**2
+        seen, spread = (b2 @ c)[:3], float(b2 @ K @ b2) * variance
+        size2 = float(seen @ seen)
+        a = seen * max(0.0, 1 - 4 * spread / size2) if size2 > 0 else seen
+        spin, rate = newest.R @ (b1 @ c)[3:], newest.R @ (b2 @ c)[3:]
+        mass, r = float(np.linalg.norm(self.g)) / STANDARD_GRAVITY, R_WS @ self.L
+        inertial = mass * (a + np.cross(rate, r) + np.cross(spin, np.cross(spin, r)))
+        v = mass**2 * (
+            spread + UNFOLLOWED**2 * size2 + (FLANGE_LEVER * (np.linalg.norm(rate) + spin @ spin)) ** 2
+        )
+        X, q = skew(self.L), mass * gyration**2 * np.linalg.norm(rate)
+        more = np.block([[v * np.eye(3), v * X.T], [v * X, v * X @ X.T + q**2 * np.eye(3)]])
+        return self.g - inertial, self.C + more
+
+    # -- one sample (5)
+
+    def sample(self, channels: Array, time: float, arrival: float = np.nan, flags: int = 0) -> Answer:
+        out = Answer(time, latency=arrival - time)
+        out.health = self._health(channels, flags)
+        R_WS: Array | None = None
+        if np.isfinite(time):
+            R_WS, out.pose_age = self.orientation(time)
+            if R_WS is None:
+                out.health |= NO_POSE
+                return out
+        wrong = flags & ~(LATE | CLOCK)
+        over = bool((np.abs(channels) >= self.limits).any())
+        if wrong and not (wrong == OVERRANGE and over):
+            channels = np.full(6, np.nan)
+        if R_WS is None or not np.isfinite(channels).all():
+            out.reason = "not_finite"
+            return out
+        if self.last_time is not None and time <= self.last_time and not self._went_back(time):
+            return out
+        if not is_rotation(R_WS):
+            out.reason = "not_a_rotation"
+            return out
+        self._locate(channels, R_WS, time, out)
+        return out
+
+    def _health(self, channels: Array, flags: int) -> int:
+        health = FROZEN if self.frozen.see(channels) else 0
+        health |= FLAGGED if flags & ~(LATE | CLOCK) else 0
+        return health | (LEAPT if flags & CLOCK else 0)
+
+    def _went_back(self, time: float) -> bool:
+        """(9)."""
+        if self.stale_count == 0 or time <= self.stale_last:
+            self.stale_count, self.stale_begin = 0, time
+        self.stale_last = time
+        self.stale_count += 1
+        if self.stale_count > MOST_STALE or time - self.stale_begin > self.gates["max_age_s"]:
+            self.start_anew()
+            return True
+        return False
+
+    def _locate(self, channels: Array, R_WS: Array, time: float, out: Answer) -> None:
+        if self.last_time is not None and time - self.last_time > self.gates["max_age_s"]:
+            self.start_anew()
+        dt = 0.0 if self.last_time is None else time - self.last_time
+        self.last_time, self.stale_count = time, 0
+        saturated = bool((np.abs(channels) >= self.limits).any())
+        C = self.C
+        if saturated or out.health & (FROZEN | LEAPT):
+            self.kalman.skip(dt)
+            found = Found("saturated" if saturated else "unhealthy")
+            self._miss_or_take(found)
+        else:
+            g, C = self.load(R_WS, time)
+            weight = R_WS.T @ g
+            w = channels - self.bias - np.concatenate([weight, np.cross(self.L, weight)])
+            self.wrench = self.kalman.take(w, dt)
+            found = self.located(self.wrench, C, self.previous)
+            self._two_touches(self.wrench, C, found)
+            self._miss_or_take(found)
+        if self.wrench is not None:
+            out.wrench = self.wrench.copy()
+        self._describe(found, C, out)
+
+    def _describe(self, found: Found, C: Array, out: Answer) -> None:
+        out.reason, out.candidates, out.misfit = found.reason, found.candidates, found.misfit
+        out.left_over, out.arm, out.confidence = found.left_over, found.arm, found.confidence
+        out.accepted = out.health == 0 and self.taken(found.reason)
+        if found.chosen is not None and self.wrench is not None:
+            c = found.chosen
+            out.point, out.normal, out.k, out.region = c.point, c.normal, c.k, c.region
+            about = Wrench(self.mesh, self.wrench[:3], self.wrench[3:], C, self.arm)
+            out.covariance = about.covariance(c.face, c.point)
+            out.runner_up = UNKNOWN if found.runner_up is None else found.runner_up.point
+            out.second = UNKNOWN if found.second is None else found.second.point
+        if out.accepted:
+            self.held = self.low_pass.take(out.point)
+        elif self.previous is None:
+            self.low_pass.reset()
+            self.held = None
+        if self.held is not None:
+            out.filtered = self.held
+
+    # -- candidates and ranking (14, 15, 16)
+
+    def located(self, w: Array, C: Array, previous: Array | None) -> Found:
+        F, M, gates = w[:3], w[3:], self.gates
+        size = float(np.linalg.norm(F))
+        if size == 0 or size < gates["min_force_N"]:
+            return Found("low_force")
+        wrench = Wrench(self.mesh, F, M, C, self.arm)
+        arm, most = self.mesh.scale * wrench.h, gates["implausible_misfit"]
+        if float(wrench.mu @ wrench.mu) >= FAR**2:
+            return Found("implausible", misfit=max(most, wrench.h**2 / (wrench.ff + wrench.l2)), arm=arm)
+        fits = wrench.on_facets()
+        facing, d2, points, prior = (
+            -(self.mesh.normals @ wrench.f),
+            fits["d2"],
+            fits["point"],
+            self.mesh.prior,
+        )
+        near = np.zeros(len(d2))
+        if previous is not None:
+            near[np.linalg.norm(points - previous, axis=1) <= gates["follow_distance_m"]] = self.follow
+        usable = (facing >= self.c_min) & (d2 <= most)
+        if not usable.any():
+            return self._no_touch(wrench, fits, facing, arm)
+        key = np.where(usable, d2 - prior - near, np.inf)
+        best = int(key.argmin())  # the first, and so the lowest number, of equals
+        limit = key[best] + self.rival
+        key = np.where(usable, d2 - np.maximum(prior, prior[best]) - near, np.inf)
+        free, candidates, hidden = usable.copy(), [], False
+        while True:
+            c = self._touch(wrench, fits, best, float(near[best]))
+            candidates.append(c)
+            if not hidden and self._hides(c, candidates[0], wrench.f):
+                hidden, limit = True, limit + self.behind
+            d = points - c.point
+            away = np.sqrt(np.maximum(0, (d**2).sum(axis=1) - (d @ c.slope) ** 2))
+            free &= away > c.radius
+            left = np.where(free & (key <= limit), key, np.inf)
+            best = int(left.argmin())
+            if len(candidates) == MOST_CANDIDATES or np.isinf(left[best]):
+                break
+        return self._ranked(wrench, candidates, arm)
+
+    def _touch(self, wrench: Wrench, fits: dict[str, Any], face: int, near: float) -> Touch:
+        m, point = self.mesh, fits["point"][face]
+        V = wrench.at_touch(face, point)
+        larger = 0.5 * (V["aa"] + V["bb"]) + np.sqrt((0.5 * (V["aa"] - V["bb"])) ** 2 + V["ab"] ** 2)
+        n = m.normals[face]
+        whole = np.flatnonzero(fits["weights"][face] == 1)
+        return Touch(
+            face,
+            point,
+            n,
+            float(fits["k"][face]),
+            float(fits["d2"][face]),
+            float(m.prior[face]),
+            near,
+            int(m.faces[face][whole[-1]]) if len(whole) else -1,
+            int(m.region[face]),
+            max(self.gates["ambiguity_distance_m"], SAME_TOUCH * m.scale * float(np.sqrt(larger))),
+            wrench.f - (n @ wrench.f) * n,
+        )
+
+    def _hides(self, x: Touch, y: Touch, f: Array) -> bool:
+        return float((y.point - x.point) @ f) > BEHIND_DISTANCE and x.unhidden <= y.unhidden + self.behind
+
+    def _ranked(self, wrench: Wrench, candidates: list[Touch], arm: float) -> Found:
+        for y in candidates:
+            y.hidden = self.behind if any(self._hides(x, y, wrench.f) for x in candidates) else 0.0
+        chosen = min(candidates, key=lambda c: c.cost)
+        others = [c for c in candidates if c is not chosen]
+        delta = [c.cost - chosen.cost for c in others]
+        reason = "ok" if chosen.vertex < 0 else "vertex"
+        if any(each <= self.rival for each in delta):
+            reason = "ambiguous"
+        elif any(c.free - chosen.free <= self.rival for c in others):
+            reason = "by_region"
+        found = Found(
+            reason, chosen, min(others, key=lambda c: c.cost) if others else None, len(candidates), chosen.d2
+        )
+        found.arm, found.left_over = arm, self._left_over(wrench, chosen.point, chosen.normal, chosen.k)
+        found.confidence = 1 / (1 + sum(float(np.exp(-each / 2)) for each in delta))
+        if self.gates["region_only"] and (chosen.region == 0 or chosen.prior < 0):
+            found.reason, found.chosen, found.confidence = "outside_region", None, 0.0
+        return found
+
+    def _left_over(self, wrench: Wrench, point: Array, normal: Array, k: float) -> float:
+        most = float(np.sqrt(self.gates["implausible_misfit"])) * self.arm * wrench.size
+        rest = wrench.M - np.cross(point, wrench.F) - min(max(k, -most), most) * normal
+        return float(np.linalg.norm(rest))
+
+    def _no_touch(self, wrench: Wrench, fits: dict[str, Any], facing: Array, arm: float) -> Found:
+        found, d2 = Found("off_surface", arm=arm), fits["d2"]
+        if (facing >= self.c_min).any():
+            found.reason = "implausible"
+            best = int(np.where(facing >= self.c_min, d2 - self.mesh.prior.max(), np.inf).argmin())
+            found.misfit = float(d2[best])
+            found.left_over = self._left_over(
+                wrench, fits["point"][best], self.mesh.normals[best], float(fits["k"][best])
+            )
+        if self.c_min > GRAZING and ((facing >= GRAZING) & (d2 <= self.gates["implausible_misfit"])).any():
+            found.reason = "tangential"
+        return found
+
+    # -- following (17) and two touches (18)
+
+    def taken(self, reason: str) -> bool:
+        return reason in ("ok", "vertex") or (reason == "by_region" and self.gates["accept_by_region"])
+
+    def _miss_or_take(self, found: Found) -> None:
+        if self.taken(found.reason) and found.chosen is not None:
+            self.previous, self.misses = found.chosen.point, 0
+        elif found.reason == "two_touches":
+            self.misses = 0
+        else:
+            self.misses += 1
+            if self.misses > self.gates["recent_samples"]:
+                self.previous = None
+
+    def _two_touches(self, w: Array, C: Array, found: Found) -> None:
+        pair, following = self.pair, self.previous is not None
+        if not (following or pair.told) or found.reason == "low_force":
+            if found.reason == "low_force":
+                pair = self.pair = TwoTouches()
+            if not following:
+                self._note(w, found)
+            return
+        if pair.told and self._has_left(found):
+            pair = self.pair = TwoTouches()
+        if pair.told or self._suspicious(w, found):
+            second = self._second(w, C)
+            if second is not None:
+                pair.second, pair.told, pair.doubts = second, True, 0
+                assert pair.before is not None
+                found.reason, found.chosen, found.runner_up = "two_touches", pair.before[1], None
+                found.candidates, found.second = 1, second
+                return
+            if pair.told:
+                pair.doubts += 1
+                if pair.doubts <= self.gates["recent_samples"] and self._stepped(w):
+                    return
+                pair.told = False
+        self._note(w, found)
+
+    def _has_left(self, found: Found) -> bool:
+        c, second = found.chosen, self.pair.second
+        if c is None or second is None or not self.taken(found.reason):
+            return False
+        return float(np.linalg.norm(c.point - second.point)) <= max(c.radius, self.gates["follow_distance_m"])
+
+    def _stepped(self, w: Array) -> bool:
+        before = self.pair.before
+        return (
+            before is not None
+            and float(np.linalg.norm(w[:3] - before[0][:3])) >= 2 * self.gates["min_force_N"]
+        )
+
+    def _reach(self) -> float:
+        assert self.pair.before is not None
+        return max(self.gates["follow_distance_m"], self.pair.before[1].radius)
+
+    def _suspicious(self, w: Array, found: Found) -> bool:
+        if not self._stepped(w) or self.pair.before is None:
+            return False
+        if found.chosen is None:
+            return True
+        w0, touch = self.pair.before
+        jumped = float(np.linalg.norm(found.chosen.point - touch.point)) > self._reach()
+        return (
+            jumped
+            and float(np.linalg.norm(w[:3])) >= float(np.linalg.norm(w0[:3])) + self.gates["min_force_N"]
+        )
+
+    def _second(self, w: Array, C: Array) -> Touch | None:
+        if not self._stepped(w) or self.pair.before is None:
+            return None
+        w0, touch = self.pair.before
+        alone = self.located(w - w0, 2 * C, None)
+        if alone.reason not in POINTS or alone.chosen is None:
+            return None
+        far = float(np.linalg.norm(alone.chosen.point - touch.point))
+        return alone.chosen if far > 2 * max(alone.chosen.radius, self._reach()) else None
+
+    def _note(self, w: Array, found: Found) -> None:
+        if not self.taken(found.reason) or found.chosen is None:
+            return
+        pair, now = self.pair, (w.copy(), found.chosen)
+        if pair.before is not None:
+            pair.age += 1
+        if pair.before is None or 2 * pair.age >= self.gates["recent_samples"]:
+            pair.before, pair.later, pair.age = pair.later or now, now, 0
+
+    # -- no samples (20)
+
+    def silent(self, now: float) -> bool:
+        return self.last_time is None or now - self.last_time > self.streams["silence_s"]

@@ -1250,6 +1250,18 @@
         <translation>Seriennummer</translation>
     </message>
     <message>
+        <source>Name of the sensor in the robot description, for ros2.yaml</source>
+        <translation>Name des Sensors in der Roboterbeschreibung, für ros2.yaml</translation>
+    </message>
+    <message>
+        <source>to be filled in later</source>
+        <translation>wird später eingetragen</translation>
+    </message>
+    <message>
+        <source>Name in ROS</source>
+        <translation>Name in ROS</translation>
+    </message>
+    <message>
         <source>Who is answerable</source>
         <translation>Wer dafür verantwortlich ist</translation>
     </message>

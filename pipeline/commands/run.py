@@ -38,11 +38,11 @@ _SETTLED_S = 2.0  # a rate is known after that
         " end of a replay.\n\n"
         "Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on those whose"
         " accepted is true. A sample takes the orientation at its own time, between two poses or carried on from the"
-        " last one as far as the bundle allows; without one its reason is stale. A typed pose (still://) never gets old."
-        " Each contact says how old it is (latency_s) and what is wrong with the sensor or the poses (health); while"
-        " nothing comes, ten lines a second say silent. An output that is too slow loses contacts, and says how many; it"
-        " never delays the sensor. Exit code 1: not one sample came, more than 5 % of them could not be used, a stream"
-        " failed, or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
+        " last one as far as the bundle allows; without one its reason is stale. A typed pose (still://) never gets"
+        " old. Each contact says how old it is (latency_s) and what is wrong with the sensor or the poses (health);"
+        " while nothing comes, ten lines a second say silent. An output that is too slow loses contacts, and says how"
+        " many; it never delays the sensor. Exit code 1: not one sample came, more than 5 % of them could not be used,"
+        " a stream failed, or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
     ),
     epilog="Example: contactbench run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2"
     " --udp 127.0.0.1:9000",

@@ -10,8 +10,8 @@ from config.runtime.bundles import example
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
 from pipeline import kernel
+from pipeline.config.runtime.runtime_of import kernel_arguments
 from pipeline.filtering import KalmanFilter, LowPass
-from pipeline.runtime.engine import kernel_arguments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -21,7 +21,7 @@ from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 from pipeline import kernel
 from pipeline.config.runtime import RuntimeConfig
 from pipeline.config.runtime.canonical import encode_json
-from pipeline.runtime.engine import kernel_arguments
+from pipeline.config.runtime.runtime_of import kernel_arguments
 
 ROOT = Path(__file__).parents[2]
 SOURCE, BUILD = ROOT / "pipeline/kernel/runtime", ROOT / "build/runtime"

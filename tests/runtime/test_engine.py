@@ -13,9 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from pipeline import kernel
 from pipeline.config.runtime import RuntimeConfig
+from pipeline.config.runtime.runtime_of import kernel_arguments, make_runtime
 from pipeline.devices.sample import FlangeSample, Status
 from pipeline.runtime import Engine
-from pipeline.runtime.engine import kernel_arguments, make_runtime
 from pipeline.runtime.lines import health_names
 
 if TYPE_CHECKING:

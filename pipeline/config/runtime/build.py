@@ -28,6 +28,7 @@ from pipeline.config.runtime.model import (
 )
 from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
 from pipeline.config.runtime.planes import encode_planes
+from pipeline.config.runtime.self_test import with_self_test
 from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from pipeline.config.vertical import vertical_residual
 from pipeline.contact.touch_model import TouchModel
@@ -170,7 +171,7 @@ def build_config(
         "controller": controller,
         "limits": limits,
         "verification": verification,
-        "self_test": None,
+        "self_test": None,  # needs the config; see below
         "verified": not reasons,
         **_surface(probe_file, gates),
         "provenance": {
@@ -189,7 +190,7 @@ def build_config(
         raise ConfigError(f"the config cannot be made: {fault_of(error)}.") from None
     probe = _painted(probe_file)
     check_config(checked, probe, files, "the config cannot be made")
-    return RuntimeConfig(checked, probe, MappingProxyType(files))
+    return with_self_test(RuntimeConfig(checked, probe, MappingProxyType(files)))
 
 
 def reasons_against(

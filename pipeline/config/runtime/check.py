@@ -12,6 +12,7 @@ from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.model import VERSION
 from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
 from pipeline.config.runtime.planes import check_planes
+from pipeline.config.runtime.self_test import check_self_test
 from pipeline.config.runtime.values import (
     gates_of,
     gravity_of,
@@ -263,6 +264,7 @@ def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes], 
     ):
         if told != name:
             _refuse(field, f"is {told!r}, not {name!r}.")
+    check_self_test(model, files)
     check_planes(files[PLANES], probe, PLANES)
     if model.planes.count != len(probe.faces):
         _refuse("planes.count", f"is {model.planes.count}, but {PLANES} has {len(probe.faces)}.")

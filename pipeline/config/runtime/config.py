@@ -8,6 +8,7 @@ A runtime config: one folder or zip file that a robot's controller loads.
 ``planes.csv``            its facets as planes in priority order
 ``ros2.yaml``             for ros2_control: offsets and gravity compensation
 ``ft_calib.yaml``         for force_torque_tools; not for a sensor that carries no weight
+``self_test.csv``         samples, and the answers that every runtime must give, see docs/bundle.md
 ``report.html``           the verification report, if there is one
 ========================  ==========================================================================================
 """

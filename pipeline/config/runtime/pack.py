@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 CONFIG, CHECKSUM = "contactbench.json", "contactbench.sha256"
 PROBE, PLANES, ROS2, FT_CALIB, REPORT = "probe.ply", "planes.csv", "ros2.yaml", "ft_calib.yaml", "report.html"
+SELF_TEST = "self_test.csv"
 NEEDED = (CONFIG, CHECKSUM, PROBE, PLANES, ROS2)
-KNOWN = (*NEEDED, FT_CALIB, REPORT)
+KNOWN = (*NEEDED, FT_CALIB, SELF_TEST, REPORT)
 
 MOST_FILES = 50
 LARGEST_FILE = 200 * 2**20

@@ -16,6 +16,7 @@ import numpy as np
 
 from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.model import SelfTestPart
+from pipeline.config.runtime.pack import SELF_TEST
 from pipeline.config.runtime.runtime_of import make_runtime
 from pipeline.config.runtime.synthetic import PoseRow, Row, SampleRow, synthetic_stream
 
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from pipeline.config.runtime.config import RuntimeConfig
     from pipeline.config.runtime.model import RuntimeModel
 
-SELF_TEST: Final = "self_test.csv"
 SAMPLES: Final = 300
 _TOLERANCE = 1e-9  # other processors and libraries round otherwise
 _DECIMALS = 12
@@ -143,8 +143,7 @@ def _names_of(contact: kernel.RuntimeContact) -> tuple[str, ...]:
 
 
 def _numbers_of(contact: kernel.RuntimeContact) -> tuple[float, ...]:
-    # Where a second touch pulls at the first, the covariance is large, and the last bits of angles decide how large.
-    covariance = contact.covariance if contact.second is None else None
+    covariance = contact.covariance
     sigmas = None if covariance is None else np.sqrt(np.maximum(np.diag(covariance), 0.0))
     return (
         contact.pose_age,

@@ -207,7 +207,7 @@ nb::object point_or_none(const double* p) {
 }
 
 nb::object covariance_or_none(const RuntimeContact& c) {
-    if (std::isnan(c.point[0])) return nb::none();
+    if (std::isnan(c.covariance[0])) return nb::none();
     return make_array(std::vector<double>(c.covariance, c.covariance + 9), {3, 3});
 }
 

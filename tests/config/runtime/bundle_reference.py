@@ -640,7 +640,8 @@ class Reference:
             c = found.chosen
             out.point, out.normal, out.k, out.region = c.point, c.normal, c.k, c.region
             about = Wrench(self.mesh, self.wrench[:3], self.wrench[3:], C, self.arm)
-            out.covariance = about.covariance(c.face, c.point)
+            if found.second is None:
+                out.covariance = about.covariance(c.face, c.point)
             out.runner_up = UNKNOWN if found.runner_up is None else found.runner_up.point
             out.second = UNKNOWN if found.second is None else found.second.point
         if out.accepted:

@@ -484,7 +484,7 @@ def test_differences_are_named_with_what_they_mean():
     fields = {each.field: each for each in found.fields}
     assert (fields["verified"].one, fields["verified"].other) == (True, False)
     assert fields["probe.facets"].meaning == "another surface"
-    assert found.files == ("planes.csv", "probe.ply")
+    assert found.files == ("planes.csv", "probe.ply", "self_test.csv")
     assert io.StringIO(json.dumps(found.to_json())).read()
 
 

@@ -187,8 +187,9 @@ def damaged(files: dict[str, bytes]) -> Iterator[tuple[str, dict[str, bytes]]]:
             "line 3",
             with_file(files, b"\n".join([*lines[:2], b",".join([*row[:3], flags, *row[4:]]), *lines[3:]])),
         )
-    yield "samples", with_file(files, b"\n".join([*lines[:-2], b""]))
-    yield "samples", with_file(files, data + lines[-2] + b"\n")
+    last = max(number for number, line in enumerate(lines) if line.startswith(b"sample"))
+    yield "samples", with_file(files, b"\n".join([*lines[:last], *lines[last + 1 :]]))
+    yield "samples|line", with_file(files, data + lines[last] + b"\n")
 
 
 def test_a_file_that_is_no_self_test_is_refused(files: dict[str, bytes]) -> None:

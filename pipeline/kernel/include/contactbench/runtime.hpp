@@ -336,8 +336,10 @@ private:
         put(out.normal, c->normal);
         out.torque_about_normal = c->torque;
         out.face = c->face, out.vertex = c->vertex, out.region = c->region;
-        const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face);
-        std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
+        if (!answer_.has_second) {  // the force is that of both: it says little of where each one is
+            const Mat3 s = solver_.covariance(filtered_, c->point, c->normal, c->face);
+            std::copy(&s.m[0][0], &s.m[0][0] + 9, out.covariance);
+        }
         if (const Candidate* other = runner_up(answer_)) put(out.runner_up, other->point);
         if (answer_.has_second) put(out.second, answer_.second.point);
     }

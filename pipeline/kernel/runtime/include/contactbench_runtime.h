@@ -111,7 +111,7 @@ typedef struct {
     double point[3], normal[3]; /* outward */
     double torque_about_normal; /* local torque k on the probe, k * normal */
     double force[3], torque[3]; /* on the probe, about the origin of S: compensated, filtered */
-    double covariance[9];       /* of `point`, m^2 */
+    double covariance[9];       /* of `point`, m^2; not for CB_TWO_TOUCHES */
     double filtered_point[3];   /* low-passed; held while contact is lost for a moment */
     double misfit;       /* of the best touch, in standard deviations squared: about 1 where the model is right */
     double left_over;    /* torque that the best touch does not explain, N*m */

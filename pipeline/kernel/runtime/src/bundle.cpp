@@ -106,6 +106,8 @@ Bundle load_bundle(const std::string& folder) {
     Bundle bundle{read_config(text), nullptr};
     check_verified(root);
     check_hashes(files, bundle.config);
+    if (bundle.config.self_test != (files.count(self_test_name) ? self_test_name : ""))
+        refuse_file(CB_ERROR_VALUE, config_name, "self_test.file is not what the bundle holds");
     ProbeMesh mesh = read_probe(files.at(bundle.config.probe_file), bundle.config, colours_of(root["regions"]));
     check_probe(mesh, bundle.config);
     check_planes(files.at(planes_name), mesh, bundle.config);

@@ -20,7 +20,7 @@ namespace contactbench::runtime {
 namespace {
 
 constexpr const char* needed[] = {config_name, checksum_name, "probe.ply", planes_name, ros2_name};
-constexpr const char* optional[] = {ft_calib_name, "report.html"};
+constexpr const char* optional[] = {ft_calib_name, self_test_name, "report.html"};
 constexpr off_t largest_config = 1 << 20, largest_file = 200 << 20;
 constexpr int tries = 100;
 

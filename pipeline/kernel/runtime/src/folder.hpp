@@ -10,6 +10,7 @@ namespace contactbench::runtime {
 
 inline constexpr const char *config_name = "contactbench.json", *checksum_name = "contactbench.sha256";
 inline constexpr const char *planes_name = "planes.csv", *ros2_name = "ros2.yaml", *ft_calib_name = "ft_calib.yaml";
+inline constexpr const char* self_test_name = "self_test.csv";
 
 using Files = std::map<std::string, std::string>;
 

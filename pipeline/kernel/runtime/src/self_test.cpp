@@ -80,9 +80,8 @@ private:
         std::vector<double> here{c.pose_age};
         const auto add = [&](const double* values, std::size_t count) { here.insert(here.end(), values, values + count); };
         add(c.wrench, 6), add(c.point, 3), add(c.normal, 3), add(c.filtered_point, 3), add(c.second, 3);
-        // Where a second touch pulls at the first, the covariance is large, and the last bits of angles decide how large.
-        const bool told = std::isnan(c.second[0]);
-        for (const int i : {0, 4, 8}) here.push_back(told ? std::sqrt(larger(c.covariance[i], 0.0)) : detail::unknown);
+        // -0 and rounding below 0 are 0; NaN stays.
+        for (const int i : {0, 4, 8}) here.push_back(std::sqrt(c.covariance[i] < 0.0 ? 0.0 : c.covariance[i]));
         add(&c.confidence, 1), add(&c.misfit, 1), add(&c.left_over, 1);
         for (std::size_t i = 0; i < here.size(); ++i) {
             const std::string_view cell = cells[inputs + names + i];

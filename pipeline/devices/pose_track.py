@@ -23,6 +23,7 @@ LONGEST_AHEAD_S = 0.15
 """After the last pose: so far it is carried on by the last twist. Poses of 10 Hz with jitter cover every sample."""
 
 _KEPT = 512
+_IDENTITY, _ORTHOGONAL = np.eye(3), 1e-3
 
 
 def poses_at(
@@ -100,7 +101,7 @@ class PoseTrack:
         with self._lock:
             for sample in samples:
                 R = np.asarray(sample.R_BE, dtype=np.float64)
-                if not (np.isfinite(R).all() and np.linalg.det(R) > 0.5):
+                if not (np.abs(R.T @ R - _IDENTITY) <= _ORTHOGONAL).all() or np.linalg.det(R) < 0:
                     continue
                 if self._poses and sample.time < self._poses[-1][0] - LONGEST_GAP_S:
                     self._poses.clear()  # the clock was set back

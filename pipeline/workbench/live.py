@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.devices.pose_track import PoseTrack
+from pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
 from pipeline.devices.sample import FROZEN_CHANCE, Status
 from pipeline.devices.url import DeviceAddress
 from pipeline.kernel import FrozenDetector
@@ -31,9 +31,6 @@ __all__ = ["Block", "Live", "Reading", "Tap"]
 
 _KEPT = 120_000  # samples: 120 s at 1 kHz, 10 minutes at 200 Hz; 20 MB
 _USUAL_HZ = 200.0
-# How long a sample waits for the pose after it, on the samples' clock: a pose of 50 Hz is there by then, and no
-# hand feels it.
-_PATIENCE_S = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -301,8 +298,9 @@ class Live:
         pair = self.pair
         if pair is not None and pair.poses is not None:
             newest = waiting[-1].time
-            # Where the poses are late, or have stopped, samples do not wait for ever.
-            until = max(self._track.newest, newest - _PATIENCE_S)
+            # A sample waits for the pose after it, as a recording would have it; poses of 50 Hz are soon there. Where
+            # they are late, or have stopped, it waits no longer than the last one is carried on.
+            until = max(self._track.newest, newest - LONGEST_AHEAD_S)
             count = sum(sample.time <= until for sample in waiting)
         if count:
             self._waiting = waiting[count:]

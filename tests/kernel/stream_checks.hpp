@@ -102,6 +102,28 @@ inline void check_frozen() {
         for (double& x : w) x += step;
         CHECK(!detector.see(w, chance));  // it lives again
     }
+    // One hang does not hide the next.
+    for (const int first : {100, 0}) {
+        FrozenDetector detector;
+        double w[6];
+        const auto lives = [&](int count) {
+            for (int i = 0; i < count; ++i) {
+                for (double& x : w) x = random.normal();
+                detector.see(w, chance);
+            }
+        };
+        const auto hangs = [&](int count) {
+            int missed = 0;
+            for (double& x : w) x = random.normal();
+            for (int i = 0; i < count; ++i) missed += !detector.see(w, chance);
+            return missed;
+        };
+        hangs(first);
+        lives(2000);
+        if (first == 0)
+            for (const int length : {4, 12, 28, 60}) hangs(length + 1), lives(200);
+        CHECK(hangs(200) < 40);
+    }
     // From the first sample on.
     FrozenDetector detector;
     const double w[6] = {1, 2, 3, 4, 5, 6};
@@ -118,8 +140,8 @@ inline void check_motion() {
     auto track = std::make_unique<PoseTrack>();
     MotionFit fit;
     Motion motion;
-    fit.see(*track, 0.15);
-    CHECK(!fit.at(0.0, 0.15, motion));
+    fit.see(*track, policy, 0.15, HUGE_VAL);
+    CHECK(!fit.at(0.0, policy, motion));
     const double w = 2.0 * M_PI, amplitude = 1.0 / (w * w);  // 1 m/s^2
     double worst = 0.0, square = 0.0, count = 0.0;
     for (int i = 0; i < 1250; ++i) {
@@ -127,9 +149,9 @@ inline void check_motion() {
         Pose pose = swung(t, {0.2, -0.25, 0.1}, amplitude);
         for (double& x : pose.p) x += 2e-5 * random.normal();
         track->add(pose, policy);
-        fit.see(*track, 0.15);
+        fit.see(*track, policy, 0.15, HUGE_VAL);
         if (i < 30) continue;
-        CHECK(fit.at(t + 0.004, 0.15, motion));
+        CHECK(fit.at(t + 0.004, policy, motion));
         const double off = motion.acceleration.x + std::sin(w * (t + 0.004));
         worst = std::max(worst, std::fabs(off) / motion.sigma);
         square += off * off, count += 1.0;
@@ -146,10 +168,39 @@ inline void check_motion() {
         pose.p[1] = 0.0;
         for (double& x : pose.p) x += 2e-5 * random.normal();
         track->add(pose, policy);
-        fit.see(*track, 0.15);
-        if (i > 30 && fit.at(pose.time, 0.15, motion)) moved += norm(motion.acceleration) > 0.0, count += 1.0;
+        fit.see(*track, policy, 0.15, HUGE_VAL);
+        if (i > 30 && fit.at(pose.time, policy, motion)) moved += norm(motion.acceleration) > 0.0, count += 1.0;
     }
-    CHECK(moved / count < 0.35);
+    CHECK(moved / count < 0.1);
+    // A sample that comes late is asked for with the poses around it.
+    track->clear();
+    for (int i = 0; i < 250; ++i) track->add(swung(0.008 * i, {}, amplitude), policy);
+    for (double t = 0.5; t < 1.5; t += 0.013) {
+        fit.see(*track, policy, 0.15, t + 0.075);
+        CHECK(fit.at(t, policy, motion) && std::fabs(motion.acceleration.x + std::sin(w * t)) < 0.02);
+    }
+    // Poses that come too slowly for a cubic tell how hard it is accelerated, and nothing to take off.
+    for (const double period : {0.03, 0.1, 0.2}) {
+        track->clear();
+        double least = HUGE_VAL;
+        for (int i = 0; i < 60; ++i) {
+            track->add(swung(period * i, {}, amplitude), policy);
+            fit.see(*track, policy, 0.15, HUGE_VAL);
+            if (period * i < 0.5) continue;
+            CHECK(fit.at(period * i, policy, motion) && norm(motion.acceleration) == 0.0);
+            least = std::min(least, motion.sigma - 0.3 * std::fabs(std::sin(w * period * i)));
+        }
+        CHECK(least > 0.0);
+    }
+    // Positions that no robot can have taken are none.
+    track->clear();
+    for (int i = 0; i < 60; ++i) {
+        Pose pose = swung(0.008 * i, {});
+        for (double& x : pose.p) x = 1e6 * random.normal();
+        track->add(pose, policy);
+        fit.see(*track, policy, 0.15, HUGE_VAL);
+        CHECK(!fit.at(pose.time, policy, motion));
+    }
     // Without positions there is no motion to speak of.
     track->clear();
     for (int i = 0; i < 100; ++i) {
@@ -157,8 +208,8 @@ inline void check_motion() {
         pose.p[0] = NAN;
         track->add(pose, policy);
     }
-    fit.see(*track, 0.15);
-    CHECK(!fit.at(0.8, 0.15, motion));
+    fit.see(*track, policy, 0.15, HUGE_VAL);
+    CHECK(!fit.at(0.8, policy, motion));
 }
 
 inline void check_streams() {

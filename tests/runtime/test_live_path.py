@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 from config.runtime.bundles import example
-from runtime.runtime_recordings import BEGIN, flange
+from runtime.runtime_recordings import BEGIN, flange, wrench
 from scipy.signal import butter, sosfilt
 from scipy.spatial.transform import Rotation
 from verification.touch_cases import MODEL, RATE, Push, protocol, stream
@@ -19,7 +19,7 @@ from pipeline.devices.emulate import Fault, FaultEvent, Script
 from pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
 from pipeline.devices.emulate.signals import Truth
 from pipeline.devices.protocols import bota, rdt, robotiq, sri
-from pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, WrenchSample
+from pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from pipeline.runtime import Engine, Run
 from pipeline.runtime.lines import health_names
@@ -243,7 +243,8 @@ def swaying(time: float) -> Rotation:
 
 
 @pytest.mark.parametrize(
-    ("turned", "pose_rate", "jitter"), [(turning, 10.0, 0.0), (turning, 10.0, 0.02), (swaying, 25.0, 0.0)]
+    ("turned", "pose_rate", "jitter"),
+    [(turning, 10.0, 0.0), (turning, 10.0, 0.02), (swaying, 25.0, 0.0), (swaying, 10.0, 0.02)],
 )
 def test_touches_are_where_the_recording_of_them_says(
     tmp_path: Path, turned: Callable[[float], Rotation], pose_rate: float, jitter: float
@@ -296,3 +297,44 @@ def places(times: NDArray[Any], wrenches: NDArray[Any], R_WS: NDArray[Any]) -> N
     events = [*followed.feed(times, MODEL.compensate(R_WS, wrenches), R_WS, None), *followed.finish()]
     touches = [event.touch for event in events if event.touch is not None]
     return np.array([each.located.point for each in touches if each.located is not None])
+
+
+def test_a_sensor_that_speaks_without_poses_or_measurements_is_not_silent() -> None:
+    engine = Engine(example())
+    for i in range(50):
+        engine.locate(wrench(BEGIN + 0.01 * i, np.zeros(6)))
+    assert engine.silent(BEGIN + 0.5) is None
+    assert engine.silent(BEGIN + 0.7) is not None
+    engine.poses([flange(BEGIN + 1.0, np.eye(3))])
+    engine.locate(wrench(BEGIN + 1.0, np.zeros(6), Status.INVALID))
+    assert engine.silent(BEGIN + 1.1) is None
+
+
+def test_poses_that_came_almost_at_once_do_not_throw_the_tool_about() -> None:
+    engine, (_, pushed) = Engine(example()), touch()
+    trembled = Rotation.from_rotvec([0.0, 2e-5, 1e-5]).as_matrix()
+    engine.poses([flange(BEGIN, np.eye(3)), flange(BEGIN + 1e-6, trembled)])
+    answer = engine.locate(wrench(BEGIN + 0.14, example().gravity.predict(np.eye(3)) + pushed))
+    assert answer.contact is not None
+    assert answer.contact.wrench == pytest.approx(pushed, abs=1e-3)
+
+
+@pytest.mark.parametrize("first", [100, 0])
+def test_one_hang_does_not_hide_the_next(first: int) -> None:
+    """Constant readings while a sensor starts, or spells of hanging that get longer and longer."""
+    rng, detector = np.random.default_rng(5), kernel.FrozenDetector()
+
+    def lives(count: int) -> None:
+        for row in rng.normal(size=(count, 6)).tolist():
+            detector.see(tuple(row), FROZEN_CHANCE)
+
+    def hangs(count: int) -> int:
+        row = tuple(rng.normal(size=6).tolist())
+        return [detector.see(row, FROZEN_CHANCE) for _ in range(count)].count(False)
+
+    hangs(first)
+    lives(2_000)
+    for length in () if first else (4, 12, 28, 60):
+        hangs(length + 1)
+        lives(200)
+    assert hangs(200) < 40  # 0.2 s at 200 Hz

@@ -6,6 +6,7 @@ Nothing of the project is imported. Numbers in brackets are sections of the page
 
 from __future__ import annotations
 
+import itertools
 import json
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,8 +21,9 @@ BEHIND_DISTANCE, SAME_TOUCH, MOST_CANDIDATES = 0.003, 4.5, 8
 STEEPEST, GRAZING, SHARP = 0.001, 0.0174524064372835, 0.7660444431189780
 LEAST_VARIANCE, MOST_Q, FAR = 1e-12, 1.75, 1000.0
 MOST_STALE, LEAST_FROZEN, FROZEN_MEMORY = 50, 5, 20000
-TWIST_SPAN, MOST_TURN, POSE_CAPACITY = 0.04, 2.6, 512
+TWIST_SPAN, MOST_TURN, POSE_CAPACITY = 0.04, 1.5, 512
 LEAST_FIT, FIT_SPAN, FINEST, UNFOLLOWED, FLANGE_LEVER = 8, 0.7, 2e-5, 0.1, 0.05
+DOUBT, MOST_ACCELERATION, BEND_SPAN = 8, 100.0, 0.07
 LATE, CLOCK, OVERRANGE = 8, 32, 1
 FROZEN, SILENT, FLAGGED, NO_POSE, LEAPT = 1, 2, 4, 8, 16
 POINTS = {"ok", "vertex", "ambiguous", "by_region", "two_touches"}
@@ -329,14 +331,8 @@ class FrozenTest:
 
     def __init__(self, probability: float) -> None:
         self.probability = probability
-        self.last, self.run, self.longest, self.repeats, self.seen, self.frozen = (
-            np.zeros(6),
-            0,
-            0,
-            0.0,
-            0.0,
-            False,
-        )
+        self.last, self.run, self.longest, self.frozen = np.zeros(6), 0, [0, 0], False
+        self.repeats, self.seen = 0.0, 0.0
 
     def see(self, channels: Array) -> bool:
         if bool((channels == self.last).all()):
@@ -344,7 +340,7 @@ class FrozenTest:
             if self.run >= LEAST_FROZEN:
                 p = min((self.repeats + 9) / (self.seen + 10), 0.999)
                 needed = max(
-                    int(np.ceil(np.log(self.probability) / np.log(p))), 2 * self.longest + LEAST_FROZEN
+                    int(np.ceil(np.log(self.probability) / np.log(p))), 3 * self.longest[1] + LEAST_FROZEN
                 )
                 self.frozen = self.run >= needed
             return self.frozen
@@ -352,13 +348,10 @@ class FrozenTest:
         self.repeats += told
         self.seen += told + 1
         if not self.frozen:
-            self.longest = max(self.longest, self.run)
+            self.longest = sorted([*self.longest, self.run], reverse=True)[:2]
         if self.seen > FROZEN_MEMORY:
-            self.repeats, self.seen, self.longest = (
-                self.repeats / 2,
-                self.seen / 2,
-                self.longest - self.longest // 4,
-            )
+            self.repeats, self.seen = self.repeats / 2, self.seen / 2
+            self.longest = [length - length // 4 for length in self.longest]
         self.last, self.run, self.frozen = channels.copy(), 0, False
         return False
 
@@ -462,7 +455,7 @@ class Reference:
         self.low_pass = LowPass([] if location is None else location["sections"])
         self.frozen = FrozenTest(self.streams["frozen_probability"])
         self.poses: list[Pose] = []
-        self.fit: tuple[Pose, Array, Array, float] | None = None
+        self.heard: float | None = None
         self.start_anew()
 
     def start_anew(self) -> None:
@@ -488,8 +481,6 @@ class Reference:
             self.poses.clear()
         self.poses.append(Pose(time, R_WS, p if np.isfinite(p).all() else UNKNOWN))
         del self.poses[:-POSE_CAPACITY]
-        if self.streams["motion"] is not None:
-            self.fit = self._fitted()
         return True
 
     def orientation(self, t: float) -> tuple[Array | None, float]:
@@ -518,7 +509,7 @@ class Reference:
             return a.R, age
         if np.linalg.norm(rotvec(self.poses[z].R.T @ a.R)) > MOST_TURN:
             return None, age
-        return self._moved(a, self.poses[z], a, age / (a.time - self.poses[z].time)), age
+        return self._moved(a, self.poses[z], a, age / max(a.time - self.poses[z].time, TWIST_SPAN)), age
 
     @staticmethod
     def _moved(c: Pose, a: Pose, b: Pose, q: float) -> Array:
@@ -527,10 +518,10 @@ class Reference:
 
     # -- motion (7)
 
-    def _fitted(self) -> tuple[Pose, Array, Array, float] | None:
-        window, newest = self.streams["motion"]["window_s"], self.poses[-1]
+    def _fitted(self, poses: list[Pose]) -> tuple[Pose, Array, Array, float] | None:
+        window, newest = self.streams["motion"]["window_s"], poses[-1]
         used: list[Pose] = []
-        for pose in reversed(self.poses):
+        for pose in reversed(poses):
             if newest.time - pose.time > window or np.isnan(pose.p[0]):
                 break
             used.append(pose)
@@ -544,34 +535,67 @@ class Reference:
         variance = max(float((left**2).sum()) / (3 * (len(used) - 4)), FINEST**2)
         return newest, c, K, variance
 
+    def _bend(self, poses: list[Pose]) -> float | None:
+        nodes = [poses[-1]] if np.isfinite(poses[-1].p).all() else []
+        for after, pose in zip(reversed(poses[1:]), reversed(poses[:-1]), strict=True):
+            wide = after.time - pose.time > self.streams["pose_gap_s"]
+            if not nodes or len(nodes) == 4 or wide or np.isnan(pose.p[0]):
+                break
+            if nodes[-1].time - pose.time >= BEND_SPAN:
+                nodes.append(pose)
+        if len(nodes) < 3:
+            return None
+        slopes = [(a.p - b.p) / (a.time - b.time) for a, b in itertools.pairwise(nodes)]
+        spans = [nodes[i].time - nodes[i + 2].time for i in range(len(nodes) - 2)]
+        bends = [2 * (a - b) / s for (a, b), s in zip(itertools.pairwise(slopes), spans, strict=True)]
+        largest = max(float(np.linalg.norm(bend)) for bend in bends)
+        return largest if largest <= MOST_ACCELERATION else None
+
     def load(self, R_WS: Array, t: float) -> tuple[Array, Array]:
         """g' and C."""
-        if self.fit is None:
+        motion = self.streams["motion"]
+        poses = self.poses
+        if motion is not None and poses and poses[-1].time - t > motion["window_s"] / 2:
+            poses = [pose for pose in poses if pose.time <= t + motion["window_s"] / 2]
+        if motion is None or not poses or t - poses[-1].time > self.streams["pose_ahead_s"]:
             return self.g, self.C
-        newest, c, K, variance = self.fit
-        window, gyration = self.streams["motion"]["window_s"], self.streams["motion"]["gyration_m"]
+        mass = float(np.linalg.norm(self.g)) / STANDARD_GRAVITY
+        fit = self._fitted(poses)
+        if fit is None:
+            bend = self._bend(poses)
+            if bend is None or poses[-1].time - t > self.streams["pose_gap_s"]:
+                return self.g, self.C
+            return self.g, self.C + self._share((mass * bend) ** 2, 0.0)
+        newest, c, K, variance = fit
+        window, gyration = motion["window_s"], motion["gyration_m"]
         u = (t - newest.time) / window
-        if t - newest.time > self.streams["pose_ahead_s"] or u < -1:
+        if u < -1:
             return self.g, self.C
         b1, b2 = np.array([0, 1, 2 * u, 3 * u * u]) / window, np.array([0, 0, 2, 6 * u]) / window**2
         seen, spread = (b2 @ c)[:3], float(b2 @ K @ b2) * variance
         size2 = float(seen @ seen)
-        a = seen * max(0.0, 1 - 4 * spread / size2) if size2 > 0 else seen
+        if max(size2, spread + UNFOLLOWED**2 * size2) > MOST_ACCELERATION**2:
+            return self.g, self.C
+        a = seen * max(0.0, 1 - DOUBT * spread / size2) if size2 > 0 else seen
         spin, rate = newest.R @ (b1 @ c)[3:], newest.R @ (b2 @ c)[3:]
-        mass, r = float(np.linalg.norm(self.g)) / STANDARD_GRAVITY, R_WS @ self.L
+        r = R_WS @ self.L
         inertial = mass * (a + np.cross(rate, r) + np.cross(spin, np.cross(spin, r)))
         v = mass**2 * (
             spread + UNFOLLOWED**2 * size2 + (FLANGE_LEVER * (np.linalg.norm(rate) + spin @ spin)) ** 2
         )
-        X, q = skew(self.L), mass * gyration**2 * np.linalg.norm(rate)
-        more = np.block([[v * np.eye(3), v * X.T], [v * X, v * X @ X.T + q**2 * np.eye(3)]])
-        return self.g - inertial, self.C + more
+        return self.g - inertial, self.C + self._share(v, float(mass * gyration**2 * np.linalg.norm(rate)))
+
+    def _share(self, v: float, q: float) -> Array:
+        X = skew(self.L)
+        more: Array = np.block([[v * np.eye(3), v * X.T], [v * X, v * X @ X.T + q**2 * np.eye(3)]])
+        return more
 
     # -- one sample (5)
 
     def sample(self, channels: Array, time: float, arrival: float = np.nan, flags: int = 0) -> Answer:
         out = Answer(time, latency=arrival - time)
         out.health = self._health(channels, flags)
+        self.heard = arrival if np.isfinite(arrival) else time
         R_WS: Array | None = None
         if np.isfinite(time):
             R_WS, out.pose_age = self.orientation(time)
@@ -847,4 +871,4 @@ class Reference:
     # -- no samples (20)
 
     def silent(self, now: float) -> bool:
-        return self.last_time is None or now - self.last_time > self.streams["silence_s"]
+        return self.heard is None or abs(now - self.heard) > self.streams["silence_s"]

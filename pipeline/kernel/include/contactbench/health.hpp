@@ -36,8 +36,11 @@ public:
         // A run that was told frozen and ended says little of how often a healthy sensor repeats itself.
         const double told = frozen_ ? std::min(double(run_), double(least)) : double(run_);
         repeats_ += told, seen_ += told + 1.0;
-        if (!frozen_) longest_ = std::max(longest_, run_);
-        if (seen_ > memory) repeats_ *= 0.5, seen_ *= 0.5, longest_ -= longest_ / 4;
+        if (!frozen_) keep(run_);
+        if (seen_ > memory) {
+            repeats_ *= 0.5, seen_ *= 0.5;
+            for (std::int64_t& length : longest_) length -= length / 4;
+        }
         std::copy(wrench, wrench + 6, last_);
         run_ = 0;
         return frozen_ = false;
@@ -47,17 +50,24 @@ public:
 
 private:
     static constexpr std::int64_t least = 5;
+    static constexpr int kept = 2;
     static constexpr double memory = 20000.0;
 
-    // Repeats that come in clusters (a slow signal, coarsely counted) make longer runs than independent ones would.
+    void keep(std::int64_t run) noexcept {
+        for (std::int64_t& length : longest_)
+            if (run > length) std::swap(run, length);
+    }
+
+    // Repeats that come in clusters (a slow signal, coarsely counted) make longer runs than independent ones would. They
+    // do so again and again: a single long run may as well have been a hang, and teaches nothing.
     std::int64_t needed(double chance) const noexcept {
         const double p = std::min((repeats_ + 9.0) / (seen_ + 10.0), 0.999);
-        return std::max(std::int64_t(std::ceil(std::log(chance) / std::log(p))), 2 * longest_ + least);
+        return std::max(std::int64_t(std::ceil(std::log(chance) / std::log(p))), 3 * longest_[kept - 1] + least);
     }
 
     double last_[6] = {};
     double repeats_ = 0.0, seen_ = 0.0;
-    std::int64_t run_ = 0, longest_ = 0;
+    std::int64_t run_ = 0, longest_[kept] = {};  // the longest runs, descending
     bool frozen_ = false;
 };
 

@@ -2,9 +2,12 @@
 //
 // A cubic through the last poses (Savitzky and Golay's filter, for any spacing), asked at the sample's time; the scatter
 // about it says how well the acceleration is known. Acceleration that could be the poses' noise counts as little
-// (positive-part James and Stein).
+// (positive-part James and Stein). A sample that comes late is asked for with the poses around it.
 //
-// Contract: W frame, m, s, rad. Only poses with a position; at least 8 in the window.
+// Poses that come too slowly for a cubic show at least how hard the tool is accelerated: by how much the path bends. That
+// is no acceleration to go by, but makes the wrench as uncertain as it is.
+//
+// Contract: W frame, m, s, rad. Only poses with a position.
 #pragma once
 
 #include "pose_track.hpp"
@@ -25,16 +28,17 @@ struct Motion {
 
 class MotionFit {
 public:
-    // Fits the newest poses.
-    void see(const PoseTrack& track, double window) noexcept {
+    // Fits the poses of a window that ends at `end`, s, or with the newest pose.
+    void see(const PoseTrack& track, const PosePolicy& policy, double window, double end) noexcept {
         known_ = false;
-        const std::ptrdiff_t n = track.count();
-        if (n < fewest) return;
-        const Pose& newest = track.newest();
+        std::ptrdiff_t n = track.count();
+        while (n > 0 && track[n - 1].time > end) --n;
+        if (n == 0) return;
+        const Pose& newest = track[n - 1];
         std::ptrdiff_t first = n;
         while (first > 0 && newest.time - track[first - 1].time <= window && std::isfinite(track[first - 1].p[0])) --first;
         const std::ptrdiff_t used = n - first;
-        if (used < fewest || newest.time - track[first].time < 0.7 * window) return;
+        if (used < fewest || newest.time - track[first].time < 0.7 * window) return look_for_bends(track, policy, n);
         double A[order][order] = {}, B[order][6] = {};
         for (std::ptrdiff_t i = first; i < n; ++i) {
             double basis[order], y[6];
@@ -44,7 +48,7 @@ public:
                 for (int c = 0; c < 6; ++c) B[r][c] += basis[r] * y[c];
             }
         }
-        if (!solve(A, B)) return;
+        if (!solve(A, B)) return look_for_bends(track, policy, n);
         double left = 0.0;
         for (std::ptrdiff_t i = first; i < n; ++i) {
             double basis[order], y[6];
@@ -58,14 +62,20 @@ public:
         variance_ = std::max(left / (3.0 * double(used - order)), finest * finest);
         time_ = newest.time, window_ = window;
         std::copy(newest.R, newest.R + 9, R_);
-        known_ = true;
+        known_ = cubic_ = true;
     }
 
     void reset() noexcept { known_ = false; }
 
-    bool at(double time, double longest_ahead, Motion& out) const noexcept {
+    bool at(double time, const PosePolicy& policy, Motion& out) const noexcept {
+        if (!known_ || !(time - time_ <= policy.longest_ahead)) return false;
+        if (!cubic_) {
+            out = Motion{};
+            out.sigma = bend_;
+            return time_ - time <= policy.longest_gap;
+        }
         const double u = (time - time_) / window_;
-        if (!known_ || !(time - time_ <= longest_ahead) || u < -1.0) return false;
+        if (u < -1.0) return false;
         const double first[order] = {0.0, 1.0 / window_, 2.0 * u / window_, 3.0 * u * u / window_};
         const double second[order] = {0.0, 0.0, 2.0 / (window_ * window_), 6.0 * u / (window_ * window_)};
         double a[3] = {}, spin[3] = {}, rate[3] = {}, spread = 0.0;
@@ -79,19 +89,47 @@ public:
         const double variance = spread * variance_;
         const Vec3 seen{a[0], a[1], a[2]};
         const double size2 = norm2(seen);
-        const double share = size2 > 4.0 * variance ? 1.0 - 4.0 * variance / size2 : 0.0;
+        const double share = size2 > doubt * variance ? 1.0 - doubt * variance / size2 : 0.0;
         out.acceleration = share * seen;
         out.spin = turned({spin[0], spin[1], spin[2]}), out.spin_rate = turned({rate[0], rate[1], rate[2]});
         out.sigma = std::sqrt(variance + unfollowed * unfollowed * size2);
-        return true;
+        // Positions that no robot can have taken are none.
+        return size2 <= hardest * hardest && out.sigma <= hardest;
     }
 
 private:
     static constexpr int order = 4;
     static constexpr std::ptrdiff_t fewest = 8;
+    static constexpr double doubt = 8.0;       // standing still passes it once in 20 times
+    static constexpr double hardest = 100.0;   // m/s^2
+    static constexpr double bend_span = 0.07;  // s: over less, a bend is the noise of the positions
     static constexpr double finest = 2e-5;  // m: what no robot resolves
     // Share of an acceleration that a cubic does not follow: of a swing at 1 Hz, over the usual window.
     static constexpr double unfollowed = 0.1;
+
+    // The sharpest of the last two bends of the path, through poses at least `bend_span` apart.
+    void look_for_bends(const PoseTrack& track, const PosePolicy& policy, std::ptrdiff_t n) noexcept {
+        const Pose* node[4] = {&track[n - 1]};
+        int count = std::isfinite(node[0]->p[0]) ? 1 : 0;
+        for (std::ptrdiff_t i = n - 1; count > 0 && count < 4 && i > 0; --i) {
+            const Pose& before = track[i - 1];
+            if (track[i].time - before.time > policy.longest_gap || !std::isfinite(before.p[0])) break;
+            if (node[count - 1]->time - before.time >= bend_span) node[count++] = &before;
+        }
+        bend_ = 0.0;
+        for (int i = 0; i + 2 < count; ++i) {
+            const double late = node[i]->time - node[i + 1]->time, early = node[i + 1]->time - node[i + 2]->time;
+            double square = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                const double a = (node[i]->p[c] - node[i + 1]->p[c]) / late, b = (node[i + 1]->p[c] - node[i + 2]->p[c]) / early;
+                square += 4.0 * (a - b) * (a - b) / ((late + early) * (late + early));
+            }
+            bend_ = std::max(bend_, std::sqrt(square));
+        }
+        time_ = node[0]->time;
+        cubic_ = false;
+        known_ = count > 2 && bend_ <= hardest;
+    }
 
     static void row(const Pose& pose, const Pose& newest, double window, double basis[order], double y[6]) noexcept {
         const double u = (pose.time - newest.time) / window;
@@ -129,8 +167,8 @@ private:
     }
 
     double coefficient_[order][6] = {}, inverse_[order][order] = {}, R_[9] = {};
-    double variance_ = 0.0, time_ = 0.0, window_ = 1.0;
-    bool known_ = false;
+    double variance_ = 0.0, time_ = 0.0, window_ = 1.0, bend_ = 0.0;
+    bool known_ = false, cubic_ = false;
 };
 
 }  // namespace contactbench

@@ -112,7 +112,9 @@ bool pose_at(At&& at, std::ptrdiff_t count, std::ptrdiff_t base, double time, co
     const Pose& from = at(before);
     const Vec3 turn = detail::turn_between(from, last);
     if (!(norm(turn) <= detail::largest_turn)) return false;
-    detail::move(last, from, last, turn, ahead / (last.time - from.time), time, out);
+    // Poses nearer together than a twist is good for, with none before them: their noise is not made larger.
+    const double span = std::max(last.time - from.time, detail::twist_span);
+    detail::move(last, from, last, turn, ahead / span, time, out);
     return true;
 }
 

@@ -133,7 +133,7 @@ public:
         else std::copy(R, R + 9, next.R);
         if (p && std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2])) std::copy(p, p + 3, next.p);
         if (!is_rotation(next.R) || !track_.add(next, settings_.poses)) return false;
-        if (settings_.motion.on) fit_.see(track_, settings_.motion.window);
+        if (settings_.motion.on) fit_.see(track_, settings_.poses, settings_.motion.window, HUGE_VAL);
         return true;
     }
 
@@ -177,7 +177,7 @@ public:
 
     // Whether samples have stopped coming; `out` is then a contact of `now` that says so.
     bool silent(double now, RuntimeContact& out) const noexcept {
-        if (running_ && now - last_time_ <= settings_.silence) return false;
+        if (std::fabs(now - heard_) <= settings_.silence) return false;
         out = RuntimeContact{};
         out.time = now;
         out.reason = std::int32_t(Reason::stale);
@@ -188,6 +188,7 @@ public:
     // Forget the stream: the next sample is a first one, whatever its time.
     void reset() noexcept {
         begin_anew();
+        heard_ = -HUGE_VAL;
         track_.clear();
         fit_.reset();
         frozen_.reset();
@@ -236,6 +237,7 @@ private:
     }
 
     std::uint32_t health_of(const RuntimeSample& sample) noexcept {
+        heard_ = std::isfinite(sample.arrival) ? sample.arrival : sample.time;
         std::uint32_t health = 0;
         if (frozen_.see(sample.wrench, settings_.frozen_chance)) health |= Health::frozen;
         if (sample.flags & ~std::uint32_t(Flag::late | Flag::clock_leapt)) health |= Health::flagged;
@@ -252,12 +254,20 @@ private:
         if (wrong != 0 && !(wrong == Flag::overrange && at_end)) std::fill(wrench, wrench + 6, detail::unknown);
     }
 
+    bool motion_at(double time, Motion& out) const noexcept {
+        if (!settings_.motion.on || track_.count() == 0) return false;
+        const double half = 0.5 * settings_.motion.window;
+        if (track_.newest().time - time <= half) return fit_.at(time, settings_.poses, out);
+        MotionFit around;  // of a sample that comes late
+        around.see(track_, settings_.poses, settings_.motion.window, time + half);
+        return around.at(time, settings_.poses, out);
+    }
+
     // The tool's weight in W, less what accelerating it takes; the solver is told how well that is known.
     Vec3 load_at(const double R_WS[9], double time) noexcept {
         const Vec3 weight = settings_.gravity.gravity_W;
         Motion motion;
-        const bool moving = settings_.motion.on && fit_.at(time, settings_.poses.longest_ahead, motion);
-        if (!moving) {
+        if (!motion_at(time, motion)) {
             if (inertial_) solver_.set_noise(settings_.noise);
             inertial_ = false;
             return weight;
@@ -370,6 +380,7 @@ private:
     Vec3 held_;
     static constexpr int most_stale = 50;
     double last_time_ = 0.0, stale_first_ = 0.0, stale_last_ = 0.0;
+    double heard_ = -HUGE_VAL;  // when the last sample came, whatever was wrong with it
     int stale_ = 0;  // times in a row that increased, but not beyond last_time_
     bool running_ = false, holding_ = false, has_wrench_ = false;
 };

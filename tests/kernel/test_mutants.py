@@ -38,7 +38,7 @@ def test_two_mutants_are_noticed_and_the_checkout_stays_as_it_is() -> None:
 @needs_compiler
 def test_a_mutant_that_changes_nothing_survives(tmp_path: Path) -> None:
     table = tmp_path / "mutants.toml"
-    line = "inline constexpr int reason_count = 14;"
+    line = "inline constexpr int reason_count = 15;"
     table.write_text(f'[harmless]\nfile = "answer.hpp"\nold = "{line}"\nnew = "{line}  // the same"\n')
     result = run("--table", str(table))
     assert result.returncode == 1, result.stdout + result.stderr

@@ -42,7 +42,7 @@ def test_both_loaders_come_to_the_same_verdict(loader: Path) -> None:
     assert report.slowest_s < 2.0
     assert report.largest_MiB < 500
     assert report.compared > 0.7 * report.count
-    assert report.other > 0.04 * report.count  # not all are refused, for whatever reason
+    assert report.other > 0.02 * report.count  # not all are refused, for whatever reason
 
 
 def test_a_loader_that_takes_everything_is_noticed(tmp_path: Path) -> None:

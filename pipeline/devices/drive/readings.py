@@ -69,7 +69,7 @@ class Readings:
         """Begin anew, after a gap; the first temperature and the largest values stay."""
         self._last = None
         self._same = [0] * 6
-        self._frozen = False
+        self._detector, self._frozen = FrozenDetector(), False
 
     def acknowledge(self) -> None:
         """Take the temperature of now as the one to compare with."""

@@ -185,6 +185,7 @@ def _wait(
         if not settled and now - begun > _SETTLED_S:
             settled = True  # said early, not only at the end
             _say_rate(config, pair)
+            _say_motion(config, runner)
         if pair.stepwise:
             pair.step(_STEPS)
         else:
@@ -224,8 +225,17 @@ def _say_changes(changes: queue.SimpleQueue[tuple[str, Health]], told: Changes) 
     told.tick()
 
 
+def _say_motion(config: RuntimeConfig, runner: Run) -> None:
+    from pipeline.runtime.run import motion_warning
+
+    words = motion_warning(config, runner.positions)
+    if words is not None:
+        _say(words, "yellow")
+
+
 def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
     _say_rate(config, pair)
+    _say_motion(config, runner)
     for device, stream in zip(("sensor", "robot"), pair.streams, strict=False):
         health = stream.health
         rate = "an unknown rate" if health.rate is None else f"{health.rate:.1f} Hz"

@@ -9,6 +9,8 @@ from collections import Counter
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from pipeline.devices.url import Protocol
 from pipeline.runtime.engine import Engine
 from pipeline.runtime.errors import RunError
@@ -76,6 +78,8 @@ class Run:
     reasons, unhealthy : Counter
         Samples so far by their reason, and by what is wrong with their health.
     latencies : Latencies
+    positions : bool or None
+        Whether poses come with positions; None: none came yet.
     """
 
     def __init__(
@@ -92,6 +96,7 @@ class Run:
         self.reasons: Counter[str] = Counter()
         self.unhealthy: Counter[str] = Counter()
         self.latencies = Latencies()
+        self.positions: bool | None = None
         self._beat = -math.inf
         self._begun, self._counted, self._lost = False, 0, 0
 
@@ -127,6 +132,8 @@ class Run:
     def poses(self, samples: Sequence[FlangeSample]) -> None:
         """Take poses of the flange, oldest first."""
         self._engine.poses(samples)
+        if samples:
+            self.positions = bool(np.isfinite(samples[-1].p_BE_B).all())
 
     def heartbeat(self, now: float) -> None:
         """Publish, ten times a second, that no sample comes, where that is so; `now` in s of the samples' clock."""
@@ -224,6 +231,14 @@ def sensor_warnings(config: RuntimeConfig, model: str, serial: str) -> list[str]
             f"The sensor does not say which it is; the bundle is for {name}: make sure that it is this."
         )
     return said
+
+
+def motion_warning(config: RuntimeConfig, positions: bool | None) -> str | None:
+    """Say that the inertia of a moving tool stays in the readings; None: it is taken off, or no pose came yet."""
+    if positions is None or (positions and config.model.streams.motion is not None):
+        return None
+    why = "the bundle says so" if positions else "the poses have no positions"
+    return f"The inertia of a moving tool is not taken off its readings, for {why}: 1 kg at 1 m/s² is 1 N."
 
 
 def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:

@@ -62,7 +62,7 @@ def poses_at(
     usable = np.isfinite(moments) & np.isfinite(R).all(axis=(1, 2))
     latest = np.maximum.accumulate(np.where(usable, moments, -np.inf))
     usable &= np.r_[True, moments[1:] > latest[:-1]] if len(moments) else usable
-    turned, placed, _ = kernel.poses_at(
+    return kernel.poses_at(
         np.ascontiguousarray(moments[usable], dtype=np.float64),
         np.ascontiguousarray(R[usable], dtype=np.float64),
         np.ascontiguousarray(p[usable], dtype=np.float64),
@@ -70,7 +70,6 @@ def poses_at(
         longest_gap,
         longest_ahead,
     )
-    return turned, placed
 
 
 class PoseTrack:

@@ -40,7 +40,7 @@ def poses_at(
     times: NDArray[np.float64],
     longest_gap: float,
     longest_ahead: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
 class Reason(IntEnum):
     OK = 0

@@ -32,6 +32,7 @@ from pipeline.config.runtime.self_test import with_self_test
 from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from pipeline.config.vertical import vertical_residual
 from pipeline.contact.touch_model import TouchModel
+from pipeline.devices.drive.watch import SILENCE_S
 from pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
 from pipeline.devices.sample import FROZEN_CHANCE
 from pipeline.mesh.save import encode_probe
@@ -162,7 +163,7 @@ def build_config(
         "streams": StreamsPart(
             pose_gap_s=LONGEST_GAP_S,
             pose_ahead_s=LONGEST_AHEAD_S,
-            silence_s=max(0.12, 2.5 / sensor.rate_Hz),
+            silence_s=max(SILENCE_S, 2.5 / sensor.rate_Hz),
             frozen_probability=FROZEN_CHANCE,
             motion=MotionPart(window_s=0.15, gyration_m=0.035),
         ),

@@ -92,7 +92,7 @@ nb::object frozen(Rows6 wrenches, double chance) {
     return nb::cast(nb::ndarray<nb::numpy, bool>(data, {n}, owner));
 }
 
-// Of a whole recording: R (n, 3, 3), p (n, 3) and age (n,) at each of `times`; NaN where there is none.
+// Of a whole recording: R (n, 3, 3) and p (n, 3) at each of `times`; NaN where there is none.
 nb::object poses_at(Doubles moments, Rotations R, Rows3 p, Doubles times, double longest_gap, double longest_ahead) {
     const std::size_t n = moments.shape(0), m = times.shape(0);
     if (R.shape(0) != n || p.shape(0) != n) throw nb::value_error("moments, R and p must have one row per pose");
@@ -107,7 +107,7 @@ nb::object poses_at(Doubles moments, Rotations R, Rows3 p, Doubles times, double
         return found;
     };
     const PosePolicy policy{longest_gap, longest_ahead};
-    std::vector<double> turned(9 * m, detail::unknown), placed(3 * m, detail::unknown), age(m, detail::unknown);
+    std::vector<double> turned(9 * m, detail::unknown), placed(3 * m, detail::unknown);
     for (std::size_t i = 0; i < m; ++i) {
         const double t = times.data()[i];
         const double* after = std::upper_bound(moments.data(), moments.data() + n, t);
@@ -116,10 +116,8 @@ nb::object poses_at(Doubles moments, Rotations R, Rows3 p, Doubles times, double
         if (!std::isfinite(t) || !pose_at(pose, std::ptrdiff_t(n), base, t, policy, found)) continue;
         std::copy_n(found.R, 9, turned.data() + 9 * i);
         std::copy_n(found.p, 3, placed.data() + 3 * i);
-        age[i] = t - moments.data()[base];
     }
-    return nb::make_tuple(make_array(std::move(turned), {m, 3, 3}), make_array(std::move(placed), {m, 3}),
-                          make_array(std::move(age), {m}));
+    return nb::make_tuple(make_array(std::move(turned), {m, 3, 3}), make_array(std::move(placed), {m, 3}));
 }
 
 // `kalman`: rate, q, r, tuned rate, 1 for per sample.
@@ -337,7 +335,7 @@ void bind_runtime(nb::module_& m) {
           " included.");
     m.def("poses_at", &poses_at, nb::arg("moments"), nb::arg("R"), nb::arg("p"), nb::arg("times"),
           nb::arg("longest_gap"), nb::arg("longest_ahead"),
-          "R (m, 3, 3), p (m, 3) and age (m,) at times among n poses of increasing moments; NaN where there is none.");
+          "R (m, 3, 3) and p (m, 3) at times among n poses of increasing moments; NaN where there is none.");
     runtime.def("update", [](PyRuntime& s, Vector6 wrench, Matrix3 R_WS, double time) {
         const std::lock_guard lock(s.busy);
         return s.runtime.update(wrench.data(), R_WS.data(), time);

@@ -18,11 +18,13 @@ struct Health {
     static constexpr std::uint32_t no_pose = 8;  // no orientation that is young enough
     static constexpr std::uint32_t clock = 16;   // the device's clock has just leapt: the sample's time is a guess
 };
-inline constexpr const char* health_names[] = {"frozen", "silent", "flagged", "no_pose", "clock"};
 
 // What a sensor says of a reading; the same bits as pipeline.devices.sample.Status.
 struct Flag {
     static constexpr std::uint32_t overrange = 1, invalid = 2, raw = 4, late = 8, error = 16, clock_leapt = 32;
+
+    // Those by which the sensor says that the numbers are no good.
+    static constexpr std::uint32_t wrong(std::uint32_t flags) { return flags & ~(late | clock_leapt); }
 };
 
 class FrozenDetector {

@@ -91,7 +91,8 @@ public:
         const double size2 = norm2(seen);
         const double share = size2 > doubt * variance ? 1.0 - doubt * variance / size2 : 0.0;
         out.acceleration = share * seen;
-        out.spin = turned({spin[0], spin[1], spin[2]}), out.spin_rate = turned({rate[0], rate[1], rate[2]});
+        out.spin = detail::turned(R_, {spin[0], spin[1], spin[2]});
+        out.spin_rate = detail::turned(R_, {rate[0], rate[1], rate[2]});
         out.sigma = std::sqrt(variance + unfollowed * unfollowed * size2);
         // Positions that no robot can have taken are none.
         return size2 <= hardest * hardest && out.sigma <= hardest;
@@ -159,11 +160,6 @@ private:
                 for (int k = 0; k < order; ++k) coefficient_[r][c] += inverse_[r][k] * B[k][c];
             }
         return true;
-    }
-
-    Vec3 turned(Vec3 v) const noexcept {
-        return {R_[0] * v.x + R_[1] * v.y + R_[2] * v.z, R_[3] * v.x + R_[4] * v.y + R_[5] * v.z,
-                R_[6] * v.x + R_[7] * v.y + R_[8] * v.z};
     }
 
     double coefficient_[order][6] = {}, inverse_[order][order] = {}, R_[9] = {};

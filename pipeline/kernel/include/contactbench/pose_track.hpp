@@ -48,6 +48,12 @@ inline void times(const double A[9], const double B[9], double product[9]) {
             product[3 * r + c] = A[3 * r] * B[c] + A[3 * r + 1] * B[3 + c] + A[3 * r + 2] * B[6 + c];
 }
 
+// R v
+inline Vec3 turned(const double R[9], Vec3 v) {
+    return {R[0] * v.x + R[1] * v.y + R[2] * v.z, R[3] * v.x + R[4] * v.y + R[5] * v.z,
+            R[6] * v.x + R[7] * v.y + R[8] * v.z};
+}
+
 // The rotation vector of R, rad; of a half turn the axis is lost.
 inline Vec3 rotation_vector(const double R[9]) {
     const Vec3 v{0.5 * (R[7] - R[5]), 0.5 * (R[2] - R[6]), 0.5 * (R[3] - R[1])};

@@ -240,7 +240,7 @@ private:
         heard_ = std::isfinite(sample.arrival) ? sample.arrival : sample.time;
         std::uint32_t health = 0;
         if (frozen_.see(sample.wrench, settings_.frozen_chance)) health |= Health::frozen;
-        if (sample.flags & ~std::uint32_t(Flag::late | Flag::clock_leapt)) health |= Health::flagged;
+        if (Flag::wrong(sample.flags)) health |= Health::flagged;
         if (sample.flags & Flag::clock_leapt) health |= Health::clock;
         return health;
     }
@@ -248,7 +248,7 @@ private:
     // What the sensor itself calls no measurement is none; but at the end of its range it says so by its value.
     void reading_of(const RuntimeSample& sample, double wrench[6]) const noexcept {
         std::copy(sample.wrench, sample.wrench + 6, wrench);
-        const std::uint32_t wrong = sample.flags & ~std::uint32_t(Flag::late | Flag::clock_leapt);
+        const std::uint32_t wrong = Flag::wrong(sample.flags);
         bool at_end = false;
         for (int i = 0; i < 6; ++i) at_end |= std::fabs(wrench[i]) >= settings_.gates.saturation[i];
         if (wrong != 0 && !(wrong == Flag::overrange && at_end)) std::fill(wrench, wrench + 6, detail::unknown);
@@ -274,8 +274,7 @@ private:
         }
         const double mass = norm(weight) / standard_gravity;
         const Vec3 c = settings_.gravity.centre_of_mass_S;
-        const Vec3 r{R_WS[0] * c.x + R_WS[1] * c.y + R_WS[2] * c.z, R_WS[3] * c.x + R_WS[4] * c.y + R_WS[5] * c.z,
-                     R_WS[6] * c.x + R_WS[7] * c.y + R_WS[8] * c.z};
+        const Vec3 r = detail::turned(R_WS, c);
         const Vec3 a = motion.acceleration + cross(motion.spin_rate, r) + cross(motion.spin, cross(motion.spin, r));
         // A bundle does not know how far the flange, which the position is of, is from the sensor.
         const double lever = flange_to_sensor * (norm(motion.spin_rate) + norm2(motion.spin));

@@ -9,8 +9,6 @@
 
 namespace contactbench::runtime {
 
-inline constexpr double standard_gravity = 9.80665;
-
 [[noreturn]] void refuse(const std::string& field, const std::string& what);
 
 // All throw LoadError (CB_ERROR_VALUE). Matrices are row major.

@@ -2,38 +2,47 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc, chdtri, fdtri
+from scipy.spatial.transform import Rotation
+from scipy.special import chdtri, fdtri
 
+from pipeline.calibration import nuisance
+from pipeline.calibration.causes import Cause, causes, convention_cause, overruled
+from pipeline.calibration.comparison import PLAIN, Candidate, Comparison, compare
 from pipeline.calibration.contact_error import ContactTask, usual_task
-from pipeline.calibration.fit import (
-    ALL,
-    Fit,
-    PoseNoise,
-    felt,
-    fit_with_unknown_noise,
-    maximise,
-    predict,
-    two_stage,
+from pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
+from pipeline.calibration.model import (
+    CENTRE_OF_MASS,
+    GRAVITY,
+    PARAMETERS,
+    TORQUE_BIAS,
+    GravityModel,
 )
-from pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, PARAMETERS, TORQUE_BIAS, GravityModel
 from pipeline.calibration.observability import Observability, observe, observe_weightless
-from pipeline.calibration.outliers import LARGEST_SHARE, Rejection, deviates, find_bumped, refit, rejection
+from pipeline.calibration.outliers import Rejection, deviates, refit, rejection
 from pipeline.calibration.poses import PoseError, Stack, stack
+from pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
 from pipeline.calibration.verdict import Level, Limits, Verdict, judge
+from pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
+    from pipeline.calibration.diagnosis.diagnose import RawOrientations
     from pipeline.calibration.poses import PoseSample
 
-# Noise that was given is doubted when chance explains the residuals once in so many clean sets.
-_DOUBT = 1e-3
+DOWN_W = (0.0, 0.0, -1.0)
+
+# Odds from which a cause is believed that nobody has asked for.
+_STRONG = 20.0
+_POSSIBLE = 0.01  # probability from which a cause widens the uncertainty
+_UNEXPECTED = 3.0  # times the noise that was given
+_ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +58,7 @@ class Calibration:
     poses : tuple of PoseSample
         As given.
     residuals : (n, 6)
-        Read minus predicted, N and N·m; also of poses that were left out.
+        Read minus predicted minus `offsets`, N and N·m; also of poses that were left out.
     deviates : (n, 2)
         Distance of each pose's force and torque from what the (other) poses predict, as normal deviates.
     rejected : tuple of Rejection
@@ -59,12 +68,26 @@ class Calibration:
     scatter : float
         Residual variance over the noise's: near 1 when the noise is right.
     plausible : bool
-        Whether chance explains the scatter. Where it does not, the covariance has been multiplied by it.
+        Whether chance explains the residuals with the noise that was given. Where it does not, the noise has been
+        estimated.
     task : ContactTask
         The touches behind `contact_error`.
     contact_error : float
-        The calibration's share of the contact error: worst 1 sigma over the task, m.
+        The calibration's share of the contact error: worst 1 sigma over the task, `model_error` included, m.
     verdict : Verdict
+    causes : tuple of Cause
+        What may be behind the residuals, the most probable first.
+    offsets : (n, 6)
+        What a drift or a re-zero that was found adds to each pose's reading, N and N·m; zero at the session's
+        end, so that the biases are those of the end.
+    drift_rate, drift_rate_sigma : (6,) or None
+        Growth of the biases at the session's end, N/s and N·m/s; None without a drift, or without times.
+    noise_factor : (2,)
+        How many times the noise that was given forces and torques show; 1 where it is believed, or none was given.
+    model_error : float
+        How far a pull that follows the orientation, or a turned mount, moves a contact, m.
+    down_W : (3,)
+        Where gravity was said to point, W; of length 1.
     """
 
     model: GravityModel
@@ -79,6 +102,13 @@ class Calibration:
     task: ContactTask
     contact_error: float
     verdict: Verdict
+    causes: tuple[Cause, ...] = ()
+    offsets: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 6)))
+    drift_rate: NDArray[np.float64] | None = None
+    drift_rate_sigma: NDArray[np.float64] | None = None
+    noise_factor: tuple[float, float] = (1.0, 1.0)
+    model_error: float = 0.0
+    down_W: NDArray[np.float64] = field(default_factory=lambda: np.array(DOWN_W))
 
     @property
     def gravity_W(self) -> NDArray[np.float64]:
@@ -143,7 +173,7 @@ class Calibration:
         Chi-square for noise that is known. For noise estimated from the poses, forces and torques each
         contribute six times an F variable; one F variable is matched to the mean and variance of their sum.
         """
-        if not self.noise.estimated:
+        if not np.isfinite(self.noise.freedom).all():
             return float(chdtri(12, 1 - probability))
         freedom = np.maximum(self.noise.freedom, 4.5)  # below, the variance to match does not exist
         means = 6 * freedom / (freedom - 2)
@@ -156,14 +186,18 @@ def calibrate(
     poses: Sequence[PoseSample],
     noise: PoseNoise | None = None,
     *,
+    orientation_sigma: float | None = None,
+    down_W: ArrayLike = DOWN_W,
     task: ContactTask | None = None,
     limits: Limits | None = None,
+    raw: RawOrientations | None = None,
 ) -> Calibration:
     """Calibrate bias, weight and centre of mass from still, contact-free poses.
 
     Two-stage least squares, then joint maximum likelihood of all twelve parameters (mathematics of Cao et
-    al. 2023, Eq. 1-2, without the noise in the regressor); poses that disagree with the rest are left out
-    and named.
+    al. 2023, Eq. 1-2, without the noise in the regressor), with the noise of readings and orientations. Bumped
+    poses, drift, a re-zero, a cable, a turned mount and wrong noise figures are compared (`comparison`); what is
+    found is told, and drift and re-zeros are taken out.
 
     Parameters
     ----------
@@ -172,10 +206,16 @@ def calibrate(
     noise : PoseNoise, optional
         Of a pose's mean. Left out: estimated from the residuals, and at least what the scatter within the
         poses says.
+    orientation_sigma : float, optional
+        1 sigma of the poses' orientations about each axis, rad. Left out: estimated, around what a robot has.
+    down_W : (3,)
+        Where gravity points in W, roughly; its length does not matter.
     task : ContactTask, optional
         The touches that the calibration is for.
     limits : Limits, optional
         The rule behind the verdict.
+    raw : RawOrientations, optional
+        The numbers behind the orientations, for the diagnosis of poses that do not fit.
 
     Returns
     -------
@@ -186,51 +226,155 @@ def calibrate(
     ------
     PoseError
         There are fewer than three poses.
+    InputError
+        `orientation_sigma` or `down_W` is not finite, or the latter zero.
     """
     if len(poses) < 3:
         raise PoseError(
             f"{len(poses)} poses: twelve unknowns need at least three poses with different tilts, and five or"
             " more to check them against one another."
         )
+    down = direction(down_W)
     arrays = stack(poses)
-    fit, noise = _first_fit(arrays, noise, poses)
-    far = deviates(arrays, np.ones(len(poses), dtype=bool), fit, noise)
-    bumped = find_bumped(arrays, noise, far)
-    agree = bool(bumped.mean() <= LARGEST_SHARE)
-    if not agree:
-        bumped[:] = False  # nobody can say who is right: show them all
-    elif bumped.any():
-        fit, noise = refit(arrays, ~bumped, noise)
-    if bumped.any():
-        far = deviates(arrays, ~bumped, fit, noise)
-    fit, sight = _observed(arrays.take(~bumped), fit, noise)
-    fit, scatter, plausible = _with_scatter(fit, noise, sight.rank)
+    prior = NoisePrior.of(noise, checked_angle(orientation_sigma), within_scatter(poses))
+    compared = compare(arrays, prior, down)
+    told, chosen = used(arrays, compared)
+    noisy, sight = _observed(arrays, chosen, down)
+    covariance = noisy.fit.covariance[:12, :12] + between(compared, chosen)[:12, :12]
+    if sight.null_directions or sight.weak:
+        covariance = covariance + _product(covariance, arrays.R_SW[chosen.inside])
     task = task or usual_task()
-    error = task.calibration_error(fit.theta, fit.covariance)
-    residuals = arrays.wrenches - predict(arrays.R_SW, fit.theta)
-    calibration = Calibration(
-        model=GravityModel.from_vector(fit.theta, fit.covariance),
-        noise=noise,
+    model = GravityModel.from_vector(noisy.fit.theta, covariance)
+    error = task.calibration_error(noisy.fit.theta, covariance)
+    calibration = assembled(
+        poses, arrays, prior, compared, (told, replace(chosen, noisy=noisy)), model, sight, task, error, down
+    )
+    limits = limits or Limits()
+    calibration = replace(calibration, verdict=judge(calibration, chosen.agree, limits))
+    if _doubtful(calibration) and (cause := convention_cause(calibration, prior, raw)):
+        calibration = replace(calibration, causes=overruled(calibration.causes, cause))
+        calibration = replace(calibration, verdict=judge(calibration, chosen.agree, limits))
+    return calibration
+
+
+def _doubtful(calibration: Calibration) -> bool:
+    """Tell whether the residuals exceed what is expected, or what they say is no everyday cause."""
+    strange = any(
+        cause.believed and cause.key in {nuisance.CABLE, nuisance.MOUNT} for cause in calibration.causes
+    )
+    refused = calibration.verdict.level is Level.REFUSE and calibration.observability.force_rank == 6
+    return strange or refused or max(calibration.noise_factor) > _UNEXPECTED
+
+
+def assembled(
+    poses: Sequence[PoseSample],
+    arrays: Stack,
+    prior: NoisePrior,
+    compared: Comparison,
+    told_used: tuple[Candidate, Candidate],
+    model: GravityModel,
+    sight: Observability,
+    task: ContactTask,
+    error: float,
+    down_W: NDArray[np.float64],
+) -> Calibration:
+    """Return a calibration, complete but for its verdict; `error`: the worst 1 sigma at a contact, m."""
+    told, chosen = told_used
+    noisy, inside, terms = chosen.noisy, chosen.inside, chosen.terms
+    fit = noisy.fit
+    R_SW = fit.mount @ arrays.R_SW
+    offsets = terms.columns @ fit.added
+    residuals = arrays.wrenches - predict(R_SW, fit.theta) - offsets
+    far = deviates(arrays, inside, noisy, terms)
+    model_error = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task)
+    factors = (1.0, 1.0)
+    if prior.sigmas is not None and not chosen.prior.believed:
+        F, M = (noisy.noise.sigmas / prior.sigmas)[[0, 3]].tolist()
+        factors = (F, M)
+    rate = rate_sigma = None
+    if chosen.key == nuisance.DRIFT and arrays.duration is not None:
+        first = len(fit.covariance) - len(fit.added)
+        spread = np.sqrt(np.diag(fit.covariance)[first : first + 6])
+        rate, rate_sigma = fit.added[:6] / arrays.duration, spread / arrays.duration
+    return Calibration(
+        model=model,
+        noise=noisy.noise,
         poses=tuple(poses),
         residuals=residuals,
         deviates=far,
         rejected=tuple(
-            rejection(poses, index, far[index], residuals[index]) for index in np.flatnonzero(bumped).tolist()
+            rejection(poses, index, far[index], residuals[index])
+            for index in np.flatnonzero(~inside).tolist()
         ),
         observability=sight,
-        scatter=scatter,
-        plausible=plausible,
+        scatter=fit.cost / max(fit.residuals.size - sight.rank, 1),
+        plausible=chosen.prior.believed or prior.sigmas is None,
         task=task,
-        contact_error=error,
+        contact_error=float(np.hypot(error, model_error)),
         verdict=Verdict(Level.REFUSE, ()),
+        causes=causes(poses, arrays, compared, told),
+        offsets=offsets,
+        drift_rate=rate,
+        drift_rate_sigma=rate_sigma,
+        noise_factor=factors,
+        model_error=model_error,
+        down_W=down_W,
     )
-    return replace(calibration, verdict=judge(calibration, agree, limits or Limits()))
 
 
-def _first_fit(arrays: Stack, noise: PoseNoise | None, poses: Sequence[PoseSample]) -> tuple[Fit, PoseNoise]:
-    if noise is None:
-        return fit_with_unknown_noise(arrays, within_scatter(poses))
-    return maximise(arrays, noise.sigmas, two_stage(arrays)), noise
+def direction(down_W: ArrayLike) -> NDArray[np.float64]:
+    """Return a direction (3,) at length 1; InputError if it is none."""
+    down = np.array(down_W, dtype=np.float64)
+    if down.shape != (3,) or not np.isfinite(down).all() or not down.any():
+        raise InputError(
+            f"down_W is {down_W}: give where gravity points in the world frame, three finite numbers that are"
+            " not all 0, such as 0,0,-1"
+        )
+    return np.asarray(down / np.linalg.norm(down), dtype=np.float64)
+
+
+def checked_angle(sigma: float | None) -> float | None:
+    """Return a standard deviation of orientations, rad; InputError if it cannot be one."""
+    if sigma is not None and not 0 <= sigma < np.pi:
+        raise InputError(f"orientation_sigma is {sigma} rad: give at least 0 and less than half a turn")
+    return sigma
+
+
+def used(arrays: Stack, compared: Comparison) -> tuple[Candidate, Candidate]:
+    """Return the cause that is told, and the fit that is used: an effect of the orientation cannot be taken out."""
+    plain = next(each for each in compared.candidates if each.key == PLAIN)
+    best = compared.best
+    if compared.probability(best.key) < _STRONG * compared.probability(PLAIN) or best.key == PLAIN:
+        return plain, plain
+    if best.key in _ONLY_BIAS:
+        return best, best
+    doubted = plain.prior.doubted
+    noisy = refit(arrays, best.inside, doubted, plain.terms)
+    return best, replace(plain, noisy=noisy, bumped=best.bumped, prior=doubted)
+
+
+def between(compared: Comparison, chosen: Candidate) -> NDArray[np.float64]:
+    """Return the covariance that causes add which are not excluded, and say otherwise of the parameters.
+
+    Of the twelve, and of the mount's rotation if that is unknown: (12, 12) or (15, 15).
+    """
+    size = 15 if chosen.terms.turns else 12
+    fit, added = chosen.noisy.fit, np.zeros((size, size))
+    for each, probability in zip(compared.candidates, compared.probabilities, strict=True):
+        if each is not chosen and each.key in _ONLY_BIAS and probability > _POSSIBLE:
+            other = each.noisy.fit
+            turn = Rotation.from_matrix(other.mount @ fit.mount.T).as_rotvec()
+            off = np.append(other.theta - fit.theta, turn)[:size]
+            values, vectors = np.linalg.eigh(other.covariance[:size, :size] - fit.covariance[:size, :size])
+            added += probability * (np.outer(off, off) + vectors * np.maximum(values, 0.0) @ vectors.T)
+    return added
+
+
+def _model_error(arrays: Stack, told: Candidate, fit: Fit, task: ContactTask) -> float:
+    """Return how far what the used model leaves out moves a contact: root mean square over the poses, m."""
+    other = told.noisy.fit
+    full = predict(other.mount @ arrays.R_SW, other.theta) + told.terms.columns @ other.added
+    return task.wrench_error(full - predict(fit.mount @ arrays.R_SW, fit.theta))
 
 
 def within_scatter(poses: Sequence[PoseSample]) -> NDArray[np.float64]:
@@ -243,18 +387,18 @@ def within_scatter(poses: Sequence[PoseSample]) -> NDArray[np.float64]:
     return np.median(known, axis=0) if known else np.zeros(6)
 
 
-def _observed(inside: Stack, fit: Fit, noise: PoseNoise) -> tuple[Fit, Observability]:
+def _observed(
+    arrays: Stack, chosen: Candidate, down_W: NDArray[np.float64]
+) -> tuple[NoisyFit, Observability]:
     """Tell what the poses show; where the weight is lost in the noise, hold the centre of mass at zero."""
-    if felt(fit.theta, fit.covariance):
-        sight = observe(inside.R_SW, fit.theta[GRAVITY])
-    else:
-        free = ALL.copy()
-        free[CENTRE_OF_MASS] = False
-        fit = maximise(inside, noise.sigmas, np.where(free, fit.theta, 0.0), free)
-        sight = observe_weightless(inside.R_SW)
-    if sight.null_directions or sight.weak:
-        fit = replace(fit, covariance=fit.covariance + _product(fit.covariance, inside.R_SW))
-    return fit, sight
+    noisy, inside = chosen.noisy, chosen.inside
+    R_SW = arrays.R_SW[inside]
+    if felt(noisy.fit.theta, noisy.fit.covariance):
+        return noisy, observe(R_SW, noisy.fit.theta[GRAVITY])
+    free = ALL.copy()
+    free[CENTRE_OF_MASS] = False
+    noisy = fit_with_noise(arrays.take(inside), chosen.prior, chosen.terms.take(inside), free=free)
+    return noisy, observe_weightless(R_SW, down_W)
 
 
 def _product(C: NDArray[np.float64], R_SW: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -272,12 +416,3 @@ def _product(C: NDArray[np.float64], R_SW: NDArray[np.float64]) -> NDArray[np.fl
         (trace_A * trace_B - np.trace(AB)) * np.eye(3) - trace_A * B - trace_B * A + AB + AB.T
     )
     return added
-
-
-def _with_scatter(fit: Fit, noise: PoseNoise, rank: int) -> tuple[Fit, float, bool]:
-    """Widen the covariance where the residuals say that the noise is larger than was given."""
-    freedom = fit.residuals.size - rank
-    scatter = fit.cost / freedom
-    if noise.estimated or chdtrc(freedom, fit.cost) > _DOUBT:
-        return fit, scatter, True
-    return replace(fit, covariance=fit.covariance * scatter), scatter, False

@@ -109,6 +109,11 @@ class ContactTask:
         """
         return worst_sigma(self.parameter_sensitivity(theta), covariance)
 
+    def wrench_error(self, wrenches: NDArray[np.float64]) -> float:
+        """Return how far wrenches (n, 6), N and N·m, that are not taken off move a contact: rms, worst touch, m."""
+        moved = np.einsum("mai,ni->mna", self._sensitivities, wrenches)
+        return float(np.sqrt((moved**2).sum(axis=2).mean(axis=1).max()))
+
     def sensor_error(self, sigmas: NDArray[np.float64]) -> float:
         """Return what noise of sigmas (6,), N and N·m, in the live wrench adds: the worst 1 sigma, m."""
         return worst_sigma(self._sensitivities, np.diag(sigmas**2))

@@ -1,13 +1,14 @@
 """The twelve parameters from poses: two-stage least squares, then joint maximum likelihood.
 
-Observation model of pose i, with R_i = R_SW and independent Gaussian noise of known size:
+Observation model of pose i, with R_i = R_SW and Gaussian noise of known covariance V_i:
 
     F_i = R_i g + F0,    M_i = L x (R_i g) + M0
 
 The first stage is linear in (g, F0). The second takes the *predicted* R_i g as its regressor: a measured
 force would carry its noise into the regressor and shrink L towards zero (errors in variables). Both stages
 leave information on the table, because torques too say something about g; Gauss-Newton on all twelve,
-weighted by the noise, uses it.
+weighted by the noise, uses it. Beside the twelve there may be others: what a drift adds to the readings, or a
+turn of the sensor on its mount (see `nuisance`).
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc, chdtri
+from scipy.spatial.transform import Rotation
 
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
@@ -36,13 +37,15 @@ if TYPE_CHECKING:
 # What a parameter could be if the poses say nothing of it: N, N, m, N·m. Only directions that the poses do
 # not show get this uncertainty; it is wide, so that everything computed from it says "unknown".
 UNKNOWN = np.repeat([20.0, 20.0, 0.3, 3.0], 3)
+# A rotation of which the poses say nothing: any angle is as likely as another, rad.
+ANY_TURN = np.pi / np.sqrt(3)
 
 # Orientations are known to some tenths of a degree. What poses separate by less than this (as a sine, per
 # pose) they do not separate: a noise-free set spun about the vertical is as blind as one spun nearly so.
 BLIND = 2e-3
 
 ALL = np.ones(12, dtype=bool)
-_IDENTITY, _THREE = np.eye(12), np.eye(3)
+_THREE = np.eye(3)
 _RIDGE = 1e-6
 
 _STEPS, _HALVINGS = 25, 12
@@ -69,6 +72,8 @@ class PoseNoise:
         Degrees of freedom behind the two values; infinite for values that are known.
     least : (6,)
         What the scatter within the poses says the noise is at least, N and N·m.
+    orientation : float
+        1 sigma of the poses' orientations, about each axis, rad: it moves the weight in the reading.
     """
 
     force: float | NDArray[np.float64]
@@ -76,6 +81,7 @@ class PoseNoise:
     estimated: bool = False
     freedom: tuple[float, float] = (np.inf, np.inf)
     least: NDArray[np.float64] = field(default_factory=lambda: np.zeros(6))
+    orientation: float = 0.0
 
     def __post_init__(self) -> None:
         for name, value, unit in (("force", self.force, "N"), ("torque", self.torque, "N·m")):
@@ -84,6 +90,10 @@ class PoseNoise:
                 raise InputError(
                     f"PoseNoise.{name}: give one or three finite numbers above 0, {unit}, not {value!r}"
                 )
+        if not 0 <= self.orientation < np.inf:
+            raise InputError(
+                f"PoseNoise.orientation: give a finite angle of at least 0, rad, not {self.orientation!r}"
+            )
 
     @property
     def sigmas(self) -> NDArray[np.float64]:
@@ -91,6 +101,46 @@ class PoseNoise:
         both = np.empty(6)
         both[:3], both[3:] = self.force, self.torque
         return both
+
+    def covariances(self, R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the covariance (n, 6, 6) of readings at R_SW (n, 3, 3) about parameters `theta` (12,)."""
+        G = turn_jacobian(R_SW, theta)
+        V: NDArray[np.float64] = self.orientation**2 * (G @ G.swapaxes(1, 2))
+        V[:, range(6), range(6)] += self.sigmas**2
+        return V
+
+
+@dataclass(frozen=True, eq=False)
+class Terms:
+    """What may be in the readings beside bias and weight.
+
+    Attributes
+    ----------
+    columns : (n, 6, m)
+        What each unknown adds to the readings, N and N·m for one unit of it.
+    widths : (m,)
+        What each could be if the readings say nothing of it.
+    turns : bool
+        The sensor is turned on its mount by an unknown rotation: three more unknowns, before the others.
+    """
+
+    columns: NDArray[np.float64]
+    widths: NDArray[np.float64]
+    turns: bool = False
+
+    def take(self, chosen: NDArray[np.bool_]) -> Terms:
+        """Return the terms of some of the poses."""
+        return Terms(self.columns[chosen], self.widths, self.turns)
+
+    @property
+    def scale(self) -> NDArray[np.float64]:
+        """(p,) widths of all parameters: the twelve, a rotation vector if there is one, and the others."""
+        return np.concatenate([UNKNOWN, np.full(3 if self.turns else 0, ANY_TURN), self.widths])
+
+
+def nothing_beside(count: int) -> Terms:
+    """Return no terms, for `count` poses."""
+    return Terms(np.zeros((count, 6, 0)), np.zeros(0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,14 +151,22 @@ class Fit:
     ----------
     theta : (12,)
         In the order of PARAMETERS.
-    covariance : (12, 12)
-        Inverse of the information matrix; directions that the poses do not show have the width of UNKNOWN.
+    covariance : (p, p)
+        Inverse of the information matrix, of the twelve, then of the terms' unknowns; directions that the poses
+        do not show have the width of UNKNOWN.
     residuals : (n, 6)
         Read minus predicted, in standard deviations of the noise.
-    J : (n, 6, 12)
+    J : (n, 6, p)
         Change of the predictions with the free parameters, in the same unit.
     free : (12,) bool
         Parameters that were fitted.
+    added : (m,)
+        The terms' unknowns, without the rotation.
+    mount : (3, 3)
+        By which the sensor is turned from where it was said to be: ``R_SW <- mount @ R_SW``.
+    R_SW : (n, 3, 3)
+        Orientations, so turned.
+    terms : Terms
     """
 
     theta: NDArray[np.float64]
@@ -116,11 +174,27 @@ class Fit:
     residuals: NDArray[np.float64]
     J: NDArray[np.float64]
     free: NDArray[np.bool_]
+    added: NDArray[np.float64]
+    mount: NDArray[np.float64]
+    R_SW: NDArray[np.float64]
+    terms: Terms
 
     @property
     def cost(self) -> float:
         """Sum of the squared residuals, chi-square distributed for a right model."""
         return float(np.vdot(self.residuals, self.residuals))
+
+    @property
+    def beside(self) -> NDArray[np.float64]:
+        """(p - 12,) the terms' unknowns, with the rotation vector of the mount before them if it was free."""
+        turn = Rotation.from_matrix(self.mount).as_rotvec() if self.terms.turns else np.zeros(0)
+        return np.concatenate([turn, self.added])
+
+    @property
+    def offsets(self) -> NDArray[np.float64]:
+        """(n, 6) what the terms add to the readings, N and N·m."""
+        offsets: NDArray[np.float64] = self.terms.columns @ self.added
+        return offsets
 
 
 def two_stage(poses: Stack) -> NDArray[np.float64]:
@@ -162,76 +236,115 @@ def predict(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np
     return predicted
 
 
+def turn_jacobian(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how predictions change (n, 6, 3) with a rotation vector d, S, rad: ``R <- exp([d]x) R_SW``."""
+    G: NDArray[np.float64] = np.empty((len(R_SW), 6, 3))
+    G[:, :3] = -cross_matrix(R_SW @ theta[GRAVITY])
+    G[:, 3:] = cross_matrix(theta[CENTRE_OF_MASS]) @ G[:, :3]
+    return G
+
+
+def jacobian(
+    R_SW: NDArray[np.float64],
+    theta: NDArray[np.float64],
+    free: NDArray[np.bool_],
+    terms: Terms,
+) -> NDArray[np.float64]:
+    """Return how predictions change (n, 6, p) with the free parameters and with the terms, N and N·m."""
+    parts = [prediction_jacobian(R_SW, theta) * free]
+    if terms.turns:
+        parts.append(turn_jacobian(R_SW, theta))
+    return np.concatenate([*parts, terms.columns], axis=2)
+
+
+def whitener(V: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return W (n, k, k) such that W r has unit covariance for r of covariance V (n, k, k)."""
+    each = range(V.shape[1])
+    d = 1 / np.sqrt(V[:, each, each])
+    C = V * d[:, :, None] * d[:, None] + _SINGULAR * np.eye(len(each))  # orientations alone leave V singular
+    return np.asarray(np.linalg.inv(np.linalg.cholesky(C)) * d[:, None], dtype=np.float64)
+
+
 def maximise(
-    poses: Stack, sigmas: NDArray[np.float64], start: NDArray[np.float64], free: NDArray[np.bool_] = ALL
+    poses: Stack,
+    noise: NDArray[np.float64],
+    start: NDArray[np.float64],
+    free: NDArray[np.bool_] = ALL,
+    terms: Terms | None = None,
+    added: NDArray[np.float64] | None = None,
+    mount: NDArray[np.float64] = _THREE,
 ) -> Fit:
     """Maximise the likelihood from `start` by Gauss-Newton.
 
     Parameters
     ----------
     poses : Stack
-    sigmas : (6,)
-        Noise of a pose's mean, N and N·m.
+    noise : (6,) or (n, 6, 6)
+        Standard deviations of a pose's mean, N and N·m, or the covariance of each pose.
     start : (12,)
         Near the maximum: the answer of `two_stage`.
     free : (12,) bool
         Parameters to fit; the others stay where they are.
+    terms : Terms, optional
+        What else may be in the readings.
+    added : (m,), optional
+    mount : (3, 3)
+        Where to start with it.
     """
-    theta = start
-    residuals = (poses.wrenches - predict(poses.R_SW, theta)) / sigmas
-    weights = free * UNKNOWN / sigmas[:, None]
+    terms = terms or nothing_beside(len(poses))
+    W = np.diag(1 / noise)[None] if noise.ndim == 1 else whitener(noise)
+    scale = terms.scale
+    theta, R_SW = start, mount @ poses.R_SW
+    added = np.zeros(len(terms.widths)) if added is None else added
+    residuals = _residuals(poses, W, R_SW, theta, terms, added)
     for _ in range(_STEPS):
-        scaled = (prediction_jacobian(poses.R_SW, theta) * weights).reshape(-1, 12)
+        scaled = (W @ jacobian(R_SW, theta, free, terms) * scale).reshape(-1, len(scale))
         gradient, information = scaled.T @ residuals.ravel(), scaled.T @ scaled
         # Nothing beside what the readings say; it keeps the step short where they say nothing.
-        step = np.linalg.solve(information + _least_information(information) * _IDENTITY, gradient)
-        theta, residuals, better = _descend(poses, sigmas, theta, residuals, UNKNOWN * step)
+        least = _least_information(information) * np.eye(len(scale))
+        step = np.linalg.solve(information + least, gradient)
+        better, cost = False, float(np.vdot(residuals, residuals))
+        for halving in range(_HALVINGS):  # the model is bilinear, so the whole step is nearly always good
+            d = 0.5**halving * scale * step
+            turn = Rotation.from_rotvec(d[12:15]).as_matrix() if terms.turns else _THREE
+            there = theta + d[:12], turn @ mount, added + d[len(d) - len(added) :]
+            attempt = _residuals(poses, W, there[1] @ poses.R_SW, there[0], terms, there[2])
+            better = bool(np.vdot(attempt, attempt) <= cost * _ROUNDING)
+            if better:
+                (theta, mount, added), residuals = there, attempt
+                R_SW = mount @ poses.R_SW
+                break
         # The step's length in standard deviations; each is many times shorter than the one before.
         if not better or step @ gradient < _CONVERGED**2:
             break
-    J = free_jacobian(poses.R_SW, theta, sigmas, free)
-    return Fit(theta, parameter_covariance(J), residuals, J, free)
+    J = W @ jacobian(R_SW, theta, free, terms)
+    return Fit(theta, parameter_covariance(J, scale), residuals, J, free, added, mount, R_SW, terms)
 
 
-def free_jacobian(
+def _residuals(
+    poses: Stack,
+    W: NDArray[np.float64],
     R_SW: NDArray[np.float64],
     theta: NDArray[np.float64],
-    sigmas: NDArray[np.float64],
-    free: NDArray[np.bool_],
+    terms: Terms,
+    added: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return how predictions change with the free parameters (n, 6, 12), over the noise."""
-    return prediction_jacobian(R_SW, theta) * (free / sigmas[:, None])
+    left = poses.wrenches - predict(R_SW, theta) - terms.columns @ added
+    whitened: NDArray[np.float64] = (W @ left[..., None])[..., 0]
+    return whitened
 
 
-def _descend(
-    poses: Stack,
-    sigmas: NDArray[np.float64],
-    theta: NDArray[np.float64],
-    residuals: NDArray[np.float64],
-    step: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], bool]:
-    """Go along `step` as far as the likelihood grows; the model is bilinear, so that is nearly always all of it."""
-    cost = float(np.vdot(residuals, residuals))
-    for _ in range(_HALVINGS):
-        attempt = theta + step
-        there = (poses.wrenches - predict(poses.R_SW, attempt)) / sigmas
-        if np.vdot(there, there) <= cost * _ROUNDING:
-            return attempt, there, True
-        step = 0.5 * step
-    return theta, residuals, False
+def parameter_covariance(J: NDArray[np.float64], scale: NDArray[np.float64] = UNKNOWN) -> NDArray[np.float64]:
+    """Return the inverse of the information in Jacobians J (n, 6, p), which are over the noise.
 
-
-def parameter_covariance(J: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the inverse of the information in Jacobians J (n, 6, 12), which are over the noise.
-
-    Directions that the readings say less of than UNKNOWN, and parameters that are not free, get the width
-    of UNKNOWN: the result is always finite, and never claims what was not seen.
+    Directions that the readings say less of than `scale` (p,), and parameters that are not free, get its
+    width: the result is always finite, and never claims what was not seen.
     """
-    scaled = (J * UNKNOWN).reshape(-1, 12)
+    scaled = (J * scale).reshape(-1, len(scale))
     information = scaled.T @ scaled
     values, vectors = np.linalg.eigh(information)
     unseen = values < _least_information(information)
-    root = UNKNOWN[:, None] * vectors / np.sqrt(np.where(unseen, 1.0, values))
+    root = scale[:, None] * vectors / np.sqrt(np.where(unseen, 1.0, values))
     covariance: NDArray[np.float64] = root @ root.T
     return covariance
 
@@ -248,52 +361,3 @@ def felt(theta: NDArray[np.float64], covariance: NDArray[np.float64]) -> bool:
     """
     variances, axes = np.linalg.eigh(covariance[GRAVITY, GRAVITY])
     return float(((axes.T @ theta[GRAVITY]) ** 2 / np.maximum(variances, _TINY)).sum()) > _FELT**2
-
-
-# ---- unknown noise -----------------------------------------------------------------------------
-
-_ROUNDS = 3
-# Below what any converter resolves; keeps noise-free data from dividing by zero.
-_LEAST = np.repeat([1e-6, 1e-8], 3)
-
-
-def fit_with_unknown_noise(
-    poses: Stack, least: NDArray[np.float64], *, kept: float = 1.0
-) -> tuple[Fit, PoseNoise]:
-    """Fit poses whose noise is not known: its size is taken from the residuals.
-
-    Parameters
-    ----------
-    poses : Stack
-    least : (6,)
-        Standard deviations that the mean of a pose has at least, N and N·m.
-    kept : float
-        Share of all poses that these are, if they were kept for having small residuals: their scatter then
-        says less than the whole noise, by a factor that is known for Gaussian noise.
-
-    Returns
-    -------
-    Fit, PoseNoise
-        The noise is marked as estimated, with its degrees of freedom.
-    """
-    n = len(poses)
-    theta, freedom = two_stage(poses), np.full(2, max(3.0 * n - 6.0, 1.0))
-    for _ in range(_ROUNDS):
-        squares = (poses.wrenches - predict(poses.R_SW, theta)) ** 2
-        variances = squares.reshape(n, 2, 3).sum(axis=(0, 2)) / (freedom * truncation(kept))
-        sigmas = np.maximum(np.repeat(np.sqrt(variances), 3), np.maximum(least, _LEAST))
-        fit = maximise(poses, sigmas, theta)
-        theta = fit.theta
-        # Torques help to find the weight, so they pay for some of its degrees of freedom.
-        paid = np.einsum("nij,jk,nik->ni", fit.J, fit.covariance, fit.J).reshape(n, 2, 3).sum(axis=(0, 2))
-        freedom = np.maximum(3 * n - paid, 1.0)
-    both = (float(freedom[0]), float(freedom[1]))
-    return fit, PoseNoise(sigmas[:3], sigmas[3:], estimated=True, freedom=both, least=least)
-
-
-def truncation(kept: float) -> float:
-    """Return the variance of the nearest share `kept` of Gaussian six-vectors, over that of all of them."""
-    if kept >= 1:
-        return 1.0
-    radius = chdtri(6, 1 - kept)
-    return float(1 - chdtrc(8, radius)) / kept

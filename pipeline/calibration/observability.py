@@ -59,14 +59,14 @@ class Observability:
         return max(self.force_condition, self.torque_condition)
 
 
-def observe_weightless(R_SW: NDArray[np.float64]) -> Observability:
+def observe_weightless(R_SW: NDArray[np.float64], down_W: NDArray[np.float64] = _DOWN_W) -> Observability:
     """Tell what poses at orientations R_SW (n, 3, 3) determine of a load whose weight is lost in the noise.
 
     Poses that differ a little, as a hand's do, are not exactly blind. If they are hardly better, they hide
     the weight; if they are good, there is none.
     """
-    hidden = observe(R_SW, _DOWN_W, blind=_HARDLY)
-    return hidden if hidden.null_directions or hidden.weak else observe(R_SW, _DOWN_W, weighs=False)
+    hidden = observe(R_SW, down_W, blind=_HARDLY)
+    return hidden if hidden.null_directions or hidden.weak else observe(R_SW, down_W, weighs=False)
 
 
 def observe(

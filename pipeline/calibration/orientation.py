@@ -15,6 +15,9 @@ from pipeline.robot import Robot
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+# How well orientations are known by what gives them, degrees: 1 sigma about each axis.
+ORIENTATION_NOISE_DEG = {"robot": 0.05, "tracker": 0.2, "hand": 0.5}
+
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 
 

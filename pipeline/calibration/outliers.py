@@ -9,7 +9,7 @@ that gives every pose a little less weight (Huber's) would cost five per cent of
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from math import comb
 from typing import TYPE_CHECKING
@@ -17,16 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtri
 
-from pipeline.calibration.fit import (
-    Fit,
-    PoseNoise,
-    fit_with_unknown_noise,
-    free_jacobian,
-    maximise,
-    predict,
-    solve_with_offset,
-    two_stage,
-)
+from pipeline.calibration.fit import jacobian, predict, solve_with_offset, whitener
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
@@ -35,6 +26,7 @@ from pipeline.calibration.model import (
     cross_matrix,
 )
 from pipeline.calibration.poses import named
+from pipeline.calibration.reml import fit_with_noise
 from pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
@@ -42,7 +34,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from pipeline.calibration.fit import Fit, PoseNoise, Terms
     from pipeline.calibration.poses import PoseSample, Stack
+    from pipeline.calibration.reml import NoisePrior, NoisyFit
 
 # One clean set in a hundred may lose a pose.
 FALSE_ALARM = 0.01
@@ -54,9 +48,10 @@ _START = 4  # poses: three determine the parameters, the fourth tells whether th
 FEWEST = 5  # with fewer, leaving one out leaves nothing to check it with
 _MOST_STARTS = 200  # one in eight is clean even when two poses in five are bumped
 _REFINED = 10
+_AT_ONCE = 30  # of so many poses one is let in at a time
 # The variance of a residual, over the noise's, is 1 less the leverage. A pose that alone decides a direction has
 # no residual there; the little more keeps 0 / 0 away, and costs the other poses a few thousandths.
-_WHOLE = 1.005 * np.eye(3)
+_WHOLE = 1.005
 _MEDIAN = 2.366  # of the sum of three squared standard normal numbers
 _TINY, _FAR = 1e-280, 35.0  # a probability that still has a deviate, and a deviate beyond all that have one
 
@@ -84,49 +79,50 @@ class Rejection:
     reason: str
 
 
-def find_bumped(poses: Stack, noise: PoseNoise, far: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which poses (n,) disagree with the others; where most do, no majority agrees.
+def find_bumped(
+    poses: Stack, prior: NoisePrior, terms: Terms, whole: NoisyFit
+) -> tuple[NDArray[np.bool_], NoisyFit]:
+    """Return which poses (n,) disagree with the others, and the fit of those; where most do, no majority agrees.
 
     Parameters
     ----------
     poses : Stack
-    noise : PoseNoise
-        When `estimated`, its size is taken anew from the poses that agree.
-    far : (n, 2)
-        `deviates` of a fit of all poses.
+    prior : NoisePrior
+        Noise that is not known is taken anew from the poses that agree.
+    terms : Terms
+        What else may be in the readings.
+    whole : NoisyFit
+        Of all poses.
     """
-    n = len(poses)
-    agreeing = np.ones(n, dtype=bool)
+    n, everybody = len(poses), np.ones(len(poses), dtype=bool)
     # Noise that is estimated with two bumped poses among few is so large that it hides both.
-    plausible = not noise.estimated and bool((far < limit(n)).all())
-    if n < FEWEST or plausible:
-        return ~agreeing
-    agreeing = _agreeing(poses, noise, _best_majority(poses, noise))
+    known = prior.sigmas is not None and prior.believed
+    if n < FEWEST or (known and (deviates(poses, everybody, whole, terms) < limit(n)).all()):
+        return ~everybody, whole
+    agreeing, noisy = _agreeing(poses, prior, terms, _best_majority(poses, prior, terms, whole))
     while not agreeing.all():
-        worst = _worst(poses, noise, agreeing)
-        nearest = np.argmin(np.where(agreeing, np.inf, worst))
-        if worst[nearest] >= limit(n):
+        worst = np.where(agreeing, np.inf, deviates(poses, agreeing, noisy, terms).max(axis=1))
+        nearest = np.argsort(worst)[: -(-n // _AT_ONCE)]
+        if worst[nearest[0]] >= limit(n):
             break
-        agreeing[nearest] = True
-    return ~agreeing
+        agreeing[nearest[worst[nearest] < limit(n)]] = True
+        noisy = refit(poses, agreeing, prior, terms, noisy)
+    return ~agreeing, noisy
 
 
-def _agreeing(poses: Stack, noise: PoseNoise, majority: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _agreeing(
+    poses: Stack, prior: NoisePrior, terms: Terms, majority: NDArray[np.bool_]
+) -> tuple[NDArray[np.bool_], NoisyFit]:
     """Leave out of a majority whoever does not agree: one was asked for, so one was found, but it may not be one."""
     n, agreeing = len(poses), majority.copy()
+    noisy = refit(poses, agreeing, prior, terms)
     while agreeing.sum() > _START:
-        worst = np.where(agreeing, _worst(poses, noise, agreeing), 0.0)
+        worst = np.where(agreeing, deviates(poses, agreeing, noisy, terms).max(axis=1), 0.0)
         if worst.max() < limit(n):
-            return agreeing
+            break
         agreeing[np.argmax(worst)] = False
-    return agreeing
-
-
-def _worst(poses: Stack, noise: PoseNoise, agreeing: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Return the larger deviate (n,) of each pose from a fit of the agreeing ones."""
-    fit, noise = refit(poses, agreeing, noise)
-    worst: NDArray[np.float64] = deviates(poses, agreeing, fit, noise).max(axis=1)
-    return worst
+        noisy = refit(poses, agreeing, prior, terms)
+    return agreeing, noisy
 
 
 def limit(n: int) -> float:
@@ -134,51 +130,66 @@ def limit(n: int) -> float:
     return float(-ndtri(FALSE_ALARM / (4 * n)))  # forces and torques, both sides
 
 
-def deviates(poses: Stack, inside: NDArray[np.bool_], fit: Fit, noise: PoseNoise) -> NDArray[np.float64]:
+def deviates(poses: Stack, inside: NDArray[np.bool_], noisy: NoisyFit, terms: Terms) -> NDArray[np.float64]:
     """Return how far each pose's force and torque are from what the poses inside the fit predict.
 
     Parameters
     ----------
     poses : Stack
     inside : (n,) bool
-        The poses that `fit` was made from.
-    fit : Fit
-    noise : PoseNoise
+        The poses that the fit was made from.
+    noisy : NoisyFit
+    terms : Terms
+        Of all poses.
 
     Returns
     -------
     (n, 2)
         Normal deviates: as improbable as one Gaussian number so many standard deviations off.
     """
-    J, residuals = fit.J, fit.residuals
-    if not inside.all():
-        J = free_jacobian(poses.R_SW, fit.theta, noise.sigmas, fit.free)
-        residuals = (poses.wrenches - predict(poses.R_SW, fit.theta)) / noise.sigmas
+    fit = noisy.fit
+    R_SW = fit.mount @ poses.R_SW
+    J = jacobian(R_SW, fit.theta, fit.free, terms)
+    residuals = poses.wrenches - predict(R_SW, fit.theta) - terms.columns @ fit.added
+    V = noisy.noise.covariances(R_SW, fit.theta)
     # A pose that helped to make the fit is nearer to it than noise alone; any other is further away.
     sign = np.where(inside, -1.0, 1.0)[:, None, None]
-    halves = J.reshape(-1, 2, 3, 12)
-    covariance = _WHOLE + sign[..., None] * (halves @ fit.covariance @ halves.swapaxes(2, 3))
-    covariance[~inside, 1] += _unpredicted(fit, noise) * np.eye(3)
-    r = residuals.reshape(-1, 2, 3, 1)
-    squares = np.maximum((r.swapaxes(2, 3) @ np.linalg.solve(covariance, r))[..., 0, 0], 0.0)
-    return as_deviates(squares, inside, noise)
+    fitted = sign * (J @ fit.covariance @ J.swapaxes(1, 2))
+    fitted[~inside, 3:, 3:] += _unpredicted(fit) * np.eye(3)
+    squares = np.stack(
+        [
+            _squares(V[:, half, half], fitted[:, half, half], residuals[:, half])
+            for half in (slice(0, 3), slice(3, 6))
+        ],
+        axis=1,
+    )
+    return as_deviates(squares, inside, noisy.noise)
 
 
-def _unpredicted(fit: Fit, noise: PoseNoise) -> float:
-    """Return the variance of a new pose's torque, over the noise's, that the product of two errors makes.
+def _squares(
+    V: NDArray[np.float64], fitted: NDArray[np.float64], r: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return r' inv(V + fitted) r (n,), where `fitted` takes away no more than V has."""
+    W = whitener(V)
+    values, axes = np.linalg.eigh(W @ fitted @ W.swapaxes(1, 2))
+    z = (axes.swapaxes(1, 2) @ W @ r[..., None])[..., 0]
+    return np.asarray((z**2 / (_WHOLE + np.maximum(values, -1.0))).sum(axis=1), dtype=np.float64)
+
+
+def _unpredicted(fit: Fit) -> float:
+    """Return the variance of a new pose's torque, (N·m)², that the product of two errors makes.
 
     The Jacobian does not know it. Where g and L are both unknown, the first pose that shows them is no bump.
     """
     C = fit.covariance
-    product = np.trace(C[GRAVITY, GRAVITY]) * np.trace(C[CENTRE_OF_MASS, CENTRE_OF_MASS])
-    return float(product / np.min(noise.sigmas[3:]) ** 2)
+    return float(np.trace(C[GRAVITY, GRAVITY]) * np.trace(C[CENTRE_OF_MASS, CENTRE_OF_MASS]))
 
 
 def as_deviates(
     squares: NDArray[np.float64], inside: NDArray[np.bool_], noise: PoseNoise
 ) -> NDArray[np.float64]:
     """Turn sums of three squares into normal deviates of the same probability."""
-    if noise.estimated:
+    if np.isfinite(noise.freedom).all():
         freedom = np.broadcast_to(np.array(noise.freedom), squares.shape)
         # Without the pose itself, whose own residual would make the noise look large.
         rest = np.where(inside[:, None], np.maximum(freedom - 3, 1.0), freedom)
@@ -191,26 +202,37 @@ def as_deviates(
     return np.where(probability > _TINY, -ndtri(np.maximum(probability, _TINY) / 2), np.maximum(plain, _FAR))
 
 
-def refit(poses: Stack, chosen: NDArray[np.bool_], noise: PoseNoise) -> tuple[Fit, PoseNoise]:
-    """Fit the `chosen` poses; noise that is estimated is estimated from them."""
-    inner = poses.take(chosen)
-    if noise.estimated:
-        return fit_with_unknown_noise(inner, noise.least, kept=float(chosen.mean()))
-    return maximise(inner, noise.sigmas, two_stage(inner)), noise
+def refit(
+    poses: Stack,
+    chosen: NDArray[np.bool_],
+    prior: NoisePrior,
+    terms: Terms,
+    start: NoisyFit | None = None,
+) -> NoisyFit:
+    """Fit the `chosen` poses, with the noise that they show."""
+    return fit_with_noise(
+        poses.take(chosen), prior, terms.take(chosen), start=start, kept=float(chosen.mean())
+    )
 
 
 # ---- the best majority -------------------------------------------------------------------------
 
 
-def _best_majority(poses: Stack, noise: PoseNoise) -> NDArray[np.bool_]:
-    """Return the poses (n,) of the smallest trimmed sum of squares (least trimmed squares)."""
+def _best_majority(poses: Stack, prior: NoisePrior, terms: Terms, whole: NoisyFit) -> NDArray[np.bool_]:
+    """Return the poses (n,) of the smallest trimmed sum of squares (least trimmed squares).
+
+    What the terms add is taken as all poses have it, for four poses say too little of it.
+    """
     n = len(poses)
     majority = max(n - int(LARGEST_SHARE * n), _START)
+    poses = replace(
+        poses, R_SW=whole.fit.mount @ poses.R_SW, wrenches=poses.wrenches - terms.columns @ whole.fit.added
+    )
     forces, torques = _square_residuals(poses, _fit_many(poses, _starts(n)))
-    if noise.estimated:
+    if prior.sigmas is None:
         sF2, sM2 = (np.median(block, axis=1).min() / _MEDIAN for block in (forces, torques))
     else:
-        sF2, sM2 = (float(np.mean(half**2)) for half in np.split(noise.sigmas, 2))
+        sF2, sM2 = (float(np.mean(half**2)) for half in np.split(prior.sigmas, 2))
     sF2, sM2 = max(sF2, 1e-24), max(sM2, 1e-24)
     squares = forces / sF2 + torques / sM2
     for _ in range(2):  # concentration: fit the majority, see who the majority is now

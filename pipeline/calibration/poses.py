@@ -121,10 +121,16 @@ class Stack:
         World components to sensor components: the transposes of the poses' R_WS.
     wrenches : (n, 6)
         Mean readings, force before torque, S, N and N·m.
+    moments : (n,)
+        When, from 0 at the first pose to 1 at the last one: by time, or by number where not all have one.
+    duration : float or None
+        s from the first pose to the last; None where they have no times.
     """
 
     R_SW: NDArray[np.float64]
     wrenches: NDArray[np.float64]
+    moments: NDArray[np.float64]
+    duration: float | None = None
 
     def __len__(self) -> int:
         return len(self.wrenches)
@@ -141,7 +147,7 @@ class Stack:
 
     def take(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> Stack:
         """Return some of the poses."""
-        return Stack(self.R_SW[chosen], self.wrenches[chosen])
+        return Stack(self.R_SW[chosen], self.wrenches[chosen], self.moments[chosen], self.duration)
 
 
 def stack(poses: Sequence[PoseSample]) -> Stack:
@@ -149,7 +155,15 @@ def stack(poses: Sequence[PoseSample]) -> Stack:
     R_WS = np.array([pose.R_WS for pose in poses]).reshape(-1, 3, 3)
     wrenches = np.empty((len(R_WS), 6))
     wrenches[:, :3], wrenches[:, 3:] = [pose.force for pose in poses], [pose.torque for pose in poses]
-    return Stack(np.ascontiguousarray(R_WS.transpose(0, 2, 1)), wrenches)
+    moments, duration = _moments([pose.time for pose in poses])
+    return Stack(np.ascontiguousarray(R_WS.transpose(0, 2, 1)), wrenches, moments, duration)
+
+
+def _moments(times: Sequence[float | None]) -> tuple[NDArray[np.float64], float | None]:
+    known = np.array([time for time in times if time is not None], dtype=np.float64)
+    if len(known) == len(times) > 0 and np.ptp(known) > 0:
+        return (known - known.min()) / np.ptp(known), float(np.ptp(known))
+    return np.arange(len(times)) / max(len(times) - 1, 1), None
 
 
 def named(poses: Sequence[PoseSample], index: int) -> str:

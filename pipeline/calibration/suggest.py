@@ -111,8 +111,7 @@ def suggest_pose(calibration: Calibration, reachable: Reachable) -> Suggestion:
         No candidate can be reached by a clear move.
     """
     theta = _plausible(calibration)
-    widened = 1.0 if calibration.plausible else np.sqrt(calibration.scatter)
-    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / _sigmas(calibration.noise, widened)
+    J = prediction_jacobian(reachable.R_WS.swapaxes(1, 2), theta) / _sigmas(calibration.noise)
     A = calibration.task.parameter_sensitivity(theta)
     errors = _errors_with(calibration.covariance, J, A)
     settled = errors.min() < _UNDETERMINED
@@ -213,9 +212,9 @@ def _plausible(calibration: Calibration) -> NDArray[np.float64]:
 # ---- information -------------------------------------------------------------------------------
 
 
-def _sigmas(noise: PoseNoise, widened: float = 1.0) -> NDArray[np.float64]:
+def _sigmas(noise: PoseNoise) -> NDArray[np.float64]:
     """Return the noise (6, 1) that poses to come are credited with: never less than any sensor has."""
-    sigmas: NDArray[np.float64] = widened * np.maximum(noise.sigmas, _QUIETEST)[:, None]
+    sigmas: NDArray[np.float64] = np.maximum(noise.sigmas, _QUIETEST)[:, None]
     return sigmas
 
 

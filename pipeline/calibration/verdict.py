@@ -8,16 +8,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.outliers import limit
+from pipeline.calibration.poses import named, stack
 from pipeline.calibration.wording import plain
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pipeline.calibration.calibrate import Calibration
+    from pipeline.calibration.causes import Cause
 
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
 _RESTLESS = 50.0  # drift and hum make a mean several times worse than its samples promise, but not this much
-_NEARLY, _DOUBTFUL = 2.0, 2  # limits, and poses: touches are rarely that gentle twice
+_WORTH_A_WORD = 0.2  # probability from which a cause that is not believed is told
+_ABSURD = 10.0  # times the noise given: no wrong figure, but something that nobody knows
+_HARDLY = 1.3  # times the noise given: nobody knows it better
+_LEAN = np.radians(60.0)  # bases are mounted in multiples of 90 degrees
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
 
 
@@ -85,11 +89,35 @@ def judge(calibration: Calibration, agree: bool, limits: Limits) -> Verdict:
     )
     grave = _grave(calibration, agree, limits, error)
     if grave:
-        return Verdict(Level.REFUSE, tuple(grave))
+        return Verdict(Level.REFUSE, (*_found(calibration), *grave))
     slight = _slight(calibration, limits, error)
     if slight:
-        return Verdict(Level.USABLE, tuple(slight))
-    return Verdict(Level.GOOD, (f"{error}; {1e3 * limits.good_error:g} mm is the limit for good.",))
+        return Verdict(Level.USABLE, (*slight, *_possible(calibration)))
+    good = f"{error}; {1e3 * limits.good_error:g} mm is the limit for good."
+    return Verdict(Level.GOOD, (good, *_possible(calibration)))
+
+
+def _found(calibration: Calibration) -> list[str]:
+    """Return the cause that is believed, beside plain noise and noise that is less than was given."""
+    return [
+        cause.sentence
+        for cause in calibration.causes
+        if cause.believed and cause.key != "plain" and not _harmless(calibration, cause)
+    ]
+
+
+def _harmless(calibration: Calibration, cause: Cause) -> bool:
+    """Tell whether a figure was given that is merely careful: the noise is less, or hardly more."""
+    return cause.key == "noise" and max(calibration.noise_factor) < _HARDLY
+
+
+def _possible(calibration: Calibration) -> list[str]:
+    """Return causes that the evidence is too weak for, as what they are."""
+    return [
+        f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}"
+        for cause in calibration.causes
+        if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
+    ] + [cause.sentence for cause in calibration.causes if cause.believed and _harmless(calibration, cause)]
 
 
 def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) -> list[str]:
@@ -105,25 +133,37 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
             " orientations are in another convention than was said (contactbench diagnose tells), or captures"
             " were disturbed."
         )
+    elif max(calibration.noise_factor) > _ABSURD:
+        words.append(
+            f"The residuals are {max(calibration.noise_factor):.0f} times what the noise given explains: check how the"
+            " orientations are written (contactbench diagnose), and that nothing touched the tool."
+        )
+    if _same_readings(calibration):
+        words.append(
+            "Every pose has the same reading to the last digit, though the tool stood differently: the sensor does not"
+            " answer. Check its cable and its power."
+        )
     sight = calibration.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
         words.extend(sight.null_directions)
-    elif sight.weighs and not sight.weak and _points_up(calibration):
+    elif sight.weighs and not sight.weak and (off := _off_down(calibration)):
         words.append(
-            "Gravity comes out pointing up. The sensor reports the opposite sign, or the orientations are"
-            " turned over: contactbench diagnose tells which."
+            f"Gravity comes out pointing {off:.0f}° away from down. The sensor reports the opposite sign, the"
+            " orientations are turned (contactbench diagnose tells), or the robot does not stand upright: then say"
+            " where down is (--down)."
         )
     if not words and calibration.contact_error > limits.usable_error:
         remedy = sight.weak or "Take more poses with tilts about two axes, or average each for longer."
+        if calibration.model_error > 0.5 * calibration.contact_error:
+            remedy = "More poses do not help: it is not noise."
         words.extend(sight.null_directions)
         words.append(f"{error}; more than {1e3 * limits.usable_error:g} mm is refused. {remedy}")
     return words
 
 
-def _marginal(calibration: Calibration) -> int:
-    """Count poses left out that a touch would have to be just strong enough for."""
-    far = [max(rejection.force_sigmas, rejection.torque_sigmas) for rejection in calibration.rejected]
-    return sum(deviate < _NEARLY * limit(len(calibration.poses)) for deviate in far)
+def _same_readings(calibration: Calibration) -> bool:
+    readings = np.array([[*pose.force, *pose.torque] for pose in calibration.poses])
+    return bool((np.ptp(readings, axis=0) == 0).all()) and calibration.observability.force_rank == 6
 
 
 def _restless(calibration: Calibration) -> bool:
@@ -134,9 +174,13 @@ def _restless(calibration: Calibration) -> bool:
     )
 
 
-def _points_up(calibration: Calibration) -> bool:
-    up = calibration.gravity_W[2]
-    return bool(up > 2 * np.sqrt(calibration.covariance[2, 2]))
+def _off_down(calibration: Calibration) -> float:
+    """Return by how many degrees gravity surely points away from down; 0 if a tilted base explains it."""
+    g, down = calibration.gravity_W, calibration.down_W
+    sideways = np.eye(3) - np.outer(down, down)
+    along = float(g @ down) + 2 * float(np.sqrt(down @ calibration.covariance[:3, :3] @ down))
+    angle = float(np.degrees(np.arctan2(np.linalg.norm(sideways @ g), g @ down)))
+    return angle if along < np.linalg.norm(g) * np.cos(_LEAN) else 0.0
 
 
 def _slight(calibration: Calibration, limits: Limits, error: str) -> list[str]:
@@ -146,20 +190,18 @@ def _slight(calibration: Calibration, limits: Limits, error: str) -> list[str]:
     if not sight.weighs:
         words.extend(sight.null_directions)
     if calibration.contact_error > limits.good_error:
-        words.append(f"{error}; {1e3 * limits.good_error:g} mm would be good. One or two more poses help.")
+        helps = calibration.model_error < 0.5 * calibration.contact_error
+        remedy = "One or two more poses help." if helps else "It is not noise, and more poses do not help."
+        words.append(f"{error}; {1e3 * limits.good_error:g} mm would be good. {remedy}")
+    latest = int(np.argmax(stack(calibration.poses).moments))
+    if rejected and not calibration.kept[latest]:
+        words.append(
+            f"{named(calibration.poses, latest).capitalize()}, the last one, disagrees: it was bumped, or the sensor's"
+            " zero jumped before it, and then the bias is wrong. Take one or two poses more; they tell which."
+        )
     if sight.weak:
         words.append(sight.weak)
-    if not calibration.plausible:
-        words.append(
-            f"The residuals are {np.sqrt(calibration.scatter):.1f} times what the noise given explains; every"
-            " uncertainty has been widened by that. Drift, cable pull or a wrong noise figure do this."
-        )
-    if not calibration.noise.estimated and _marginal(calibration) >= _DOUBTFUL:
-        words.append(
-            f"{_marginal(calibration)} of the poses that were left out are only a little beyond the limit. If nothing"
-            " touched them, the noise given is too small, and so is every uncertainty: leave it out, to have it"
-            " estimated from the poses."
-        )
+    words.extend(_found(calibration))
     if kept < _CHECKED_FROM:
         words.append(
             f"With {kept} poses none can be checked against the others. Take at least {_CHECKED_FROM}."

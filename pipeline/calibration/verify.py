@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
 from pipeline.calibration.contact_error import contact_sensitivity
@@ -162,7 +163,7 @@ def verify_still(
     residuals = np.concatenate([arrays.F, arrays.M], axis=1) - calibration.model.predict(
         arrays.R_SW.transpose(0, 2, 1)
     )
-    covariance = _covariance(calibration, arrays.R_SW, _noise(calibration, samples))
+    covariance = _covariance(calibration, arrays.R_SW, _noise(calibration, arrays.R_SW, samples))
     square, freedom = _square(residuals.ravel(), covariance), residuals.size
     each = np.array(
         [
@@ -189,24 +190,21 @@ def verify_still(
     return replace(figures, verdict=_judge(figures))
 
 
-def _noise(calibration: Calibration, samples: Sequence[PoseSample]) -> Floats:
-    """Return the variance (n, 6) of each pose's mean: the calibration's noise, or more if its samples say so."""
-    widened = 1.0 if calibration.plausible else calibration.scatter
-    usual = calibration.noise.sigmas**2 * widened
-    variances = np.tile(usual, (len(samples), 1))
-    for row, pose in zip(variances, samples, strict=True):
+def _noise(calibration: Calibration, R_SW: Floats, samples: Sequence[PoseSample]) -> Floats:
+    """Return the covariance (n, 6, 6) of each pose: the calibration's noise, or more if its samples say so."""
+    V = calibration.noise.covariances(R_SW, calibration.model.vector)
+    for each, pose in zip(V, samples, strict=True):
         if pose.force_sd is not None and pose.torque_sd is not None:
             own = np.concatenate([pose.force_sd, pose.torque_sd]) ** 2 / pose.count
-            np.maximum(row, own, out=row)
-    return variances
+            each[range(6), range(6)] += np.maximum(own - calibration.noise.sigmas**2, 0)
+    return V
 
 
-def _covariance(calibration: Calibration, R_SW: Floats, variances: Floats) -> Floats:
+def _covariance(calibration: Calibration, R_SW: Floats, V: Floats) -> Floats:
     """Return the joint covariance (6 n, 6 n) of the residuals: one calibration's error is in all of them."""
     J = prediction_jacobian(R_SW, calibration.model.vector).reshape(-1, 12)
     shared: Floats = J @ calibration.covariance @ J.T
-    shared[np.diag_indices_from(shared)] += variances.ravel()
-    return shared
+    return shared + block_diag(*V)
 
 
 def _square(residual: Floats, covariance: Floats) -> float:

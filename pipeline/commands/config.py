@@ -26,6 +26,7 @@ config_app = typer.Typer(
 
 _NOT_GOOD_ENOUGH = 1
 _SHOWN = 48
+_SECONDS_AN_HOUR = 3600
 
 BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file.")]
 
@@ -36,7 +37,8 @@ BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder o
         "What is not given for a session is what its settings config.* say, such as config.serial, as in the desktop"
         " application; the same session then gives the same bytes.\n\n"
         "Refused, with exit code 1, unless contacts were verified on markers with this calibration and probe, and"
-        " nothing that this rests on is stale. What was at --out stays until the new bundle is complete."
+        " nothing that this rests on is stale; also where a known weight or a known touch failed. What was at --out"
+        " stays until the new bundle is complete."
     ),
     epilog="Example: contactbench config export bench-1 --sensor M8128 --rate 1000 --out runtime.zip",
 )
@@ -47,6 +49,8 @@ def export(
     probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
     verification: Annotated[Path | None, typer.Option(help="JSON file of verify.")] = None,
     report: Annotated[Path | None, typer.Option(help="HTML report to put into it.")] = None,
+    known_weight: Annotated[Path | None, typer.Option(help="JSON file of check weight.")] = None,
+    known_touch: Annotated[Path | None, typer.Option(help="JSON file of check touch.")] = None,
     sensor: Annotated[str | None, typer.Option(help="Model of the sensor [unknown].")] = None,
     serial: Annotated[str | None, typer.Option(help="Its serial number [the one the session knows].")] = None,
     rate: Annotated[
@@ -108,7 +112,7 @@ def export(
     as_json: JsonOption = False,
 ) -> None:
     """Write a bundle."""
-    files = _inputs(session, calibration, probe, verification, report)
+    files = _inputs(session, calibration, probe, verification, report, known_weight, known_touch)
     from pipeline.calibration.files.calibration_file import creation_time
     from pipeline.config.runtime import UnverifiedError
     from pipeline.config.runtime.bench import export_from_files
@@ -135,6 +139,8 @@ def export(
                 report,
                 _settings({}, said, settings_file),
                 created=creation_time(),
+                known_weight=known_weight,
+                known_touch=known_touch,
                 unverified=unverified,
             )
     except UnverifiedError as error:
@@ -172,6 +178,7 @@ def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
         f" {model.probe.name} ({model.probe.facets:,} facets); made {model.provenance.created} by"
         f" {model.provenance.operator}."
     )
+    _say_zero(found)
     if replayed is None:
         say("No test vectors: export the config again to have them.", "yellow")
     else:
@@ -268,10 +275,34 @@ def _standing(config: RuntimeConfig) -> str:
     return "NOT VERIFIED"
 
 
+def _say_zero(config: RuntimeConfig) -> None:
+    """Say when the bias was measured, and how fast it drifted then."""
+    zero = config.model.zero
+    if zero.measured is not None:
+        say(f"The sensor's zero was measured on {zero.measured}.")
+    if zero.drift is not None:
+        force, torque = (
+            _SECONDS_AN_HOUR * max(map(abs, rates))
+            for rates in (zero.drift.force_Nps, zero.drift.torque_Nmps)
+        )
+        say(
+            f"It drifted by up to {force:.2g} N and {1e3 * torque:.2g} mN·m an hour during the calibration: calibrate"
+            " again shortly before use.",
+            "yellow",
+        )
+
+
 def _say_doubts(config: RuntimeConfig) -> None:
+    from pipeline.config.runtime.checks import unchecked
+    from pipeline.config.vertical import NO_ADMITTANCE, down_along_z
+
     model = config.model
     for reason in model.provenance.stale:
         say(reason, "yellow")
+    if missing := unchecked(model.checks):
+        say(missing, "yellow")
+    if down_along_z(model.world.down_W) is None:
+        say(NO_ADMITTANCE, "yellow")
     if None in model.gates.saturation:
         say(
             "NO SATURATION LIMITS: a reading at the end of the sensor's range is taken for a touch: give --saturation,"
@@ -292,11 +323,14 @@ def _facts(config: RuntimeConfig) -> dict[str, Any]:
         "schema",
         "version",
         "sensor",
+        "world",
+        "zero",
         "touch",
         "probe",
         "regions",
         "verified",
         "verification",
+        "checks",
         "provenance",
     )
     return {name: model[name] for name in kept}

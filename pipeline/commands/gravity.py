@@ -3,46 +3,63 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from pipeline.commands.options import (
+    DelayOption,
+    DownOption,
     EulerOption,
     ForceOption,
     InverseOption,
     MountOption,
     NoiseForceOption,
     NoiseTorqueOption,
+    OrientationNoiseOption,
     RadiansOption,
     RobotOption,
+    RobotPosesOption,
     TipOption,
     VectorOption,
     contact_task,
     convention,
+    delay_seconds,
+    down_direction,
     mount_rotation,
     numbers,
+    orientation_sigma,
     pose_noise,
     refuse_overwriting,
 )
 from pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
     from rich.table import Table
 
     from pipeline.calibration import Calibration
     from pipeline.calibration.diagnosis.diagnose import Diagnosis
+    from pipeline.calibration.files.pose_csv import PoseTable
     from pipeline.calibration.mounting import MountCalibration
+    from pipeline.calibration.orientation import Convention
 
 _NOT_GOOD_ENOUGH = 1
+_HOUR = 3600.0  # s
 _UNKNOWN_SHARE = 0.1  # of what a parameter could be if no pose said anything of it; as in the report
+_WORTH_A_WORD = 0.2  # probability from which a cause is told
 _STYLES = {"good": "green", "usable": "yellow", "refuse": "red"}
 
 gravity_app = typer.Typer(rich_markup_mode=None)
 
 PosesArgument = Annotated[
-    Path, typer.Argument(metavar="POSES", help="CSV file of still, contact-free poses; see calibrate.")
+    Path,
+    typer.Argument(
+        metavar="POSES", help="CSV file of still, contact-free poses, or a recording of them; see calibrate."
+    ),
 ]
 CalibrationArgument = Annotated[
     Path, typer.Argument(metavar="CALIBRATION", help="What contactbench calibrate wrote.")
@@ -56,11 +73,17 @@ CalibrationArgument = Annotated[
         " origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or"
         " otherwise as the options say. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard"
         " deviations of single samples), temperature. Three poses with different tilts are the least; eight"
-        " let bumped ones be named.\n\n"
+        " let bumped ones be named. With t (s), a drift of the sensor during the session is found.\n\n"
+        "POSES may be a recording instead, MCAP or CSV with the column t: the still poses in it are found as by"
+        " contactbench captures. A sensor and a robot that were recorded into two CSV files are put together with"
+        " --robot-poses.\n\n"
         "Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all"
         " the same, so that next-pose can tell which pose to take."
     ),
-    epilog="Example: contactbench calibrate poses.csv --euler xyz --out calibration.json --report calibration.html",
+    epilog=(
+        "Example: contactbench calibrate poses.csv --euler xyz --out calibration.json --report calibration.html\n\n"
+        "Example: contactbench calibrate wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json"
+    ),
 )
 def calibrate(
     poses: PosesArgument,
@@ -79,8 +102,12 @@ def calibrate(
             help="Orientations are those of the flange, and how the sensor is turned on it is unknown.",
         ),
     ] = False,
+    robot_poses: RobotPosesOption = None,
+    delay: DelayOption = None,
     noise_force: NoiseForceOption = None,
     noise_torque: NoiseTorqueOption = None,
+    orientation_noise: OrientationNoiseOption = None,
+    down: DownOption = "0,0,-1",
     tip: TipOption = None,
     contact_force: ForceOption = 10.0,
     as_json: JsonOption = False,
@@ -89,25 +116,28 @@ def calibrate(
     if mount is not None and estimate_mount:
         raise typer.BadParameter("--mount and --estimate-mount contradict each other: give one.")
     for written in (out, report):
-        refuse_overwriting(written, [poses])
+        refuse_overwriting(written, [file for file in (poses, robot_poses) if file is not None])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    noise, task = pose_noise(noise_force, noise_torque), contact_task(tip, contact_force)
-    from pipeline.calibration import calibrate as fit
-    from pipeline.calibration.files.calibration_file import Source, creation_time, save_calibration
-    from pipeline.calibration.files.capture_recording import read_any_poses
-
     R_ES = mount_rotation(mount)
-    table = read_any_poses(poses, written_as, R_ES=R_ES)
-    for sentence in table.warnings:
-        say(f"warning: {sentence}", "yellow")
+    said: dict[str, Any] = {
+        "noise": pose_noise(noise_force, noise_torque),
+        "orientation_sigma": orientation_sigma(orientation_noise),
+        "down_W": down_direction(down),
+        "task": contact_task(tip, contact_force),
+    }
+    from pipeline.calibration import calibrate as fit
+    from pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from pipeline.calibration.files.calibration_file import Source, creation_time, save_calibration
+
+    table = _poses(poses, written_as, R_ES, robot_poses, delay)
     mounted = None
     if estimate_mount:
         from pipeline.calibration.mounting import estimate_mount as fit_mount
 
-        mounted = fit_mount(table.poses, noise, task=task)
+        mounted = fit_mount(table.poses, **said)
         calibration = mounted.calibration
     else:
-        calibration = fit(table.poses, noise, task=task)
+        calibration = fit(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     created = creation_time()
     source = Source.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
@@ -117,9 +147,31 @@ def calibrate(
         write_report(calibration, report, source=source, created=created)
     _show(calibration, mounted)
     if as_json:
-        print_json(_facts(calibration, mounted, out, report, table.warnings))
+        print_json(_facts(calibration, mounted, out, report, table))
     if calibration.verdict.level == "refuse":
         raise typer.Exit(_NOT_GOOD_ENOUGH)
+
+
+def _poses(
+    file: Path, written_as: Convention | None, R_ES: Any, robot_poses: Path | None, delay: str | None
+) -> PoseTable:
+    """Read poses or find them in a recording, and tell how, with what was left out."""
+    from pipeline.calibration.files.capture_recording import read_any_poses
+
+    with Bar("looking for still poses") as bar:
+        table = read_any_poses(
+            file,
+            written_as,
+            robot_poses=robot_poses,
+            R_ES=R_ES,
+            delay=delay_seconds(delay),
+            progress=bar,
+        )
+    for sentence in table.notes:
+        say(sentence)
+    for sentence in table.warnings:
+        say(f"warning: {sentence}", "yellow")
+    return table
 
 
 def _mount_record(mounted: MountCalibration | None, R_ES: Any) -> Any:
@@ -136,7 +188,7 @@ def _facts(
     mounted: MountCalibration | None,
     out: Path,
     report: Path | None,
-    warnings: tuple[str, ...],
+    table: PoseTable,
 ) -> dict[str, Any]:
     import math
 
@@ -162,10 +214,26 @@ def _facts(
         "noise_force_N": calibration.noise.sigmas[:3].tolist(),
         "noise_torque_Nm": calibration.noise.sigmas[3:].tolist(),
         "noise_estimated": calibration.noise.estimated,
+        "noise_factor": list(calibration.noise_factor),
+        "orientation_noise_deg": math.degrees(calibration.noise.orientation),
+        "down_W": calibration.down_W.tolist(),
+        "causes": [
+            {"key": cause.key, "odds": cause.odds, "sentence": cause.sentence} for cause in calibration.causes
+        ],
+        "offsets": calibration.offsets.tolist(),
+        "drift_per_hour": _hourly(calibration.drift_rate),
+        "drift_per_hour_sigma": _hourly(calibration.drift_rate_sigma),
+        "model_error_mm": 1e3 * calibration.model_error,
         "R_SE": None if mounted is None else mounted.R_SE.tolist(),
         "R_SE_sigma_deg": None if mounted is None else mounted.rotation_sigma_deg,
-        "warnings": list(warnings),
+        "notes": list(table.notes),
+        "warnings": list(table.warnings),
     }
+
+
+def _hourly(rate: NDArray[np.float64] | None) -> list[float] | None:
+    """Return a rate (6,) in N and N·m an hour."""
+    return None if rate is None else (_HOUR * rate).tolist()
 
 
 def _show(calibration: Calibration, mounted: MountCalibration | None) -> None:
@@ -180,22 +248,30 @@ def _show(calibration: Calibration, mounted: MountCalibration | None) -> None:
     say(f"{level.upper()}: {calibration.verdict.reasons[0]}", _STYLES[level])
     for reason in calibration.verdict.reasons[1:]:
         say(reason)
+    known = " ".join(calibration.verdict.reasons)
+    for cause in calibration.causes:
+        if cause.key != "plain" and cause.odds > _WORTH_A_WORD and cause.sentence not in known:
+            say(f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}")
 
 
 def _table(calibration: Calibration) -> Table:
+    import numpy as np
     from rich.table import Table
 
     from pipeline.calibration.fit import UNKNOWN
+    from pipeline.calibration.wording import with_sigma
 
     table = Table(box=None)
     for heading in ("", "x", "y", "z", "unit"):
         table.add_column(heading, justify="left" if heading in {"", "unit"} else "right")
     values, sigmas = calibration.model.vector, list(calibration.sigmas.values())
+    # A drift or a re-zero was taken out: the biases are those of the session's end.
+    when = " at the end" if calibration.offsets.any() else ""
     rows = (
         ("gravity (W)", 0, 1.0, "N"),
-        ("force bias", 3, 1.0, "N"),
+        (f"force bias{when}", 3, 1.0, "N"),
         ("centre of mass (S)", 6, 1e3, "mm"),
-        ("torque bias", 9, 1e3, "mN·m"),
+        (f"torque bias{when}", 9, 1e3, "mN·m"),
     )
     mass = _trusted(calibration.mass, calibration.model.mass_sigma, UNKNOWN[0] / 9.80665)
     table.add_row("mass", mass, "", "", "kg")
@@ -205,6 +281,14 @@ def _table(calibration: Calibration) -> Table:
             for k in range(first, first + 3)
         ]
         table.add_row(name, *cells, unit)
+    rate, sigma = _hourly(calibration.drift_rate), _hourly(calibration.drift_rate_sigma)
+    if rate is not None and sigma is not None:
+        for name, first, scale, unit in (("force drift", 0, 1.0, "N/h"), ("torque drift", 3, 1e3, "mN·m/h")):
+            cells = [
+                " ± ".join(with_sigma(scale * rate[k], scale * sigma[k])) for k in range(first, first + 3)
+            ]
+            table.add_row(name, *cells, unit)
+    table.add_row("orientation noise", f"{np.degrees(calibration.noise.orientation):.2g}", "", "", "°")
     return table
 
 
@@ -236,8 +320,12 @@ def diagnose(
     inverse: InverseOption = False,
     robot: RobotOption = None,
     mount: MountOption = None,
+    robot_poses: RobotPosesOption = None,
+    delay: DelayOption = None,
     noise_force: NoiseForceOption = None,
     noise_torque: NoiseTorqueOption = None,
+    orientation_noise: OrientationNoiseOption = None,
+    down: DownOption = "0,0,-1",
     mass: Annotated[float | None, typer.Option(help="Mass of all that hangs on the sensor, kg.")] = None,
     tool_length: Annotated[
         float, typer.Option("--tool-length", help="From the sensor to the tip, mm.")
@@ -246,19 +334,26 @@ def diagnose(
 ) -> None:
     """Tell whether poses are in the conventions that were said."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from pipeline.calibration.diagnosis.diagnose import RawOrientations
     from pipeline.calibration.diagnosis.diagnose import diagnose as run
-    from pipeline.calibration.diagnosis.hypotheses import RawOrientations
     from pipeline.calibration.diagnosis.prior import Prior
-    from pipeline.calibration.files.pose_csv import read_poses
 
-    table = read_poses(poses, written_as, R_ES=mount_rotation(mount))
-    prior = Prior(mass=mass, tool_length=tool_length / 1000)
+    noise, sigma = pose_noise(noise_force, noise_torque), orientation_sigma(orientation_noise)
+    if sigma is not None:
+        if noise is None:
+            raise typer.BadParameter(
+                "--orientation-noise: give --noise-force and --noise-torque too. Without them the poses tell the noise"
+                " of all together."
+            )
+        noise = replace(noise, orientation=sigma)
+    prior = Prior(down_W=down_direction(down), mass=mass, tool_length=tool_length / 1000)
+    table = _poses(poses, written_as, mount_rotation(mount), robot_poses, delay)
     raw = RawOrientations(table.raw, table.convention)
     with Bar("comparing conventions", counted=True) as bar:
-        found = run(table.poses, pose_noise(noise_force, noise_torque), prior=prior, raw=raw, progress=bar)
+        found = run(table.poses, noise, prior=prior, raw=raw, progress=bar)
     _show_diagnosis(found)
     if as_json:
-        print_json({**found.to_json(), "warnings": list(table.warnings)})
+        print_json({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
     if not found.consistent:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
@@ -300,20 +395,21 @@ def verify_still(
     inverse: InverseOption = False,
     robot: RobotOption = None,
     mount: MountOption = None,
+    robot_poses: RobotPosesOption = None,
+    delay: DelayOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Check a calibration on poses that it has not seen."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.files.capture_recording import read_any_poses
     from pipeline.calibration.verify import verify_still as check
 
     fitted, R_ES = _calibration(calibration, mount)
-    table = read_any_poses(poses, written_as, R_ES=R_ES)
+    table = _poses(poses, written_as, R_ES, robot_poses, delay)
     found = check(fitted, table.poses)
     for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")
     if as_json:
-        print_json(found.to_json())
+        print_json({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
     if not found.passed:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from pipeline.calibration import ContactTask, PoseNoise
     from pipeline.calibration.orientation import Convention
@@ -60,6 +61,41 @@ NoiseForceOption = Annotated[
 NoiseTorqueOption = Annotated[
     float | None,
     typer.Option("--noise-torque", help="The same of its torque, N·m; both or none."),
+]
+OrientationNoiseOption = Annotated[
+    str | None,
+    typer.Option(
+        "--orientation-noise",
+        metavar="DEGREES|robot|tracker|hand",
+        help="How well the orientations are known, 1 sigma about each axis: degrees, or what gives them (robot 0.05,"
+        " tracker 0.2, hand 0.5) [estimated from the poses].",
+    ),
+]
+DownOption = Annotated[
+    str,
+    typer.Option(
+        "--down",
+        metavar="X,Y,Z",
+        help="Where gravity points in the world frame of the orientations, of any length; 0,0,1 for a robot that hangs"
+        " from the ceiling and gives its poses in its base's frame.",
+    ),
+]
+RobotPosesOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--robot-poses",
+        metavar="FILE",
+        help="The robot's own recording, CSV: t (s, on the sensor's clock) and the orientation. The first table then"
+        " needs t,fx,fy,fz,mx,my,mz only.",
+    ),
+]
+DelayOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="SECONDS|auto",
+        help="How much later a wrench is heard than its pose in a recording of both; auto: as the motion in it shows. A"
+        " doubtful estimate is told and not applied [0].",
+    ),
 ]
 TipOption = Annotated[
     str | None,
@@ -154,6 +190,64 @@ def mount_rotation(text: str | None) -> NDArray[np.float64] | None:
     return Rotation.from_euler("xyz", numbers(text, 3, "--mount"), degrees=True).as_matrix()
 
 
+def orientation_sigma(text: str | None) -> float | None:
+    """Return ``--orientation-noise`` in rad; None: nobody said it.
+
+    Raises
+    ------
+    typer.BadParameter
+        It is no angle, and nothing that is known to give orientations.
+    """
+    if text is None:
+        return None
+    from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+
+    if text in ORIENTATION_NOISE_DEG:
+        return math.radians(ORIENTATION_NOISE_DEG[text])
+    try:
+        degrees = float(text)
+    except ValueError:
+        degrees = math.nan
+    if not 0 <= degrees < 180:
+        raise typer.BadParameter(
+            f"--orientation-noise {text}: give degrees, at least 0, or one of {', '.join(ORIENTATION_NOISE_DEG)}."
+        )
+    return math.radians(degrees)
+
+
+def down_direction(text: str) -> tuple[float, float, float]:
+    """Return ``--down`` as a unit vector in W.
+
+    Raises
+    ------
+    typer.BadParameter
+        It has no direction.
+    """
+    x, y, z = numbers(text, 3, "--down")
+    length = math.hypot(x, y, z)
+    if not 0 < length < math.inf:
+        raise typer.BadParameter(
+            f"--down {text} has no direction: give where gravity points, such as 0,0,-1."
+        )
+    return x / length, y / length, z / length
+
+
+def delay_seconds(text: str | None) -> float | Literal["auto"] | None:
+    """Return ``--delay``, s.
+
+    Raises
+    ------
+    typer.BadParameter
+        It is neither a number nor ``auto``.
+    """
+    if text is None or text == "auto":
+        return "auto" if text else None
+    try:
+        return float(text)
+    except ValueError:
+        raise typer.BadParameter(f"--delay {text}: give seconds, or auto.") from None
+
+
 def pose_noise(force: float | None, torque: float | None) -> PoseNoise | None:
     """Return the noise that was given, or None.
 
@@ -195,8 +289,11 @@ def reachable(
     all_joints: bool,
     tool_length: float,
     floor: float,
+    down_W: ArrayLike = (0.0, 0.0, -1.0),
 ) -> Reachable:
     """Return the poses to choose from: what the robot reaches from where it is, or anything by hand.
+
+    By hand, tilts are counted from `down_W`.
 
     Raises
     ------
@@ -204,13 +301,16 @@ def reachable(
         Of --robot and --joints only one was given.
     """
     import numpy as np
+    from scipy.spatial.transform import Rotation
 
     from pipeline.calibration.reachable import by_hand, by_robot
 
     if (robot is None) != (joints is None):
         raise typer.BadParameter("--robot and --joints go together: which robot, and where it is now.")
     if robot is None or joints is None:
-        return by_hand(max_tilt=np.radians(max_tilt))
+        choice = by_hand(max_tilt=np.radians(max_tilt))
+        turn = Rotation.align_vectors(np.reshape(down_W, (1, 3)), [[0.0, 0.0, -1.0]])[0].as_matrix()
+        return replace(choice, R_WS=turn @ choice.R_WS)
     from pipeline.robot import Clearance, Robot
 
     arm = Robot.named(robot)

@@ -7,13 +7,15 @@ import sys
 from csv import writer
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from pipeline.commands.gravity import CalibrationArgument
 from pipeline.commands.options import (
     AllJointsOption,
+    DelayOption,
+    DownOption,
     EulerOption,
     FloorOption,
     ForceOption,
@@ -22,12 +24,15 @@ from pipeline.commands.options import (
     MountOption,
     RadiansOption,
     RobotOption,
+    RobotPosesOption,
     TiltOption,
     TipOption,
     ToolOption,
     VectorOption,
     contact_task,
     convention,
+    delay_seconds,
+    down_direction,
     mount_rotation,
     reachable,
     refuse_overwriting,
@@ -72,7 +77,14 @@ def next_pose(
 
     fitted = load_calibration(calibration)
     choice = reachable(
-        robot, joints, mount, max_tilt=max_tilt, all_joints=all_joints, tool_length=tool_length, floor=floor
+        robot,
+        joints,
+        mount,
+        max_tilt=max_tilt,
+        all_joints=all_joints,
+        tool_length=tool_length,
+        floor=floor,
+        down_W=fitted.down_W,
     )
     suggestion = suggest_pose(fitted, choice)
     say(suggestion.sentence)
@@ -112,6 +124,7 @@ def plan_poses(
     mass: Annotated[float, typer.Option(help="About what hangs on the sensor, kg.")] = 0.5,
     noise_force: Annotated[float, typer.Option(help="Standard deviation of a pose's mean force, N.")] = 0.05,
     noise_torque: Annotated[float, typer.Option(help="The same of its torque, N·m.")] = 0.002,
+    down: DownOption = "0,0,-1",
     as_json: JsonOption = False,
 ) -> None:
     """Plan poses that together leave the least error at the contact."""
@@ -124,10 +137,18 @@ def plan_poses(
 
     if not 0 < mass < 1000:
         raise InputError(f"--mass: {mass} kg is no mass of a tool; give what hangs on the sensor, about")
+    down_W = down_direction(down)
     choice = reachable(
-        robot, joints, mount, max_tilt=max_tilt, all_joints=all_joints, tool_length=tool_length, floor=floor
+        robot,
+        joints,
+        mount,
+        max_tilt=max_tilt,
+        all_joints=all_joints,
+        tool_length=tool_length,
+        floor=floor,
+        down_W=down_W,
     )
-    load = replace(USUAL_LOAD, gravity_W=np.array([0.0, 0.0, -mass * STANDARD_GRAVITY]))
+    load = replace(USUAL_LOAD, gravity_W=mass * STANDARD_GRAVITY * np.array(down_W))
     task, noise = contact_task(tip, contact_force), PoseNoise(noise_force, noise_torque)
     with Bar("planning", counted=True) as bar:
         planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
@@ -154,14 +175,17 @@ def plan_poses(
         "Find in a recording where the sensor stood still, and write the poses for calibrate.\n\n"
         "RECORDING is what contactbench record wrote of a sensor and a robot, or a table with the columns"
         " t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the orientation at the same time, written"
-        " as for calibrate; - is a table on standard input. In a recording, poses are interpolated to the wrenches,"
-        " never across more than 0.25 s. Captures that were bumped"
-        " or did not settle are left out, with the reason. A preliminary calibration also shows steady"
-        " touches.\n\n"
-        "calibrate takes a recording of a sensor and a robot as well, and does this by itself, with a delay of 0.\n\n"
+        " as for calibrate; - is a table on standard input. With --robot-poses the orientation is in a second table,"
+        " with times of its own on the same clock. Poses are then interpolated to the wrenches, never across more"
+        " than 0.25 s. Captures that were bumped or did not settle are left out, with the reason. A preliminary"
+        " calibration also shows steady touches.\n\n"
+        "calibrate, diagnose and verify-still take all of these as well, and do this by themselves.\n\n"
         "Exit code 1: fewer than three poses were found."
     ),
-    epilog="Example: contactbench captures recording.mcap --delay auto --out poses.csv",
+    epilog=(
+        "Example: contactbench captures recording.mcap --delay auto --out poses.csv\n\n"
+        "Example: contactbench captures wrenches.csv --robot-poses robot.csv --delay auto --out poses.csv"
+    ),
 )
 def captures(
     recording: Annotated[
@@ -177,17 +201,12 @@ def captures(
     inverse: InverseOption = False,
     robot: RobotOption = None,
     mount: MountOption = None,
-    delay: Annotated[
-        str | None,
-        typer.Option(
-            metavar="SECONDS|auto",
-            help="How much later a wrench is heard than its pose; auto: as the motion in the recording shows [0].",
-        ),
-    ] = None,
+    robot_poses: RobotPosesOption = None,
+    delay: DelayOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Find in a recording where the sensor stood still."""
-    refuse_overwriting(out, [recording] if calibration is None else [recording, calibration])
+    refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from pipeline.calibration.files.calibration_file import load_calibration
     from pipeline.calibration.files.capture_recording import capture_any
@@ -199,8 +218,9 @@ def captures(
             sys.stdin.buffer if recording == Path("-") else recording,
             written_as,
             R_ES=mount_rotation(mount),
+            robot_poses=robot_poses,
             model=model,
-            delay=_delay(delay),
+            delay=delay_seconds(delay),
             progress=bar,
         )
     for sentence in found.warnings:
@@ -208,8 +228,8 @@ def captures(
     enough = len(found.poses) >= _FEWEST_POSES
     if enough:
         write_poses(out, found.poses)
-    for refused in found.report.rejected:
-        say(f"left out, {refused.start:.1f} to {refused.stop:.1f} s: {refused.reason}", "yellow")
+    for sentence in found.left_out:
+        say(sentence, "yellow")
     say(f"{len(found.poses)} still poses in {found.rows:,} readings.", "" if enough else "red")
     if as_json:
         print_json(
@@ -229,15 +249,6 @@ def captures(
         )
     if not enough:
         raise typer.Exit(1)
-
-
-def _delay(text: str | None) -> float | Literal["auto"] | None:
-    if text is None or text == "auto":
-        return "auto" if text else None
-    try:
-        return float(text)
-    except ValueError:
-        raise typer.BadParameter(f"--delay {text}: give seconds, or auto.") from None
 
 
 def _write(out: Path, planned: Plan) -> None:

@@ -27,6 +27,12 @@ def report(
     probe: Annotated[Path, typer.Option(help="The probe that was verified, .ply.")],
     out: Annotated[Path, typer.Option(help="File to write: .html or .pdf.")],
     calibration: Annotated[Path | None, typer.Option(help="What contactbench calibrate wrote.")] = None,
+    known_weight: Annotated[
+        Path | None, typer.Option(help="What contactbench check weight --out wrote.")
+    ] = None,
+    known_touch: Annotated[
+        Path | None, typer.Option(help="What contactbench check touch --out wrote.")
+    ] = None,
     operator: Annotated[str, typer.Option(help="Who verified.")] = "",
     serial: Annotated[
         list[str] | None, typer.Option(metavar="DEVICE=NUMBER", help="A serial number; may be repeated.")
@@ -36,9 +42,9 @@ def report(
     """Write what a verification found as a page."""
     if out.suffix.lower() not in (".html", ".pdf"):
         raise typer.BadParameter(f"--out {out}: name a file that ends in .html or .pdf.")
+    optional = {"calibration": calibration, "known_weight": known_weight, "known_touch": known_touch}
     inputs = {"verification": verification, "probe": probe}
-    if calibration is not None:
-        inputs["calibration"] = calibration
+    inputs |= {role: file for role, file in optional.items() if file is not None}
     refuse_overwriting(out, list(inputs.values()))
     pairs = [pair.partition("=") for pair in serial or []]
     if not all(device and number for device, _, number in pairs):

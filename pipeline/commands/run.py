@@ -40,8 +40,11 @@ _SETTLED_S = 2.0  # a rate is known after that
         " accepted is true. A sample takes the orientation at its own time, between two poses or carried on from the"
         " last one as far as the bundle allows; without one its reason is stale. A typed pose (still://) never gets"
         " old. Each contact says how old it is (latency_s) and what is wrong with the sensor or the poses (health);"
-        " while nothing comes, ten lines a second say silent. An output that is too slow loses contacts, and says how"
-        " many; it never delays the sensor. Exit code 1: not one sample came, more than 5 % of them could not be used,"
+        " while nothing comes, ten lines a second say silent. While nothing touches the probe, the sensor's zero is"
+        " watched; each contact says what is known of it (zero): confirmed, with its age; off, which is an alarm;"
+        " doubtful, where something may touch the probe; or unknown. Contacts are never corrected by it. An output that"
+        " is too slow loses contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came,"
+        " more than 5 % of them could not be used,"
         " a stream failed, or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
     ),
     epilog="Example: contactbench run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2"
@@ -165,6 +168,7 @@ def _wait(
 ) -> None:
     """Wait until the time or the source is over, a stream or an output has failed, or `ended` is set."""
     begun = time.monotonic()
+    zero = "unknown"
     deadline = math.inf if seconds is None else begun + seconds
     settled, slow = False, set[str]()
     while not (
@@ -174,6 +178,7 @@ def _wait(
         if now >= deadline:
             return
         say_changes()
+        zero = _say_zero(runner, zero)
         if pair.player is None and not pair.stepwise:
             runner.heartbeat(pair.now())
         for outlet in runner.outlets:
@@ -233,6 +238,29 @@ def _say_motion(config: RuntimeConfig, runner: Run) -> None:
         _say(words, "yellow")
 
 
+def _say_zero(runner: Run, before: str) -> str:
+    """Say what is known of the sensor's zero where that is not what it was; returns what it is."""
+    from pipeline.runtime.run import zero_words
+
+    zero = runner.zero
+    if zero is None or zero.state == before:
+        return before
+    if zero.state != "unknown":
+        _say(zero_words(zero), {"off": "red", "doubtful": "yellow"}.get(zero.state, ""))
+    return zero.state
+
+
+def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
+    zero = runner.zero
+    _say_zero(runner, "")
+    if zero is not None and math.isfinite(zero.age):
+        _say(f"zero: last seen {zero.age:.0f} s before the end.")
+    elif zero is not None:
+        measured = config.model.zero.measured
+        since = "" if measured is None else f"; the calibration measured it at {measured}"
+        _say(f"zero: not seen in this run{since}.", "yellow")
+
+
 def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
     _say_rate(config, pair)
     _say_motion(config, runner)
@@ -247,6 +275,7 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
     median, worst = runner.latencies.quantile(0.5), runner.latencies.quantile(0.99)
     if median is not None and worst is not None:
         _say(f"latency: {1e3 * median:.1f} ms in the median, {1e3 * worst:.1f} ms for 99 of 100.")
+    _say_zero_at_end(config, runner)
     if runner.unhealthy:
         wrong = ", ".join(f"{name} {count:,}" for name, count in runner.unhealthy.most_common())
         _say(f"unhealthy: {wrong}.", "yellow")

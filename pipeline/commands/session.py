@@ -100,8 +100,10 @@ def compute(
         typer.Argument(
             metavar="KIND",
             help="captures, from a recording; calibration, from poses; probe, from the mesh and, where there are some,"
-            " an alignment and regions; verification, from a recording, a probe, a calibration and markers; report,"
-            " from a verification and its probe.",
+            " an alignment and regions; known_weight, from a calibration and inputs unloaded and loaded; known_touch,"
+            " from a calibration, a probe and an input touch; verification, from a recording, a probe, a calibration"
+            " and markers; report, from a verification and its probe and, where there are some, its calibration and"
+            " both checks.",
         ),
     ],
     name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the result's file.")],

@@ -33,6 +33,9 @@ _LEAST_TURN = np.radians(10.0)
 # a sensor that smooths its readings shows less noise than they have.
 _FAR_ABOVE = 5.0
 _SHARE = 0.05
+# Sensors filter for up to 50 ms, and controllers publish poses as late: beyond this something else is wrong. s
+_LONGEST_LIKELY = 0.15
+_SURE = 3.0  # sigmas: a smaller delay may as well be none
 
 
 @dataclass(frozen=True)
@@ -50,13 +53,30 @@ class Delay:
     sentence : str
         The same in words, doubts included.
     doubt : str
-        Why the delay may be off by more than `sigma` says: a sentence; empty where nothing speaks for it.
+        Why the delay should not be used unseen: sentences; empty where nothing speaks for it.
     """
 
     seconds: float | None
     sigma: float | None
     sentence: str
     doubt: str = ""
+
+    @property
+    def usable(self) -> tuple[float, str]:
+        """
+        The delay to use where nobody looks at it, s, and what to say about it.
+
+        It is 0 where the delay is unlikely - the sensor comes first, or later than any sensor does - and where it is
+        below three of its own sigma. A knock that disturbs the forces is told, but moves the delay by little.
+        """
+        seconds = self.seconds or 0.0
+        if _unlikely(self):
+            return 0.0, (
+                f"{self.sentence} The delay is not applied. To apply it all the same, give it: --delay {seconds:.4f}."
+            )
+        if self.sigma is None or abs(seconds) < _SURE * self.sigma:
+            return 0.0, f"{self.sentence} That may be none, within 3 sigma: no delay is applied."
+        return seconds, self.sentence
 
 
 def estimate_delay(wrenches: WrenchTrack, poses: FlangeTrack, *, longest: float = 0.3) -> Delay:
@@ -151,7 +171,31 @@ def _doubt(
     times: NDArray[np.float64],
     estimate: Delay,
 ) -> str:
-    """Say whether the turned load leaves more of the forces unexplained than the sensor's noise does."""
+    """Say whether the delay is an unlikely one, or leaves more unexplained than the sensor's noise does."""
+    return " ".join(filter(None, (_unlikely(estimate), _left_over(wrenches, forces, poses, times, estimate))))
+
+
+def _unlikely(estimate: Delay) -> str:
+    seconds = estimate.seconds or 0.0
+    if estimate.sigma is None or abs(seconds) < _SURE * estimate.sigma:
+        return ""
+    if abs(seconds) > _LONGEST_LIKELY:
+        return (
+            f"A delay above {1e3 * _LONGEST_LIKELY:.0f} ms is unlikely: are both on one clock, and is this the robot"
+            " that holds the sensor?"
+        )
+    if seconds < 0:
+        return "A sensor that is heard first is unlikely, unless the robot publishes its poses late: does it?"
+    return ""
+
+
+def _left_over(
+    wrenches: WrenchTrack,
+    forces: NDArray[np.float64],
+    poses: FlangeTrack,
+    times: NDArray[np.float64],
+    estimate: Delay,
+) -> str:
     noise, swing = _noise(wrenches), float(forces.std(axis=0).max())
     left = np.sqrt(_unexplained(poses, times, forces, estimate.seconds or 0.0) / forces.size)
     if left <= max(_FAR_ABOVE * noise, _SHARE * swing):

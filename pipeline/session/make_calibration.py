@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from datetime import datetime
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -20,7 +21,7 @@ from pipeline.session.making import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from pipeline.calibration import PoseSample
@@ -33,7 +34,33 @@ FEWEST_POSES = 3
 Moment = Annotated[float, Field(ge=-1e15, le=1e15, allow_inf_nan=False)]
 
 
-class CapturesParameters(Parameters):
+class PosesParameters(Parameters):
+    """How orientations in a table are written, and the sensor's in the flange: as the options of the commands."""
+
+    euler: str | None = None
+    rotation_vector: bool = False
+    robot: str | None = None
+    radians: bool = False
+    inverse: bool = False
+    mount: Three | None = None
+
+    def convention(self) -> Convention | None:
+        """Return how orientations are written; None: as the file's columns say."""
+        from pipeline.calibration.orientation import Convention, Kind
+
+        if sum(map(bool, (self.euler, self.rotation_vector, self.robot))) > 1:
+            raise SessionError("euler, rotation_vector and robot contradict each other: give one.")
+        degrees = not self.radians
+        if self.euler:
+            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
+        if self.rotation_vector:
+            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
+        if self.robot:
+            return Convention(Kind.JOINTS, degrees=degrees, robot=self.robot, inverse=self.inverse)
+        return Convention(inverse=True) if self.inverse else None
+
+
+class CapturesParameters(PosesParameters):
     """
     As the options of ``contactbench captures``; angles of the mount in degrees, the delay in seconds.
 
@@ -46,27 +73,41 @@ class CapturesParameters(Parameters):
     """
 
     delay: Number | Literal["auto"] | None = None
-    mount: Three | None = None
     leave_out: tuple[Moment, ...] = ()
     partial: bool = False
 
 
 def captures(
-    inputs: Mapping[str, Path], parameters: Mapping[str, Any], _created: str | None
+    inputs: Mapping[str, Path],
+    parameters: Mapping[str, Any],
+    _created: str | None,
+    *,
+    tell: Callable[[str], None] | None = None,
 ) -> dict[str, bytes]:
     """
     Find the still poses of ``recording``: the bytes that ``contactbench captures`` writes.
 
-    Those of ``earlier``, a table of the same run before it was interrupted, come first.
+    Where the robot was recorded into a table of its own, that is ``robot_poses``. Those of ``earlier``, a table of the
+    same run before it was interrupted, come first. `tell` gets what was noticed and left out, sentence by sentence.
     """
     from pipeline.calibration.files.calibration_file import load_calibration
     from pipeline.calibration.files.capture_recording import capture_any
     from pipeline.calibration.files.pose_csv import write_poses
 
     given = read_parameters(CapturesParameters, parameters)
-    recording = check_roles(inputs, "recording", "calibration", "earlier")
+    recording = check_roles(inputs, "recording", "calibration", "earlier", "robot_poses")
     model = load_calibration(inputs["calibration"]).model if "calibration" in inputs else None
-    found = capture_any(recording, R_ES=mount_rotation(given.mount), model=model, delay=given.delay)
+    found = capture_any(
+        recording,
+        given.convention(),
+        robot_poses=inputs.get("robot_poses"),
+        R_ES=mount_rotation(given.mount),
+        model=model,
+        delay=given.delay,
+    )
+    if tell is not None:
+        for sentence in (*found.warnings, *found.left_out):
+            tell(sentence)
     before = _earlier(inputs["earlier"]) if "earlier" in inputs else ()
     poses = (*before, *_chosen(found, given.leave_out, len(before)))
     fewest = 1 if given.partial else FEWEST_POSES
@@ -109,35 +150,25 @@ def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple
     )
 
 
-class CalibrationParameters(Parameters):
-    """As the options of ``contactbench calibrate``; angles of the mount in degrees."""
+class CalibrationParameters(PosesParameters):
+    """
+    As the options of ``contactbench calibrate``; angles of the mount in degrees.
 
-    euler: str | None = None
-    rotation_vector: bool = False
-    robot: str | None = None
-    radians: bool = False
-    inverse: bool = False
-    mount: Three | None = None
+    Attributes
+    ----------
+    orientation_noise : float or None
+        1 sigma of the poses' orientations about each axis, degrees; None: estimated.
+    down : (3,)
+        Where gravity points in W; its length does not matter.
+    """
+
     estimate_mount: bool = False
     noise_force: Number | None = None
     noise_torque: Number | None = None
+    orientation_noise: Number | None = None
+    down: Three = (0.0, 0.0, -1.0)
     tip: Three = (0.0, 0.0, 100.0)
     contact_force: Number = 10.0
-
-    def convention(self) -> Convention | None:
-        """Return how orientations are written; None: as the file's columns say."""
-        from pipeline.calibration.orientation import Convention, Kind
-
-        if sum(map(bool, (self.euler, self.rotation_vector, self.robot))) > 1:
-            raise SessionError("euler, rotation_vector and robot contradict each other: give one.")
-        degrees = not self.radians
-        if self.euler:
-            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
-        if self.rotation_vector:
-            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
-        if self.robot:
-            return Convention(Kind.JOINTS, degrees=degrees, robot=self.robot, inverse=self.inverse)
-        return Convention(inverse=True) if self.inverse else None
 
 
 def calibration(
@@ -147,14 +178,21 @@ def calibration(
     import numpy as np
 
     from pipeline.calibration import ContactTask, PoseNoise, calibrate
+    from pipeline.calibration.diagnosis.diagnose import RawOrientations
     from pipeline.calibration.files.calibration_file import Mount, save_calibration
-    from pipeline.calibration.files.pose_csv import read_poses
+    from pipeline.calibration.files.capture_recording import is_recording
+    from pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
     from pipeline.calibration.mounting import estimate_mount
 
     given = read_parameters(CalibrationParameters, parameters)
     if given.mount is not None and given.estimate_mount:
         raise SessionError("mount and estimate_mount contradict each other: give one.")
     poses = check_roles(inputs, "poses")
+    if is_recording(poses) or is_recorded_table(poses):
+        raise SessionError(
+            f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
+            " captures from it first."
+        )
     noise = None
     if (given.noise_force is None) != (given.noise_torque is None):
         raise SessionError("noise_force, noise_torque: give both or none.")
@@ -166,11 +204,18 @@ def calibration(
     R_ES = mount_rotation(given.mount)
     table = read_poses(poses, given.convention(), R_ES=R_ES)
     mount = None if R_ES is None else Mount.of(R_ES.T)
+    degrees = given.orientation_noise
+    said: dict[str, Any] = {
+        "noise": noise,
+        "orientation_sigma": None if degrees is None else math.radians(degrees),
+        "down_W": given.down,
+        "task": task,
+    }
     if given.estimate_mount:
-        mounted = estimate_mount(table.poses, noise, task=task)
+        mounted = estimate_mount(table.poses, **said)
         found, mount = mounted.calibration, Mount.of(mounted.R_SE, mounted.rotation_covariance)
     else:
-        found = calibrate(table.poses, noise, task=task)
+        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     time = None if created is None else datetime.fromisoformat(created)
     with folder_for(given.name, ".json") as out:
         save_calibration(found, out, source=poses, created=time, mount=mount)

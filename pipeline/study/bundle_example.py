@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import UTC, datetime
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 import assets
 from pipeline.calibration import GravityModel, PoseNoise, calibrate
+from pipeline.calibration.calibrate import DOWN_W
 from pipeline.config.runtime import Filters, RuntimeConfig, build_config
-from pipeline.config.runtime.model import LimitsPart, SensorPart, SourcePart, VerificationPart
+from pipeline.config.runtime.checks import NONE_DONE
+from pipeline.config.runtime.model import (
+    ChecksPart,
+    KnownTouchPart,
+    KnownWeightPart,
+    LimitsPart,
+    SensorPart,
+    SourcePart,
+    VerificationPart,
+)
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
 from pipeline.contact.touch_model import TouchModel
@@ -23,7 +35,30 @@ from pipeline.mesh.regions import Region, RegionSet
 from pipeline.mesh.sidecar import ProbeFile
 from pipeline.simulation.weighing import weigh
 
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
 _CLAMP_M = 0.02
+_DRIFT = np.array([1e-5, -2e-5, 3e-5, 1e-7, 0.0, -2e-7])  # N/s, N·m/s
+_CHECKED = ChecksPart(
+    known_weight=KnownWeightPart(
+        mass_kg=1.0,
+        mass_sigma_kg=0.0001,
+        certificate="W-17",
+        measured_kg=1.002,
+        measured_sigma_kg=0.003,
+        outcome="passed",
+        created="2026-01-01T13:00:00Z",
+    ),
+    known_touch=KnownTouchPart(
+        point_S_m=[0.0, 0.01, 0.12],
+        located_S_m=[0.0, 0.0105, 0.12],
+        error_m=0.0005,
+        sigma_m=0.0006,
+        outcome="passed",
+        created=None,
+    ),
+)
 
 
 def example_config(
@@ -33,6 +68,7 @@ def example_config(
     seed: int = 1,
     verified: bool = True,
     clamped: bool = False,
+    down_W: tuple[float, float, float] = DOWN_W,
 ) -> RuntimeConfig:
     """
     Make a config of the bundled T-shape; the same arguments give the same bytes.
@@ -47,17 +83,24 @@ def example_config(
     verified : bool
         Left out, the verification is missing.
     clamped : bool
-        A clamp hides the end at the sensor, and the model error was measured.
+        A clamp hides the end at the sensor, the model error was measured, a drift was found, and a known weight and a
+        known touch were checked.
+    down_W : (3,) tuple
+        Unit vector: the robot stands, hangs from the ceiling, or is on a wall.
     """
     rng = np.random.default_rng(seed)
     truth = GravityModel(
-        np.array([0.1, -0.05, -6.2]),
+        _leaning(down_W),
         np.array([1.5, -2.0, 0.7]),
         np.array([0.004, -0.002, 0.09]),
         np.array([0.03, 0.05, -0.02]),
     )
     noise = PoseNoise(0.02, 0.0008)
-    calibration = calibrate(weigh(truth, Rotation.random(12, rng).as_matrix(), noise, rng).poses, noise)
+    calibration = calibrate(
+        weigh(truth, Rotation.random(12, rng).as_matrix(), noise, rng).poses, noise, down_W=down_W
+    )
+    if clamped:
+        calibration = replace(calibration, drift_rate=_DRIFT, drift_rate_sigma=0.1 * np.abs(_DRIFT))
     vertices, faces = assets.make("t-shape", facets)
     region = assets.contact_region("t-shape", vertices, faces)
     painted = [Region("acoustic face", "#1f77b4")]
@@ -85,8 +128,17 @@ def example_config(
         sources=[SourcePart(role="mesh", name="t-shape", sha256="0" * 64)],
         model=TouchModel(0.002, error, 5e-5) if clamped else None,
         measured=clamped,
+        zeroed=datetime(2026, 1, 1, 12, tzinfo=UTC) if clamped else None,
+        checks=_CHECKED if clamped else NONE_DONE,
         unverified=not verified,
     )
+
+
+def _leaning(down_W: tuple[float, float, float]) -> NDArray[np.float64]:
+    """Return the weight in W, N: nearly along down, for no base is level."""
+    turn, _ = Rotation.align_vectors([down_W], [DOWN_W])
+    weight: NDArray[np.float64] = turn.apply([0.1, -0.05, -6.2])
+    return weight
 
 
 def _verification() -> VerificationPart:

@@ -229,6 +229,7 @@ _UNITS: tuple[tuple[tuple[Any, ...], float], ...] = (
     (("filters", "location", "rate_Hz"), 1e-3),
     (("filters", "wrench", "q"), 1e3),
     (("touch", "torsion_arm_m"), 1e3),
+    (("noise", "orientation_rad"), 180 / np.pi * 60),
     (("touch", "model_error", "force_N"), 1e4),
     (("touch", "model_error", "torque_Nm"), 1e5),
 )
@@ -251,6 +252,17 @@ def _untrue(content: Any, rng: np.random.Generator) -> None:
         (("verification",), None),
         (("frames", "quaternion_ES"), [1.0, 0.1, 0.0, 0.0]),
         (("frames", "rotation"), "R_SW"),
+        (("frames", "world"), "W, z up"),
+        (("world", "down_W"), [0.0, 0.0, 1.0]),
+        (("world", "down_W"), [0.0, 0.0, -1.001]),
+        (("zero", "measured"), "yesterday"),
+        (("zero", "drift"), {}),
+        (("noise", "orientation_rad"), -1e-3),
+        (("checks", "known_weight", "outcome"), "failed"),
+        (("checks", "known_touch", "outcome"), "failed"),
+        (("checks", "known_touch", "outcome"), "good"),
+        (("checks", "known_touch", "located_S_m"), None),
+        (("checks", "known_weight", "mass_kg"), 0.0),
         (("probe", "facets"), 2_000_000),
         (("probe", "vertices"), 4),
         (("planes", "count"), 2**31 - 1),
@@ -263,7 +275,8 @@ def _untrue(content: Any, rng: np.random.Generator) -> None:
         (("regions", 0, "untouchable"), True),
         (("regions", 1, "untouchable"), False),
         (("touch", "mesh_deviation_m"), -1e-4),
-        (("version",), 4),
+        (("version",), 5),
+        (("version",), 3),
         (("version",), 2),
         (("version",), 1),
         (("version",), 0),
@@ -623,13 +636,30 @@ def _other_mesh(files: Files, rng: np.random.Generator) -> Files:
     return _content_of({**files, **made}, content)
 
 
+_DOWNS = tuple(
+    np.array(down) / np.linalg.norm(down)
+    for down in (
+        (0, 0, -1),
+        (0, 0, 1),
+        (0, 1, 0),
+        (-1, 0, 0),
+        (0.6, 0, 0.8),
+        (0.08, 0, -1),
+        (0.1, 0, 1),
+        (0, 0.01, 1),
+    )
+)
+
+
 def _other_gravity(files: Files, rng: np.random.Generator) -> Files:
-    """Weigh another tool, and make every file that speaks of it anew."""
+    """Weigh another tool on a robot that stands, hangs or leans, and make every file that speaks of it anew."""
     content = json.loads(files[CONFIG])
     part = content["gravity"]
+    down = _DOWNS[int(rng.integers(len(_DOWNS)))]
+    content["world"]["down_W"] = down.tolist()
     weight = float(rng.choice([0.0, 1e-200, 0.05, 0.3, 6.0, 400.0, 600.0]))
     tilt = rng.normal(0, float(rng.choice([0.0, 1e-12, 1e-4, 0.02, 1.0])), 3)
-    part["gravity_W_N"] = ((np.array([0.0, 0.0, -1.0]) + tilt) * weight).tolist()
+    part["gravity_W_N"] = ((down + tilt) * weight).tolist()
     for name, size in (("force_bias_N", 3.0), ("torque_bias_Nm", 0.1), ("centre_of_mass_S_m", 0.05)):
         part[name] = rng.normal(0, size * float(rng.choice([0.0, 1e-9, 1.0])), 3).tolist()
     C = np.array(part["covariance"]) * float(rng.choice([0.0, 1e-8, 1.0, 1e4]))
@@ -657,9 +687,13 @@ def _other_gravity(files: Files, rng: np.random.Generator) -> Files:
     with np.errstate(all="ignore"):
         try:
             made[ROS2] = ros2_yaml(
-                model, sensor_frame="tool0-ft", world_frame="base", **(named if rng.integers(2) else {})
+                model,
+                sensor_frame="tool0-ft",
+                world_frame="base",
+                down_W=down,
+                **(named if rng.integers(2) else {}),
             ).encode()
-            made[FT_CALIB] = ft_calib_yaml(model, com_frame="tool0-ft").encode()
+            made[FT_CALIB] = ft_calib_yaml(model, com_frame="tool0-ft", down_W=down).encode()
         except InputError:
             del made[FT_CALIB]
     return _content_of(made, content)

@@ -101,6 +101,46 @@ def gravity(
     finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
 
+@study_app.command(
+    "calibration-doubt", epilog="Example: contactbench study calibration-doubt --cells drift --sets 100"
+)
+def calibration_doubt(
+    sets: Annotated[int, typer.Option(help="Drawn sessions of poses for each cell.")] = 300,
+    cells: Annotated[str, typer.Option(help="Only cells with this in their name, such as re-zero.")] = "",
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Processes that calibrate at once [number of cores].")
+    ] = None,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Calibrate sessions with a drift, a re-zero, a cable, a turned mount or wrong noise, and judge what is told.
+
+    Shares have their 95 % interval behind them.
+    Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study import calibration_doubt as study
+
+    report = study.run(sets=sets, cells=cells, workers=workers, seed=seed, progress=say)
+    finish(report, out, as_json=as_json)
+
+
+@study_app.command(epilog="Example: contactbench study mistakes --trials 50 --out mistakes.md")
+def mistakes(
+    trials: Annotated[int, typer.Option(help="Random sets of poses for each mistake.")] = 200,
+    seed: SeedOption = 0,
+    out: MarkdownOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Diagnose poses with mistakes that the convention check knows, and others: the cause is named, or none is.
+
+    Exit code 1 when a figure misses its target.
+    """
+    from pipeline.study import mistakes as study
+
+    finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
+
+
 @study_app.command(epilog="Example: contactbench study verification --trials 200")
 def verification(
     trials: Annotated[int, typer.Option(help="Synthetic verifications for each figure.")] = 1_000,

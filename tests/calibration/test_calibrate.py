@@ -72,14 +72,14 @@ def test_exact_poses_are_recovered_to_rounding(seed, count):
     poses = weigh(truth, Rotation.random(count, rng).as_matrix(), EXACT, rng).poses
     found = calibrate(poses, NOISE)
     assume(found.condition < 30)
-    assert off(found, truth).max() < 1e-5  # of what noise would leave
+    assert off(found, truth).max() < 1e-3  # of what noise would leave
     assert np.abs(found.model.vector - truth.vector).max() < 1e-6
     assert not found.rejected
     assert found.mass == pytest.approx(truth.mass, abs=1e-7)
     unknown = calibrate(poses)
     assert np.abs(unknown.model.vector - truth.vector).max() < 1e-8
     assert unknown.noise.estimated
-    assert 0 < unknown.contact_error < 1e-5
+    assert 0 < unknown.contact_error < 5e-5
 
 
 def test_a_bias_of_500_N_and_a_tilted_base_are_absorbed():
@@ -103,7 +103,7 @@ def test_noise_may_differ_from_axis_to_axis():
 def test_noise_of_any_size(noise):
     both = PoseNoise(noise, noise / 10)
     calibration = calibrate(held(8, noise=both), both)
-    assert calibration.scatter == pytest.approx(1, abs=0.8)
+    assert 0.1 < calibration.scatter < 1.8
     assert np.isfinite(calibration.covariance).all()
     assert calibration.verdict.level == (Level.GOOD if noise < 0.01 else Level.REFUSE)
     if noise < 20:  # beyond, the stated width stops at what a parameter may be at all
@@ -165,7 +165,7 @@ def test_the_kind_of_numbers_does_not_matter():
 
 def test_the_covariance_is_the_cramer_rao_bound():
     weighing = draw_weighing(np.random.default_rng(36), poses=(9, 9))
-    calibration = calibrate(weighing.poses, weighing.noise)
+    calibration = calibrate(weighing.poses, weighing.noise, orientation_sigma=0.0)
     assert calibration.plausible
     J = prediction_jacobian(stack(weighing.poses).R_SW, calibration.model.vector)
     rows = (J / weighing.noise.sigmas[:, None]).reshape(-1, 12)
@@ -222,24 +222,24 @@ def implausible() -> Calibration:
     raise AssertionError
 
 
-def test_implausible_noise_widens_the_covariance_by_the_scatter():
+def test_noise_that_is_doubted_is_taken_from_the_poses():
     calibration = implausible()
-    assert calibration.scatter > 1.5
-    J = prediction_jacobian(stack(calibration.poses).R_SW, calibration.model.vector)
-    rows = (J / calibration.noise.sigmas[:, None]).reshape(-1, 12)
-    wide = np.linalg.inv(rows.T @ rows) * calibration.scatter
-    scale = np.sqrt(np.diag(wide))
-    assert np.abs((calibration.covariance - wide) / np.outer(scale, scale)).max() < 1e-6
-    squares = (calibration.residuals / calibration.noise.sigmas) ** 2
-    assert calibration.scatter == pytest.approx(squares.sum() / (6 * 14 - 12), rel=1e-6)
+    given = np.repeat([0.05 / 1.5, 0.002 / 1.5], 3)
+    assert calibration.noise_factor == pytest.approx((1.5, 1.5), rel=0.3)
+    assert np.allclose(calibration.noise.sigmas, given * np.repeat(calibration.noise_factor, 3))
+    assert np.isfinite(calibration.noise.freedom).all()
+    assert calibration.ellipsoid(0.95) > calibrate(calibration.poses, NOISE, orientation_sigma=0.0).ellipsoid(
+        0.95
+    )
 
 
-def test_small_residuals_do_not_narrow_anything():
+def test_noise_given_ten_times_too_large_is_said_and_costs_no_trust():
     poses = held(10)
-    cautious = calibrate(poses, PoseNoise(0.5, 0.02))
-    assert cautious.scatter < 0.05
-    assert cautious.plausible
-    assert cautious.contact_error == pytest.approx(10 * calibrate(poses, NOISE).contact_error, rel=0.05)
+    large, right = calibrate(poses, PoseNoise(0.5, 0.02)), calibrate(poses, NOISE)
+    assert large.noise_factor == pytest.approx((0.1, 0.1), rel=0.5)
+    assert large.contact_error == pytest.approx(right.contact_error, rel=0.5)
+    assert large.verdict.level == Level.GOOD
+    assert "times what the noise given explains" in said(large)
 
 
 def test_the_scatter_within_poses_is_a_floor():
@@ -281,7 +281,7 @@ def test_without_a_load_the_centre_of_mass_is_unknown(noise):
     sigmas = calibration.sigmas
     assert sigmas["centre_of_mass_S_x"] == pytest.approx(UNKNOWN[6])
     assert np.abs(calibration.force_bias - [5, -3, 2]).max() < 0.1
-    assert "feels no weight" in said(calibration)
+    assert "the sensor does not answer" in said(calibration)
     assert calibration.verdict.level != Level.GOOD
 
 
@@ -291,7 +291,7 @@ def test_a_sensor_that_reads_the_same_everywhere():
         calibration = calibrate(poses, noise)
         assert np.allclose(calibration.force_bias, 500)
         assert calibration.mass < 1e-9
-        assert "feels no weight" in said(calibration)
+        assert "the sensor does not answer" in said(calibration)
 
 
 # ---- the verdict -------------------------------------------------------------------------------
@@ -312,7 +312,7 @@ def test_gravity_that_points_up_is_refused():
     turned_over = [replace(pose, force=-pose.force, torque=-pose.torque) for pose in held(10)]
     level, words = verdict_of(calibrate(turned_over, NOISE))
     assert level == Level.REFUSE
-    assert "Gravity comes out pointing up" in words
+    assert "away from down" in words
     assert "contactbench diagnose" in words
 
 
@@ -332,7 +332,7 @@ def test_poses_that_leave_something_open_are_refused_in_words(R_WS, words, noise
     level, reasons = verdict_of(calibration)
     assert level == Level.REFUSE
     assert words in reasons
-    assert "Gravity comes out pointing up" not in reasons
+    assert "away from down" not in reasons
     assert off(calibration).max() < 5
 
 
@@ -367,7 +367,7 @@ def test_wrong_noise_is_told():
     level, words = verdict_of(calibration)
     assert level == Level.USABLE
     assert (
-        f"The residuals are {np.sqrt(calibration.scatter):.1f} times what the noise given explains" in words
+        f"The residuals are {plain(calibration.noise_factor[0])} times what the noise given explains" in words
     )
 
 

@@ -2,6 +2,7 @@
 
 import io
 import json
+import time
 from pathlib import Path
 from typing import Any
 
@@ -13,17 +14,24 @@ from typer.testing import CliRunner
 
 from pipeline import cli
 from pipeline.calibration import Level, calibrate
-from pipeline.calibration.files.capture_file import capture_file
+from pipeline.calibration.files.capture_file import Capturing, capture_file, in_order
+from pipeline.calibration.files.capture_recording import read_any_poses
+from pipeline.calibration.files.pose_csv import PoseFileError
 from pipeline.calibration.stillness import find_captures
 from pipeline.contact.wrench_csv import WrenchFileError
 from pipeline.demo.files import write_csv
+from pipeline.errors import InputError
+from pipeline.tables import TableReader, Wording
 
 COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz", "qw", "qx", "qy", "qz")
 
 
 @pytest.fixture(scope="module")
 def recording() -> Recording:
-    return stream(5, poses=8, hum=0.3, quantised=True, spikes=0.001, missing=0.05, bumps=0.2, vertical=0.0)
+    made = stream(5, poses=8, hum=0.3, quantised=True, spikes=0.001, missing=0.05, bumps=0.2, vertical=0.0)
+    knock = made.dwells[2].start + 1.6  # while it is averaged: the pose is taken once more
+    made.wrenches[(made.t > knock) & (made.t < knock + 0.3), 0] += 8
+    return made
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +87,108 @@ def test_a_recording_that_never_stands_still(file: Path, tmp_path: Path) -> None
     assert not (tmp_path / "p.csv").exists()
 
 
+def test_calibrate_captures_by_itself(recording: Recording, file: Path, tmp_path: Path) -> None:
+    found = capture_file(file)
+    result = invoke("calibrate", file, "--out", tmp_path / "c.json", "--json")
+    assert result.exit_code == 0, result.stderr
+    facts = json.loads(result.stdout)
+    assert facts["poses"] == len(found.poses)
+    assert facts["mass_kg"] == pytest.approx(recording.model.mass, abs=0.01)
+    note = f"is a recording: {len(found.poses)} still poses found in {found.rows:,} readings."
+    assert facts["notes"][0].endswith(note)
+    assert [sentence.startswith("left out, 15.4 to 16.1 s: ") for sentence in found.left_out] == [True]
+    for sentence in found.left_out:
+        assert sentence in " ".join(facts["warnings"])
+        assert sentence in " ".join(result.stderr.split())
+
+
+@pytest.mark.parametrize(("dwell", "bumps"), [(2.0, 0.5), (1.2, 0.0)])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_every_stop_is_captured_or_told(seed: int, dwell: float, bumps: float) -> None:
+    made = stream(seed, dwell=dwell, bumps=bumps, vertical=0.0)
+    work = Capturing()
+    for begin in range(0, len(made.t), 999):
+        rows = slice(begin, begin + 999)
+        work.update(made.t[rows], made.wrenches[rows], made.R_WS[rows])
+    found = work.finish()
+    told = [(each.start, each.stop) for each in (*found.report.captures, *found.report.rejected)]
+    for each in made.dwells:
+        assert any(start < each.stop and stop > each.start for start, stop in told), each.start
+    starts = [each.start for each in found.report.rejected]
+    assert starts == sorted(starts)
+    for each in found.report.rejected:
+        assert made.t[each.start_index] == pytest.approx(each.start)
+        assert made.t[each.stop_index - 1] == pytest.approx(each.stop)
+    if dwell == 1.2:
+        assert "s only, and it takes 1.5 s after all has settled" in " ".join(found.left_out)
+
+
+def test_a_stop_at_which_nothing_comes_to_rest_is_told(recording: Recording) -> None:
+    dwell = recording.dwells[1]
+    shaken = recording.wrenches.copy()
+    rows = (recording.t > dwell.start - 0.5) & (recording.t < dwell.stop + 0.5)
+    shaken[rows, 1] += 5 * np.sin(40 * recording.t[rows])
+    work = Capturing()
+    work.update(recording.t, shaken, recording.R_WS)
+    told = [sentence for sentence in work.finish().left_out if "did not come to rest: vibration" in sentence]
+    assert [float(sentence.split()[2]) for sentence in told] == [pytest.approx(dwell.start, abs=0.3)]
+
+
+def rows_of(recording: Recording, count: int) -> np.ndarray:
+    """Rows in which the robot never stands: its motions only, one after the other."""
+    moving = np.ones(len(recording.t), dtype=bool)
+    for dwell in recording.dwells:
+        moving &= (recording.t < dwell.start + 0.2) | (recording.t > dwell.stop)
+    chosen = np.resize(np.flatnonzero(moving), count)
+    quaternions = np.roll(Rotation.from_matrix(recording.R_WS[chosen]).as_quat(), 1, axis=1)
+    return np.column_stack([np.arange(count) / recording.rate, recording.wrenches[chosen], quaternions])
+
+
+@pytest.mark.parametrize("command", ["calibrate", "diagnose"])
+@pytest.mark.parametrize("count", [800, 9000])
+def test_moving_rows_are_no_poses(recording: Recording, tmp_path: Path, count: int, command: str) -> None:
+    moving = tmp_path / "moving.csv"
+    write_csv(moving, COLUMNS, rows_of(recording, count).tolist())
+    options = ("--out", tmp_path / "c.json") if command == "calibrate" else ()
+    begin = time.process_time()
+    result = invoke(command, moving, *options)
+    assert time.process_time() - begin < 5
+    assert result.exit_code == 2
+    assert "stands still nowhere" in str(result.exception) + result.stderr
+    assert not (tmp_path / "c.json").exists()
+
+
+@pytest.mark.parametrize("count", [800, 9000])
+def test_rows_without_times_are_refused(recording: Recording, tmp_path: Path, count: int) -> None:
+    rows = rows_of(recording, count)
+    write_csv(tmp_path / "a.csv", COLUMNS[1:], rows[:, 1:].tolist())
+    with pytest.raises(PoseFileError, match=r"more than 200 rows, .* as column t: contactbench calibrate"):
+        read_any_poses(tmp_path / "a.csv")
+    rows[:, 0] *= recording.rate
+    write_csv(tmp_path / "b.csv", COLUMNS, rows.tolist())
+    with pytest.raises(PoseFileError, match=r"more than 200 rows, .* they are 1 s apart, too far for a rec"):
+        read_any_poses(tmp_path / "b.csv")
+
+
+def test_a_table_of_poses_has_no_delay(recording: Recording, tmp_path: Path) -> None:
+    rows = rows_of(recording, 20)
+    rows[:, 0] *= 20 * recording.rate
+    write_csv(tmp_path / "poses.csv", COLUMNS, rows.tolist())
+    assert read_any_poses(tmp_path / "poses.csv").notes == ()
+    with pytest.raises(InputError, match="a table of still poses has no delay"):
+        read_any_poses(tmp_path / "poses.csv", delay="auto")
+
+
+@pytest.mark.parametrize("block_bytes", [4, 2**20])
+def test_time_that_runs_backwards_is_seen_between_blocks(block_bytes: int) -> None:
+    text = "t\n" + "".join(f"{time}\n" for time in (1, 2, 2, 3, 4, 3, 5))
+    wording = Wording("t", error=WrenchFileError)
+    reader = TableReader(io.BytesIO(text.encode()), "a.csv", wording, block_bytes=block_bytes)
+    reader.select(("t",))
+    with pytest.raises(WrenchFileError, match=r"a\.csv: line 7: column t runs backwards, from 4 to 3 s"):
+        list(in_order(reader))
+
+
 def test_wrong_rows_are_named(file: Path) -> None:
     rows = file.read_text().splitlines()
     rows[7] = rows[7].rsplit(",", 1)[0] + ",7.0"
@@ -86,5 +196,5 @@ def test_wrong_rows_are_named(file: Path) -> None:
         capture_file(io.BytesIO("\n".join(rows).encode() + b"\n"))
     rows[7] = rows[6]
     rows[8] = rows[8].replace(rows[8].split(",")[0], "-1", 1)
-    with pytest.raises(ValueError, match=r"backwards|increase|before"):
+    with pytest.raises(WrenchFileError, match=r"line 9: column t runs backwards, from .* to -1 s"):
         capture_file(io.BytesIO("\n".join(rows).encode() + b"\n"))

@@ -33,6 +33,7 @@ from pipeline.calibration.diagnosis.diagnose import diagnose
 from pipeline.calibration.diagnosis.evidence import weigh as weigh_hypotheses
 from pipeline.calibration.diagnosis.hypotheses import RawOrientations, hypotheses
 from pipeline.calibration.diagnosis.prior import Prior
+from pipeline.calibration.diagnosis.side_by_side import Noise
 from pipeline.calibration.fit import maximise, two_stage
 from pipeline.calibration.orientation import Convention, Kind, rotations
 from pipeline.calibration.poses import stack
@@ -82,8 +83,8 @@ def test_noise_may_differ_from_axis_to_axis():
 
 def test_the_fit_is_the_most_likely_one():
     poses = stack(held(turned()))
-    candidates, _ = hypotheses(poses.R_SW.transpose(0, 2, 1), None)
-    declared = weigh_hypotheses(candidates[:1], poses, NOISE.sigmas, 0.4)[0]
+    candidates, _ = hypotheses(poses, None)
+    declared = weigh_hypotheses(candidates[:1], poses, Noise(NOISE.sigmas, 0.4))[0]
     best = maximise(poses, NOISE.sigmas, two_stage(poses))
     assert declared.squares.sum() == pytest.approx(best.cost, rel=1e-3)
     np.testing.assert_allclose(declared.gravity_W, best.theta[:3], atol=0.002)

@@ -128,8 +128,27 @@ def test_the_cases_differ():
     assert results["yaw"].verdict.level is Level.REFUSE
     assert np.isinf(results["yaw"].condition)
     assert not results["weightless"].observability.weighs
-    assert np.isinf(results["known"].noise.freedom).all()
+    assert np.isfinite(results["known"].noise.freedom).all()  # given, and doubted
     assert not results["known"].plausible
+
+
+def test_a_file_of_version_1_still_loads(tmp_path):
+    """What version 1 widened by the scatter beside its noise, version 2 has in the noise."""
+    doubted = calibrate(poses("known"), **CASES["known"])
+    content = json.loads(saved(doubted, tmp_path).read_text())
+    for field in ("noise_factor", "causes", "drift", "model_error_m", "down_W"):
+        del content[field]
+    del content["noise"]["orientation_rad"]
+    for pose in content["poses"]:
+        del pose["offset_force_N"], pose["offset_torque_Nm"]
+    file = tmp_path / "old.json"
+    file.write_text(json.dumps({**content, "version": 1, "scatter": 4.0}))
+    old = load_calibration(file)
+    assert old.noise_factor == (2.0, 2.0)
+    assert np.allclose(old.noise.sigmas, 2 * doubted.noise.sigmas)
+    assert old.down_W.tolist() == [0, 0, -1]
+    assert not old.offsets.any()
+    assert load_calibration(saved(old, tmp_path)).model.vector.tolist() == doubted.model.vector.tolist()
 
 
 def test_saving_again_gives_the_same_bytes(calibration, tmp_path):
@@ -148,7 +167,7 @@ def test_what_the_file_says(good, tmp_path):
     file = saved(good, tmp_path, created=WHEN, source=source)
     text = file.read_text(encoding="utf-8")
     assert text.endswith("\n}\n")
-    assert text.startswith('{\n  "schema": "contactbench.calibration",\n  "version": 1,\n')
+    assert text.startswith('{\n  "schema": "contactbench.calibration",\n  "version": 2,\n')
     assert "Prüfstand ☃" in text
     content = json.loads(text)
     assert content["created"] == "2026-03-01T10:30:15Z"
@@ -319,11 +338,11 @@ WRONG = {
     ),
     "newer": (
         "version",
-        2,
-        "this file was written by a newer contactbench (its version is above 1): update contact",
+        3,
+        "this file was written by a newer contactbench (its version is above 2): update contact",
     ),
-    "older": ("version", 0, "version should be 1"),
-    "version": ("version", "1", "version should be 1"),
+    "older": ("version", 0, "version should be 2"),
+    "version": ("version", "2", "version should be 2"),
 }
 
 

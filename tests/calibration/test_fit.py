@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from pipeline.calibration import GravityModel, PoseNoise
 from pipeline.calibration.fit import (
     UNKNOWN,
-    fit_with_unknown_noise,
+    Fit,
     maximise,
     parameter_covariance,
     two_stage,
@@ -18,6 +18,7 @@ from pipeline.calibration.fit import (
 from pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, prediction_jacobian
 from pipeline.calibration.observability import observe
 from pipeline.calibration.poses import Stack, stack
+from pipeline.calibration.reml import NoisePrior, fit_with_noise
 from pipeline.errors import InputError
 from pipeline.simulation.weighing import draw_load, draw_weighing, weigh
 
@@ -29,7 +30,14 @@ def rng_of(seed: int) -> np.random.Generator:
 
 
 def exact(truth: GravityModel, R_WS: np.ndarray) -> Stack:
-    return Stack(np.ascontiguousarray(R_WS.swapaxes(1, 2)), truth.predict(R_WS))
+    moments = np.linspace(0, 1, len(R_WS))
+    return Stack(np.ascontiguousarray(R_WS.swapaxes(1, 2)), truth.predict(R_WS), moments)
+
+
+def unknown(poses: Stack, least: np.ndarray = NOTHING, kept: float = 1.0) -> tuple[Fit, PoseNoise]:
+    """Fit poses of exact orientations whose noise nobody gave."""
+    noisy = fit_with_noise(poses, NoisePrior(None, least, 0.0, guessed=False), kept=kept)
+    return noisy.fit, noisy.noise
 
 
 def predicted(theta: np.ndarray, poses: Stack) -> np.ndarray:
@@ -162,18 +170,19 @@ def test_held_parameters_stay_and_are_called_unknown():
 
 def test_estimated_noise_scatters_as_its_degrees_of_freedom_say():
     rng = rng_of(8)
-    squares, freedoms = np.zeros(2), np.zeros(2)
+    squares, freedoms, counted = np.zeros(2), np.zeros(2), 0
     for _ in range(150):
         weighing = draw_weighing(rng, poses=(4, 10))
         poses = stack(weighing.poses)
-        _, noise = fit_with_unknown_noise(poses, NOTHING)
+        _, noise = unknown(poses)
         assert noise.estimated
-        assert sum(noise.freedom) == pytest.approx(6 * len(poses) - 12, abs=0.05)
+        counted += 6 * len(poses) - 12
         ratio = noise.sigmas[[0, 3]] / weighing.noise.sigmas[[0, 3]]
         squares += ratio**2 * noise.freedom
         freedoms += noise.freedom
     chance = 3.5 * np.sqrt(2 / freedoms)
     assert (np.abs(squares / freedoms - 1) < chance).all()
+    assert freedoms.sum() == pytest.approx(counted, rel=0.05)
     assert chance.max() < 0.12
 
 
@@ -186,10 +195,7 @@ def test_poses_kept_for_being_near_do_not_make_the_noise_look_small():
         poses = stack(weighing.poses)
         off = (poses.wrenches - predicted(weighing.truth.vector, poses)) / noise.sigmas
         near = np.argsort((off**2).sum(axis=1))[:140]
-        naive, aware = (
-            fit_with_unknown_noise(poses.take(near), NOTHING, kept=kept)[1].sigmas[0] / 0.1
-            for kept in (1.0, 0.7)
-        )
+        naive, aware = (unknown(poses.take(near), kept=kept)[1].sigmas[0] / 0.1 for kept in (1.0, 0.7))
         assert naive < 0.9
         ratios.append(aware)
     assert np.mean(ratios) == pytest.approx(1.0, abs=0.04)
@@ -198,7 +204,7 @@ def test_poses_kept_for_being_near_do_not_make_the_noise_look_small():
 def test_noise_is_at_least_what_the_samples_say():
     weighing = draw_weighing(rng_of(10), poses=(8, 8), force_noise=(0.01, 0.01), torque_noise=(0.001, 0.001))
     least = np.array([1.0, 2.0, 3.0, 1e-9, 1e-9, 0.5])
-    _, noise = fit_with_unknown_noise(stack(weighing.poses), least)
+    _, noise = unknown(stack(weighing.poses), least)
     assert np.array_equal(noise.sigmas[[0, 1, 2, 5]], least[[0, 1, 2, 5]])
     assert 3e-4 < noise.sigmas[3] < 3e-3
     assert noise.sigmas[3] == noise.sigmas[4]
@@ -208,7 +214,7 @@ def test_noise_is_at_least_what_the_samples_say():
 def test_data_without_noise_fit_with_noise_unknown(count):
     rng = rng_of(12)
     truth, R_WS = draw_load(rng, (1, 1)), Rotation.random(count, rng).as_matrix()
-    fit, noise = fit_with_unknown_noise(exact(truth, R_WS), NOTHING)
+    fit, noise = unknown(exact(truth, R_WS))
     assert np.abs(fit.theta - truth.vector).max() < 1e-10
     assert 0 < noise.sigmas.max() < 1e-5
 

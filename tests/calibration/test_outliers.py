@@ -8,9 +8,10 @@ from scipy.spatial.transform import Rotation
 from scipy.special import ndtr
 
 from pipeline.calibration import Calibration, GravityModel, Level, PoseNoise, PoseSample, calibrate
-from pipeline.calibration.fit import maximise, two_stage
+from pipeline.calibration.fit import maximise, nothing_beside, two_stage
 from pipeline.calibration.outliers import LARGEST_SHARE, deviates, limit
 from pipeline.calibration.poses import stack
+from pipeline.calibration.reml import NoisePrior, fit_with_noise
 from pipeline.simulation.weighing import bump, draw_load, draw_weighing, weigh
 
 NOISE = PoseNoise(0.05, 0.002)
@@ -68,8 +69,9 @@ def test_a_pose_outside_the_fit_is_judged_by_what_the_fit_leaves_uncertain():
         weighing = draw_weighing(rng, poses=(8, 8), mass=(0.5, 2))
         poses = stack(weighing.poses)
         sigmas = weighing.noise.sigmas
-        fit = maximise(poses.take(inside), sigmas, two_stage(poses.take(inside)))
-        sizes.append(deviates(poses, inside, fit, weighing.noise)[~inside].ravel())
+        plain = nothing_beside(len(poses))
+        noisy = fit_with_noise(poses.take(inside), NoisePrior(sigmas, np.zeros(6), 0.0, guessed=False))
+        sizes.append(deviates(poses, inside, noisy, plain)[~inside].ravel())
     sizes = np.concatenate(sizes)
     assert np.mean(sizes > 2) == pytest.approx(0.0455, abs=0.03)
     assert np.mean(sizes > 1) == pytest.approx(0.317, abs=0.06)
@@ -138,40 +140,56 @@ def test_two_bumps_of_eight_that_hide_each_other(noise):
     for seed in range(12):
         rng = np.random.default_rng([seed, 22])
         R_WS = Rotation.random(8, rng).as_matrix()
-        R_WS[1] = R_WS[0] @ Rotation.from_rotvec([0.2, 0.1, 0]).as_matrix()
-        poses = push(list(weigh(LOAD, R_WS, NOISE, rng).poses), [0, 1], [6, -4, 2], [0.2, 0.5, 0])
+        R_WS[4] = R_WS[1] @ Rotation.from_rotvec([0.2, 0.1, 0]).as_matrix()
+        poses = push(list(weigh(LOAD, R_WS, NOISE, rng).poses), [1, 4], [6, -4, 2], [0.2, 0.5, 0])
         arrays = stack(poses)
         everybody = maximise(arrays, NOISE.sigmas, two_stage(arrays))
-        masked += int(np.argmax((everybody.residuals**2).sum(axis=1))) > 1
-        assert left_out(calibrate(poses, noise)) == [0, 1]
+        masked += int(np.argmax((everybody.residuals**2).sum(axis=1))) not in {1, 4}
+        assert left_out(calibrate(poses, noise)) == [1, 4]
     assert masked >= 4
 
 
 @pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
 @pytest.mark.parametrize("count", [10, 15])
 def test_a_block_of_poses_on_another_bias(noise, count):
-    """The cable caught for the last two poses in five: they agree with each other, but are fewer."""
-    block = list(range(count - int(LARGEST_SHARE * count), count))
+    """The cable caught for two poses in five: they agree with each other, but are fewer."""
+    block = list(range(1, count, 2))[: int(LARGEST_SHARE * count)]
     calibration = calibrate(push(held(count), block, [1.5, 0, -1], [0, 0.05, 0]), noise)
     assert left_out(calibration) == block
     assert calibration.verdict.level in {Level.GOOD, Level.USABLE}
+
+
+@pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
+def test_a_block_at_the_end_is_a_re_zero(noise):
+    poses = push(held(10), [6, 7, 8, 9], [1.5, 0, -1], [0, 0.05, 0])
+    calibration = calibrate(poses, noise)
+    assert not left_out(calibration)
+    assert calibration.causes[0].key == "rezero"
+    assert "before pose 7," in calibration.causes[0].sentence
+    assert calibration.verdict.level == Level.USABLE
+    assert calibration.force_bias == pytest.approx(LOAD.force_bias + [1.5, 0, -1], abs=0.15)
+    assert np.allclose(calibration.offsets[:6, :3], [-1.5, 0, 1], atol=0.15)
+    assert not calibration.offsets[6:].any()
 
 
 def test_the_rest_is_as_if_the_bumped_had_never_been_there():
     for seed in range(10):
         rng = np.random.default_rng([seed, 23])
         weighing = bump(draw_weighing(rng, poses=(9, 12)), 0.2, rng)
-        calibration = calibrate(weighing.poses, weighing.noise)
+        calibration = calibrate(weighing.poses, weighing.noise, orientation_sigma=0.0)
         assert not (calibration.kept & weighing.bumped).any()
+        if not calibration.plausible:
+            continue  # noise that is doubted is taken from all poses that were kept, knowing how they were chosen
         clean = [pose for pose, kept in zip(weighing.poses, calibration.kept, strict=True) if kept]
-        alone = calibrate(clean, weighing.noise)
-        assert np.allclose(calibration.model.vector, alone.model.vector, rtol=1e-9, atol=1e-9)
-        assert np.allclose(calibration.covariance, alone.covariance, rtol=1e-7, atol=0)
-        assert calibration.contact_error == pytest.approx(alone.contact_error, rel=1e-7)
-        assert calibration.scatter == pytest.approx(alone.scatter, rel=1e-7)
+        alone = calibrate(clean, weighing.noise, orientation_sigma=0.0)
+        off = (calibration.model.vector - alone.model.vector) / np.sqrt(np.diag(alone.covariance))
+        assert np.abs(off).max() < 1e-3
+        # More poses may have been bumped, or fewer: that it is not quite sure adds a little.
+        assert 0.999 < calibration.contact_error / alone.contact_error < 1.5
+        assert calibration.scatter == pytest.approx(alone.scatter, rel=1e-4)
         assert calibration.observability == alone.observability
-        assert np.allclose(calibration.residuals[calibration.kept], alone.residuals, atol=1e-9)
-        assert np.allclose(calibration.deviates[calibration.kept], alone.deviates, atol=1e-6)
+        assert np.allclose(calibration.residuals[calibration.kept], alone.residuals, atol=1e-4)
+        assert np.allclose(calibration.deviates[calibration.kept], alone.deviates, atol=1e-2)
 
 
 @pytest.mark.parametrize("known", [True, False])
@@ -215,7 +233,7 @@ def test_half_of_them_bumped_leaves_no_majority():
     )  # scatter cannot be told from noise without a figure
     calibration = calibrate(poses, NOISE)
     assert not calibration.rejected  # nobody can say who is right: all are shown
-    assert any("No majority" in reason for reason in calibration.verdict.reasons)
+    assert any("times what the noise given explains: check" in reason for reason in calibration.verdict.reasons)
 
 
 @pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])
@@ -255,7 +273,7 @@ def test_noise_stated_too_small_is_doubted_when_many_are_a_little_off():
         rng = np.random.default_rng([seed, 31])
         poses = weigh(LOAD, Rotation.random(30, rng).as_matrix(), NOISE, rng).poses
         calibration = calibrate(poses, PoseNoise(0.025, 0.001))
-        doubted += any("the noise given is too small" in reason for reason in calibration.verdict.reasons)
-        right = calibrate(poses, NOISE)
-        assert not any("the noise given is too small" in reason for reason in right.verdict.reasons)
+        doubted += calibration.noise_factor == pytest.approx((2, 2), rel=0.3)
+        assert not calibration.rejected
+        assert calibrate(poses, NOISE).noise_factor == pytest.approx((1, 1), rel=0.3)
     assert doubted >= 18

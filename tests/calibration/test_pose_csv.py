@@ -212,8 +212,15 @@ def test_refused_without_a_line(tmp_path):
 
 
 def test_a_recording_is_no_list_of_poses():
-    with pytest.raises(PoseFileError, match=r"more than 10,000 rows of poses: choose the right file"):
+    with pytest.raises(PoseFileError, match=r"more than 200 rows of poses: choose the right file"):
         read(QUATERNION, *[GOOD] * (POSE_LIMIT + 1))
+
+
+def test_samples_are_no_poses():
+    rows = [f"{0.005 * number},{GOOD}" for number in range(60)]
+    with pytest.raises(PoseFileError, match=r"a recording, 60 rows 5 ms apart, .* contactbench captures"):
+        read(f"t,{QUATERNION}", *rows)
+    assert len(read(f"t,{QUATERNION}", *[f"0,{GOOD}"] * 60).poses) == 60  # a column of zeros is no time
 
 
 # ---- doubts --------------------------------------------------------------------------------------
@@ -255,6 +262,50 @@ def test_equal_orientations_and_repeated_rows():
     assert "orientation" not in found
 
 
+def timed(times, names=None):
+    """Return what is said of poses at these times, each in another orientation and with another reading."""
+    rows = []
+    for number, pose in enumerate(random_poses(len(times))):
+        quaternion = Rotation.from_matrix(pose.R_WS).as_quat()[[3, 0, 1, 2]].tolist()
+        cells = [*quaternion, *pose.force.tolist(), *pose.torque.tolist()]
+        name = f"pose {number}" if names is None else names[number]
+        rows.append(f"{times[number]},{name}," + ",".join(map(repr, cells)))
+    return warnings_of(*rows, header=f"t,name,{QUATERNION}")
+
+
+@pytest.mark.parametrize(
+    ("times", "names", "doubt"),
+    [
+        ([0, 20, 40, 60, 80], None, ""),
+        ([80, 60, 40, 20, 0], None, ""),
+        (["", 20, 40, "", 80], None, ""),
+        ([0, 60, 40, 20, 80], None, "times in column t do not rise at lines 3, 5: if two rows are swapped"),
+        (
+            [20, 40, 60, 80, 0],
+            None,
+            "times in column t do not rise at lines 2, 3, 4, 5, 6: if rows were moved",
+        ),
+        ([0, 0.01, 0.02, 0.03, 0.04], None, "poses are 10 ms apart, and a pose takes a second: write t in s"),
+        (
+            [0, 20, 40, 60, 80],
+            ["p1", "p3", "p2", "p4", "p5"],
+            "numbers in column name do not rise at lines 3, 4",
+        ),
+        ([0, 20, 40, 60, 80], ["up", "left 2", "left 1", "down", "right"], ""),
+    ],
+)
+def test_rows_out_of_order(times, names, doubt):
+    found = timed(times, names)
+    assert doubt in found
+    assert bool(doubt) == bool(found)
+
+
+def test_a_copied_reading():
+    found = warnings_of(f"0,1,0,0,{READ}", GOOD, f"0,0,1,0,{READ.replace('-5', '-4')}")
+    assert "Lines 2 and 3 have the same reading to the last digit, though the sensor is turned" in found
+    assert "same reading" not in warnings_of(GOOD, GOOD, f"0,0,1,0,{READ.replace('-5', '-4')}")
+
+
 @pytest.mark.parametrize(
     ("degrees", "cells", "doubt"),
     [
@@ -269,7 +320,7 @@ def test_equal_orientations_and_repeated_rows():
     ],
 )
 def test_angles_in_the_other_unit(degrees, cells, doubt):
-    rows = [f"{cell},{READ}" for cell in cells]
+    rows = [f"{cell},{READ.replace('1', str(number))}" for number, cell in enumerate(cells, 1)]
     found = warnings_of(*rows, header=ANGLES, convention=Convention(Kind.EULER, degrees=degrees))
     assert doubt in found
     assert bool(doubt) == bool(found)

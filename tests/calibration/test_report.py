@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from datetime import UTC, datetime
 from html.parser import HTMLParser
 from pathlib import Path
@@ -16,8 +17,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pipeline.calibration import ContactTask, GravityModel, Level, PoseNoise, PoseSample, calibrate
+from pipeline.calibration.causes import Cause
 from pipeline.calibration.files.calibration_file import Source
-from pipeline.calibration.report.figures import error_map, lambert, numbers, steps
+from pipeline.calibration.report.figures import _signed, error_map, in_time, lambert, numbers, steps
 from pipeline.calibration.report.page import report_html, tilt_of, write_report
 from pipeline.calibration.wording import plain, with_sigma
 from pipeline.errors import InputError
@@ -190,16 +192,168 @@ def test_three_poses_are_reported_without_a_limit():
 
 
 def test_poses_that_contradict_one_another_are_not_said_to_agree():
-    calibration = calibrate(taken(turned(9, 7), bumped=(0, 2, 4, 6, 8)), NOISE)
-    text = Reader(report_html(calibration)).text
+    rng = np.random.default_rng(0)
+    poses = taken(turned(9, 7))
+    for index in (0, 2, 4, 6, 8):
+        pushed = poses[index]
+        poses[index] = replace(
+            pushed, force=pushed.force + rng.normal(0, 1, 3), torque=pushed.torque + rng.normal(0, 0.05, 3)
+        )
+    text = Reader(report_html(calibrate(poses, NOISE))).text
     assert "agree with one another" not in text
-    assert "used although beyond the limit" in text
-    assert "That does not fit" in text
+    assert "used although beyond the limit: the poses contradict one another" in text
+    assert "the residuals contradict that" in text
 
 
-def test_noise_given_far_too_large_is_said():
-    calibration = calibrate(taken(turned(10)), PoseNoise(0.5, 0.02))
-    assert "the noise that was given is too large" in Reader(report_html(calibration)).text
+def test_a_pose_that_is_used_beyond_the_limit_is_told():
+    calibration = calibrate(taken(turned(12)), NOISE)
+    far = calibration.deviates.copy()
+    far[3, 0] = 4.2
+    text = Reader(report_html(replace(calibration, deviates=far))).text
+    assert "1 of 12 poses is used although beyond the limit: chance explains" in text
+    assert "agree with one another" not in text
+
+
+def test_a_cause_that_only_the_diagnosis_knows_is_no_agreement():
+    calibration = calibrate(taken(turned(12)), NOISE)
+    swapped = Cause("fx_fz_swapped", 0.98, "Channels are swapped: fx with fz.")
+    text = Reader(report_html(replace(calibration, causes=(swapped,)))).text
+    assert "agree with one another" not in text
+    assert "98 % Channels are swapped: fx with fz." in text
+
+
+@pytest.mark.parametrize("factor", [0.1, 40])
+def test_noise_given_wrong_is_said_with_both_figures(factor):
+    given = PoseNoise(factor * 0.012, factor * 0.0004)
+    calibration = calibrate(taken(turned(10)), given)
+    text = Reader(report_html(calibration)).text
+    assert f"was given as {plain(given.force)} N and {plain(1e3 * given.torque)} mN·m" in text
+    force, torque = (plain(value) for value in calibration.noise_factor)
+    assert f"which is {force} times as much for forces and {torque} times for torques" in text
+    assert ("No pose stands out, but together" in text) == (factor < 1)
+    assert ("agree with one another" in text) == (factor > 1)
+
+
+def test_orientation_noise_is_told():
+    calibration = calibrate(taken(turned(10)), NOISE, orientation_sigma=np.radians(0.02))
+    assert calibration.noise.orientation == pytest.approx(np.radians(0.02))
+    assert "The orientations count as known to 0.020°" in Reader(report_html(calibration)).text
+
+
+# ---- time --------------------------------------------------------------------------------------
+
+DRIFT = np.array([0.3, -0.2, 0.1, 0.02, 0.01, -0.01])  # N, N·m over the session
+
+
+def in_the_order_of_time(before, count=12):
+    """Poses a minute apart whose readings have an offset, the session's `before` times DRIFT."""
+    poses = taken(turned(count))
+    return [
+        replace(pose, time=60.0 * i, force=pose.force + w * DRIFT[:3], torque=pose.torque + w * DRIFT[3:])
+        for i, (pose, w) in enumerate(zip(poses, before, strict=True))
+    ]
+
+
+@pytest.fixture(scope="module")
+def drifted():
+    return calibrate(in_the_order_of_time(np.linspace(1, 0, 12)), NOISE)
+
+
+@pytest.fixture(scope="module")
+def rezeroed():
+    return calibrate(in_the_order_of_time([1] * 5 + [0] * 7), NOISE)
+
+
+def test_drift_is_told_and_the_bias_is_of_the_end(drifted):
+    text = Reader(report_html(drifted)).text
+    assert drifted.causes[0].key == "drift"
+    assert "With the drift taken off, all 12 poses agree with one another." in text
+    assert "All 12 poses agree" not in text
+    assert f"over 99 % {drifted.causes[0].sentence}" in text
+    for name in ("Force bias", "Torque bias"):
+        assert f"{name} at the end of the session" in text
+    x, sigma = with_sigma(3600 * drifted.drift_rate[0], 3600 * drifted.drift_rate_sigma[0])
+    assert f"Drift of the force bias S {x} ± {sigma}" in text
+    assert "N/h" in text
+
+
+def test_without_drift_no_end_is_spoken_of(good_page):
+    text = Reader(good_page).text
+    assert "end of the session" not in text
+    assert "N/h" not in text
+
+
+def test_a_rezero_is_told(rezeroed):
+    text = Reader(report_html(rezeroed)).text
+    assert "With the re-zero taken off, all 12 poses agree with one another." in text
+    assert rezeroed.causes[0].sentence in text
+    assert "Force bias at the end of the session" in text
+    assert "N/h" not in text
+
+
+def test_what_follows_the_orientation_is_no_agreement():
+    turn = Rotation.from_rotvec([0.05, -0.03, 0.02]).as_matrix()
+    poses = [replace(pose, R_WS=pose.R_WS @ turn) for pose in taken(turned(14))]
+    calibration = calibrate(poses, NOISE)
+    text = Reader(report_html(calibration)).text
+    assert calibration.causes[0].key == "mount"
+    assert "No pose stands out, but together they do not fit the model" in text
+    assert "agree with one another" not in text
+    assert f"{plain(1e3 * calibration.model_error)} mm of that is what the model leaves out" in text
+
+
+@pytest.mark.parametrize(("name", "style"), [("drifted", "default"), ("rezeroed", "steps-mid")])
+def test_signed_residuals_stand_about_what_was_found(name, style, request):
+    calibration = request.getfixturevalue(name)
+    figure = _signed(calibration)
+    scale = np.repeat([1.0, 1e3], 3)
+    for channel, axes in enumerate(figure.axes):
+        line, used = axes.lines[0], axes.lines[1]
+        assert line.get_drawstyle() == style
+        assert np.allclose(line.get_xdata(), np.arange(12))
+        assert np.allclose(line.get_ydata(), scale[channel] * calibration.offsets[:, channel])
+        read = calibration.offsets[:, channel] + calibration.residuals[:, channel]
+        assert np.allclose(used.get_ydata(), scale[channel] * read)
+        # Of the truth, that is: what was put in, at the first pose.
+        assert line.get_ydata()[0] == pytest.approx(
+            scale[channel] * DRIFT[channel], abs=scale[channel] * 0.06
+        )
+
+
+def test_a_pose_far_off_stands_hollow_at_the_edge():
+    calibration = calibrate(taken(turned(14, 3), bumped=(4,)), NOISE)
+    for channel, axes in enumerate(_signed(calibration).axes):
+        hollow = [
+            line for line in axes.lines if line.get_markerfacecolor() == "#fdfefd" and len(line.get_xdata())
+        ]
+        assert [line.get_xdata().tolist() for line in hollow] == [[5.0]]
+        off = calibration.residuals[4, channel]
+        assert hollow[0].get_marker() in ("^", "v", "o", "D")
+        assert np.sign(hollow[0].get_ydata()[0]) == np.sign(off)
+        assert np.abs(hollow[0].get_ydata()[0]) <= axes.get_ylim()[1]
+
+
+def test_poses_without_times_stand_by_their_number(good):
+    when, unit = in_time(good)
+    assert (when.tolist(), unit) == (list(range(1, 13)), "pose")
+
+
+# ---- robots that do not stand upright ----------------------------------------------------------
+
+
+def test_a_robot_under_the_ceiling_is_level():
+    flipped = Rotation.from_rotvec([np.pi, 0, 0]).as_matrix()
+    poses = [replace(pose, R_WS=flipped @ pose.R_WS) for pose in taken(turned(12))]
+    calibration = calibrate(poses, NOISE, down_W=(0, 0, 1))
+    upright = calibrate(taken(turned(12)), NOISE)
+    assert tilt_of(calibration) == pytest.approx(tilt_of(upright), rel=1e-3)
+    text = Reader(report_html(calibration)).text
+    assert "gravity was said to point along (0, 0, 1)" in text
+    pages = [report_html(one) for one in (calibration, upright)]
+    # Seen from above, down: the dots are where they would be for a robot that stands.
+    probe = [re.findall(r"<svg viewBox.*?</svg>", page, re.DOTALL)[3] for page in pages]
+    assert len(probe[0]) == pytest.approx(len(probe[1]), rel=0.02)
+    assert calibration.verdict.level is Level.GOOD
 
 
 # ---- names from files --------------------------------------------------------------------------
@@ -229,7 +383,7 @@ def test_nothing_outside_is_referred_to(good_page):
     assert all(link.startswith("#") and link[1:] in reader.ids for link in reader.links)
     assert all(name in reader.ids for name in re.findall(r"url\(#([^)]*)\)", good_page))
     assert not {"script", "link", "img", "iframe"} & set(reader.tags)
-    assert reader.tags.count("svg") == 5  # the icon and four pictures
+    assert reader.tags.count("svg") == 6  # the icon and five pictures
 
 
 def test_pictures_take_colours_and_fonts_from_the_page(good_page):
@@ -281,7 +435,7 @@ def test_hundreds_of_poses_are_drawn_without_their_numbers():
     page = report_html(calibrate(taken(turned(150), bumped=(7,)), NOISE))
     assert len(page.encode()) < 400_000
     assert "Each dot is a pose; gravity" in page
-    drawn = re.findall(r"<svg viewBox.*?</svg>", page, re.DOTALL)[2]
+    drawn = re.findall(r"<svg viewBox.*?</svg>", page, re.DOTALL)[3]
     assert re.findall(r">(\d+)<", drawn) == ["8"]
 
 

@@ -102,11 +102,14 @@ def test_the_suggested_pose_is_nearly_the_best_of_all(hand, noise, count):
 @pytest.mark.parametrize("count", [3, 6])
 def test_a_calibration_with_the_pose_has_the_predicted_error(hand, count):
     poses = read(some(count))
-    before = calibrate(poses, NOISE)
+    before = calibrate(poses, NOISE, orientation_sigma=0.0)
     suggestion = suggest_pose(before, hand)
-    wrench = before.model.predict(suggestion.R_WS)
-    expected = calibrate([*poses, PoseSample(suggestion.R_WS, wrench[:3], wrench[3:])], NOISE)
-    assert expected.contact_error == pytest.approx(suggestion.error_after, rel=1e-3)
+    # As far off as noise is: a reading without any would make the noise look smaller than was given.
+    wrench = before.model.predict(suggestion.R_WS) + NOISE.sigmas * [1, -1, 1, -1, 1, -1]
+    expected = calibrate(
+        [*poses, PoseSample(suggestion.R_WS, wrench[:3], wrench[3:])], NOISE, orientation_sigma=0.0
+    )
+    assert expected.contact_error == pytest.approx(suggestion.error_after, rel=0.03)
     for seed in range(3):
         noisy = calibrate(poses + read(suggestion.R_WS[None], seed), NOISE)
         assert noisy.contact_error == pytest.approx(suggestion.error_after, rel=0.03)

@@ -25,7 +25,8 @@ def poses(rng, number, model=MODEL, sigma=SIGMA, offset=0.0, **fields):
 
 
 def calibrated(rng, number=8, *, known=True):
-    return calibrate(poses(rng, number), PoseNoise(SIGMA[:3], SIGMA[3:]) if known else None)
+    noise = PoseNoise(SIGMA[:3], SIGMA[3:]) if known else None
+    return calibrate(poses(rng, number), noise, orientation_sigma=0.0)
 
 
 @pytest.mark.parametrize("known", [True, False])

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from pipeline.recording import FlangeTrack, RecordingError, WrenchTrack
-from pipeline.recording.delay import estimate_delay
+from pipeline.recording.delay import Delay, estimate_delay
 
 G = np.array([0.0, 0.0, -5.0])
 R_SE = Rotation.from_euler("xyz", [10, -20, 75], degrees=True)
@@ -42,6 +42,29 @@ def test_the_delay_is_found_within_its_sigma(delay):
     found = estimate_delay(*tracks(delay))
     assert found.sigma < 0.002
     assert abs(found.seconds - delay) < max(4 * found.sigma, 2e-4)
+
+
+@pytest.mark.parametrize(
+    ("delay", "words"),
+    [
+        (0.0123, "ms later than the robot."),
+        (0.0, "no delay is applied"),
+        (-0.02, "publishes its poses late: does it? The delay is not applied. To apply it all the same"),
+        (0.2, "on one clock, and is this the robot that holds the sensor? The delay is not applied."),
+    ],
+)
+def test_a_delay_is_used_where_it_can_be_trusted(delay, words):
+    found = estimate_delay(*tracks(delay))
+    seconds, sentence = found.usable
+    assert words in sentence
+    assert seconds == (found.seconds if delay == 0.0123 else 0.0)
+
+
+def test_a_delay_of_unknown_or_large_sigma_is_not_used():
+    assert Delay(0.02, None, "Late.").usable[0] == 0.0
+    assert Delay(0.02, 0.0067, "Late.").usable[0] == 0.0
+    assert Delay(0.02, 0.0066, "Late.").usable == (0.02, "Late.")
+    assert Delay(None, None, "No.").usable[0] == 0.0
 
 
 def test_the_sigma_is_honest():

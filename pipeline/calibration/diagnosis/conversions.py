@@ -1,6 +1,7 @@
 """Angles behind a rotation matrix, and matrices that a mistaken conversion made of them.
 
-An order names fixed axes, the one that is turned about first at the front; each angle belongs to its axis.
+An order in lower case names fixed axes, the one that is turned about first at the front; each angle belongs to
+its axis. `columns_mistaken` takes three numbers in the order of their columns instead, whatever axes they belong to.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ if TYPE_CHECKING:
 
 VECTOR = "vector"
 FIXED_ORDERS = tuple("".join(axes) for axes in permutations("xyz"))
+# Orders as scipy has them, as read and as meant, whose columns are the other way round. Those that are left out make
+# the same of every rotation as one of these.
+COLUMNS_REVERSED = (("xyz", "ZYX"), ("xyz", "zyx"), ("XYZ", "ZYX"))
 _LOCKED = 1e-9
 
 
@@ -36,6 +40,17 @@ def recovered(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float
         second -= 2 * np.pi * np.ceil(second / (2 * np.pi) - 0.5)
     plain = _writes(first, meant) | ~_writes(second, meant)
     return np.where(plain[:, None], first, second)
+
+
+def columns_mistaken(R: NDArray[np.float64], read: str, meant: str) -> NDArray[np.float64]:
+    """Return the rotations (n, 3, 3) that three numbers meant which became R when `read` as another order.
+
+    Both are a pair of COLUMNS_REVERSED, whose first column is read as the angle about x. Programs write a middle
+    angle within 90 degrees of zero, as is found here.
+    """
+    return Rotation.from_euler(
+        meant, angles_of(R, read if read.islower() else read.lower()[::-1])
+    ).as_matrix()
 
 
 def _writes(angles: NDArray[np.float64], way: str) -> NDArray[np.bool_]:

@@ -2,7 +2,8 @@
 
 Each mistake that people make leaves a fingerprint. Every one is fitted and ranked by the likelihood of the
 recorded numbers; where two readings leave the same residuals, what is known of any load decides (gravity points
-down, the centre of mass is on the tool's side). Nothing is ever corrected silently.
+down, the centre of mass is on the tool's side). "None of the known causes" competes as a reading of its own, and
+every cause is said with its odds. Nothing is ever corrected silently.
 """
 
 from __future__ import annotations
@@ -13,11 +14,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import chdtrc
 
-from pipeline.calibration.diagnosis.evidence import Evidence, weigh
+from pipeline.calibration.contact_error import usual_task
+from pipeline.calibration.diagnosis.evidence import weigh
 from pipeline.calibration.diagnosis.explain import FELT, NOTHING, TIE, Case, Context, Words, decided_by
-from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, Hypothesis, RawOrientations, hypotheses
-from pipeline.calibration.diagnosis.prior import Prior
+from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations, hypotheses
+from pipeline.calibration.diagnosis.odds import NONE, odds
+from pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
+from pipeline.calibration.diagnosis.side_by_side import Noise
+from pipeline.calibration.diagnosis.turned import MOUNT, WORLD, YAW, settled
 from pipeline.calibration.model import STANDARD_GRAVITY
+from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from pipeline.calibration.poses import PoseError, PoseSample, stack
 from pipeline.errors import InputError
 
@@ -26,6 +32,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from pipeline.calibration.diagnosis.evidence import Evidence
+    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from pipeline.calibration.fit import PoseNoise
 
 __all__ = ["Diagnosis", "Finding", "Prior", "RawOrientations", "diagnose"]
@@ -33,11 +41,18 @@ __all__ = ["Diagnosis", "Finding", "Prior", "RawOrientations", "diagnose"]
 FEWEST_POSES, MOST_POSES = 4, 200
 
 # Noise that was given is often too small by half: drift, hysteresis, cables. Beyond this factor residuals are
-# called unexplained, once chance makes them in one clean set out of a thousand.
-_TOLERATED, _CHANCE = 2.0, 1e-3
+# called unexplained, once chance makes them in one clean set out of a thousand. What is named as a mistake has to
+# explain more: half of a cause is often explained by another, and most of it by a bias that changes.
+_TOLERATED, _TOLERATED_OF_MISTAKES, _TOLERATED_OF_CHANGES, _CHANCE = 2.0, 1.6, 1.3, 1e-3
 # Without noise: residuals are called noise up to this share of the weight, and of its torque at 0.1 m.
 _SHARE, _LEVER = 0.2, 0.1
 _ANY_NOISE = np.repeat([0.1, 0.003], 3)  # a unit to count in where the noise is not known
+_LARGEST_ERROR = 1.5e-3  # m: what residuals of unknown origin may move a contact by
+_HEAVIER = 1.2  # a load is not heavier than this many times what was weighed
+_BETTER = 0.5  # other units explain the noise better: a logarithm
+_UNTOLD = float(
+    np.log(0.01)
+)  # other units at least this probable, beside those that were declared, are not ruled out
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +83,8 @@ class Finding:
         S, m, so read.
     left_out : tuple of int
         Indices of poses that were taken for bumped.
+    turn : (3, 3) or None
+        What R_WS is multiplied by on the right if the sensor is turned on the flange.
     """
 
     hypothesis: str
@@ -83,6 +100,7 @@ class Finding:
     gravity_W: NDArray[np.float64]
     centre_of_mass_S: NDArray[np.float64]
     left_out: tuple[int, ...]
+    turn: NDArray[np.float64] | None = None
 
     @property
     def mass(self) -> float:
@@ -107,6 +125,10 @@ class Diagnosis:
         The data are consistent as they are.
     explained : bool
         The best reading leaves residuals that chance explains.
+    none_known : bool
+        That it is none of the known causes is more probable than any of them.
+    odds : mapping of str to float
+        Probability of each reading by its key, and of "none" of them.
     sentence : str
         All of that for a technician, with what to do.
     not_testable : tuple of str
@@ -118,11 +140,12 @@ class Diagnosis:
     tied: tuple[str, ...]
     consistent: bool
     explained: bool
+    none_known: bool
+    odds: Mapping[str, float]
     sentence: str
     not_testable: tuple[str, ...]
     _poses: tuple[PoseSample, ...] = field(repr=False)
-    _hypotheses: Mapping[str, Hypothesis] = field(repr=False)
-    _jumps: Mapping[str, NDArray[np.float64]] = field(repr=False)
+    _cases: Mapping[str, Case] = field(repr=False)
 
     @property
     def best(self) -> Finding:
@@ -149,7 +172,8 @@ class Diagnosis:
         Parameters
         ----------
         hypothesis : str
-            Key of a finding. After a re-zero the later poses get the bias of the earlier ones.
+            Key of a finding. After a re-zero the later poses get the bias of the earlier ones; a drift is
+            taken off, to the bias of the last pose.
 
         Raises
         ------
@@ -157,20 +181,16 @@ class Diagnosis:
             There is none of that key.
         """
         self.finding(hypothesis)
-        chosen, jump = self._hypotheses[hypothesis], self._jumps[hypothesis]
-        force, torque = chosen.factor[:3], chosen.factor[3:]
-        return tuple(
-            replace(
-                pose,
-                R_WS=chosen.R_WS[index],
-                force=pose.force * force - later * jump[:3],
-                torque=pose.torque * torque - later * jump[3:],
-                force_sd=None if pose.force_sd is None else pose.force_sd * np.abs(force),
-                torque_sd=None if pose.torque_sd is None else pose.torque_sd * np.abs(torque),
-            )
-            for index, pose in enumerate(self._poses)
-            for later in [float(0 < chosen.change <= index)]
-        )
+        chosen, change = self._cases[hypothesis].hypothesis, self._cases[hypothesis].evidence.change
+        mended = []
+        for pose, R_WS, course in zip(self._poses, chosen.R_WS, chosen.course, strict=True):
+            wrench = chosen.wrench(np.concatenate([pose.force, pose.torque])) - course * change
+            pose = replace(pose, R_WS=R_WS, force=wrench[:3], torque=wrench[3:])
+            if pose.force_sd is not None and pose.torque_sd is not None:
+                sd = np.abs(chosen.wrench(np.concatenate([pose.force_sd, pose.torque_sd])))
+                pose = replace(pose, force_sd=sd[:3], torque_sd=sd[3:])
+            mended.append(pose)
+        return tuple(mended)
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``; lengths in m, forces in N."""
@@ -179,16 +199,19 @@ class Diagnosis:
             "best": self.best.hypothesis,
             "consistent": self.consistent,
             "explained": self.explained,
+            "none_known": self.none_known,
+            "odds": dict(self.odds),
             "decided_by": self.decided_by,
             "tied": list(self.tied),
             "not_testable": list(self.not_testable),
             "ranking": [
                 {
-                    **{key: value for key, value in vars(finding).items() if key != "priors"},
+                    **vars(finding),
                     "priors": dict(finding.priors),
                     "gravity_W": finding.gravity_W.tolist(),
                     "centre_of_mass_S": finding.centre_of_mass_S.tolist(),
                     "left_out": list(finding.left_out),
+                    "turn": None if finding.turn is None else finding.turn.tolist(),
                     "mass": finding.mass,
                 }
                 for finding in self.ranking
@@ -215,7 +238,7 @@ def diagnose(
         Of a pose's mean in true N and N·m, from the sensor's data sheet or an earlier session: noise taken
         from these very recordings would be in their units, right or wrong. Left out, or estimated: each
         reading is granted the noise that suits it, and units can only be told by the mass and the centre of
-        mass that they make.
+        mass that they make. Orientations whose noise is not given are as good as a robot's.
     prior : Prior, optional
         What is known of the load.
     raw : RawOrientations, optional
@@ -238,53 +261,118 @@ def diagnose(
         )
     prior = prior or Prior()
     known = noise is not None and not noise.estimated
-    sigmas = noise.sigmas if noise is not None and known else _ANY_NOISE
     arrays = stack(poses)
-    candidates, not_testable = hypotheses(arrays.R_SW.transpose(0, 2, 1), raw)
-    doubt = float(np.log(prior.noise_factor)) if known else np.inf
-    evidence = weigh(candidates, arrays, sigmas, doubt, progress)
-    context = Context(tuple(poses), sigmas, known, prior)
+    candidates, not_testable = hypotheses(arrays, raw, prior, _times(poses))
+    context = Context(tuple(poses), noise.sigmas if noise is not None and known else _ANY_NOISE, known, prior)
+    evidence = weigh(candidates, arrays, _noise(context, noise), progress)
     return _diagnosis(_cases(candidates, evidence, context), context, not_testable)
 
 
-def _cases(candidates: Sequence[Hypothesis], evidence: Sequence[Evidence], context: Context) -> list[Case]:
-    """Return the hypotheses, the most probable first; of all moments for a re-zero, the best."""
+def _times(poses: Sequence[PoseSample]) -> NDArray[np.float64] | None:
+    times = [pose.time for pose in poses if pose.time is not None]
+    return np.array(times) if len(times) == len(poses) else None
+
+
+def _noise(context: Context, given: PoseNoise | None) -> Noise:
     prior = context.prior
+    orientation = given.orientation if given is not None else 0.0
+    heaviest = prior.mass_range[1] if prior.mass is None else _HEAVIER * prior.mass
+    return Noise(
+        context.sigmas,
+        float(np.log(prior.noise_factor)) if context.known else np.inf,
+        orientation or float(np.radians(ORIENTATION_NOISE_DEG["robot"])),
+        heaviest * STANDARD_GRAVITY,
+        prior.tool_length,
+        prior.down_W,
+    )
+
+
+def _cases(candidates: Sequence[Hypothesis], evidence: Sequence[Evidence], context: Context) -> list[Case]:
+    """Return the hypotheses, the most probable first."""
     cases = []
-    for hypothesis, weight in zip(candidates, evidence, strict=True):
+    for untold, weight in zip(candidates, evidence, strict=True):
+        hypothesis = settled(untold, weight, context.prior)
+        prior = hypothesis.prior or context.prior
         parts = prior.log_densities(weight.gravity_W, weight.centre_of_mass_S, weight.covariance)
-        preference = 0.0 if hypothesis.key == AS_DECLARED else float(np.log(prior.mistake))
-        cases.append(Case(hypothesis, weight, parts, preference))
-    cases.sort(key=lambda case: -case.score)
+        if not context.known:
+            parts[QUIET] = quiet(weight.noise * context.sigmas[[0, 3]])
+        occam = weight.occam - float(np.log(hypothesis.variants))
+        if hypothesis.key == WORLD:
+            occam += float(np.log(prior.tilt**2 / 2))  # any direction, where `tilt` about one is expected
+        preference = 0.0
+        if hypothesis.key != AS_DECLARED:
+            preference = float(np.log(context.prior.mistake * hypothesis.share))
+        cases.append(Case(hypothesis, replace(weight, occam=occam), parts, preference))
+    return sorted(cases, key=lambda case: -case.score)
+
+
+def _shown(cases: Sequence[Case]) -> list[Case]:
+    """Leave out all but the best moments for a re-zero."""
     changes = [case for case in cases if case.hypothesis.change]
     late = [case for case in changes if case.score < changes[0].score - TIE]
     return [case for case in cases if case not in late]
 
 
-def _diagnosis(cases: Sequence[Case], context: Context, not_testable: tuple[str, ...]) -> Diagnosis:
-    best = cases[0]
+def _diagnosis(every: Sequence[Case], context: Context, not_testable: tuple[str, ...]) -> Diagnosis:
+    cases, best = _shown(every), every[0]
+    explained = _explains(best, context)
+    probable = odds(every, context.prior.mistake, explained=explained)
     declared = next(case for case in cases if case.key == AS_DECLARED)
     rivals = [case for case in cases if not case.same(best)]
     tied = [case for case in cases[1:] if case.value > best.value - TIE]
     if best is declared:
         tied = [case for case in tied if not case.same(best)]
-    explained = _explains(best, context)
-    words = Words(context, best, declared, tied)
+    none_known = not explained or probable[NONE] > probable[best.key]
+    words = Words(context, best, declared, tied, probable)
+    untold = _untold(cases, declared, tied, context)
     return Diagnosis(
         ranking=tuple(_finding(case, best, declared, context, words) for case in cases),
         decided_by=NOTHING if tied else decided_by(best, rivals),
         tied=tuple(case.key for case in tied),
-        consistent=explained and best is declared,
+        consistent=best is declared and not none_known and not untold,
         explained=explained,
-        sentence=words.sentence(explained=explained),
+        none_known=none_known,
+        odds=probable,
+        sentence=words.sentence(none_known=none_known, untold=untold),
         not_testable=(*not_testable, *words.not_testable(cases)),
         _poses=context.poses,
-        _hypotheses={case.key: case.hypothesis for case in cases},
-        _jumps={case.key: _jump(case) for case in cases},
+        _cases={case.key: case for case in cases},
     )
 
 
+def _untold(cases: Sequence[Case], declared: Case, tied: Sequence[Case], context: Context) -> str:
+    """Return what keeps data that fit as they are from being called consistent."""
+    if context.known:
+        least = declared.evidence.log_likelihood + _BETTER
+        units = [
+            case.hypothesis.title
+            for case in tied
+            if case.hypothesis.scales and case.evidence.log_likelihood > least
+        ]
+        return (
+            f"But {' or '.join(units)} would fit as well: press one known point, and compare."
+            if units
+            else ""
+        )
+    noise = np.repeat(declared.evidence.noise, 3) * context.sigmas
+    error = usual_task().sensor_error(noise)
+    if error > _LARGEST_ERROR:
+        return (
+            f"But residuals of this size move a contact by {1e3 * error:.1f} mm, and nothing tells whether they are"
+            " noise: give the noise of the sensor's data sheet."
+        )
+    scales = [case for case in cases if case.hypothesis.scales and case.value > declared.value + _UNTOLD]
+    if scales and context.prior.mass is None:
+        masses = [f"{case.hypothesis.title} ({case.mass:.2g} kg)" for case in scales[:3]]
+        return (
+            f"But units are not told without the tool's mass: {declared.mass:.2g} kg as declared, or"
+            f" {' or '.join(masses)}. Weigh the tool and give its mass."
+        )
+    return ""
+
+
 def _finding(case: Case, best: Case, declared: Case, context: Context, words: Words) -> Finding:
+    turned = case.key in {YAW, MOUNT} or case.key.startswith("yaw_")
     return Finding(
         hypothesis=case.key,
         title=case.hypothesis.title,
@@ -299,20 +387,18 @@ def _finding(case: Case, best: Case, declared: Case, context: Context, words: Wo
         gravity_W=case.evidence.gravity_W,
         centre_of_mass_S=case.evidence.centre_of_mass_S,
         left_out=tuple(np.flatnonzero(~case.evidence.kept).tolist()),
+        turn=declared.hypothesis.R_WS[0].T @ case.hypothesis.R_WS[0] if turned else None,
     )
-
-
-def _jump(case: Case) -> NDArray[np.float64]:
-    """Return how much larger the bias (6,) is after a re-zero, N and N·m."""
-    later = case.evidence.kept & (np.arange(len(case.evidence.kept)) >= case.hypothesis.change)
-    return case.evidence.residuals[later].mean(axis=0) if case.hypothesis.change else np.zeros(6)
 
 
 def _explains(case: Case, context: Context) -> bool:
     """Tell whether chance explains the residuals of a case."""
     evidence = case.evidence
     if context.known:
-        chance = chdtrc(evidence.freedom, evidence.squares / _TOLERATED**2)
+        tolerated = _TOLERATED if case.key == AS_DECLARED else _TOLERATED_OF_MISTAKES
+        if case.hypothesis.course.any():
+            tolerated = _TOLERATED_OF_CHANGES
+        chance = chdtrc(evidence.freedom, evidence.squares / tolerated**2)
         return bool((chance > _CHANCE / 2).all())
     noise = evidence.noise * context.sigmas[[0, 3]]
     weight = max(float(np.linalg.norm(evidence.gravity_W)), FELT * case.weight_sigma)

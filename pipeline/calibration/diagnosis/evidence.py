@@ -12,19 +12,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.hypotheses import FEWEST_BESIDE
-from pipeline.calibration.diagnosis.side_by_side import Fits, begin, doubts, fit
+from pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
+from pipeline.calibration.diagnosis.rows import FEWEST_BESIDE
+from pipeline.calibration.diagnosis.side_by_side import Fits, Noise, begin, fit, joint_doubts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.hypotheses import Hypothesis
+    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from pipeline.calibration.poses import Stack
 
 _BUMPED = np.log(20.0)  # one pose in twenty is bumped
 _STEPS = 40  # poses beyond this number are left out more than one at a time
+_FIRST_ROUNDS = 3
+# What trails the best by so much (a logarithm) is not refined: bumps that are left out do not make up for it.
+_HOPELESS = 60.0
 _PATIENCE = 3  # steps that help no hypothesis
 _FEWEST_LEFT = 4  # poses: three determine the parameters
 # Minus the logarithm of a density proportional to 1/r³ over a thousandfold range of r, for three numbers.
@@ -54,8 +58,14 @@ class Evidence:
         Size of the noise, in the same unit, that explains the forces and the torques best.
     kept : (n,) bool
         Poses that were not taken for bumped.
-    residuals : (n, 6)
-        Read minus predicted, N and N·m, so read; for a re-zero, with the bias of the first poses.
+    change : (6,)
+        What the bias gains from 0 to 1 of the hypothesis' course, N and N·m; 0 where it has none.
+    excess : float
+        What it costs in log_likelihood that the noise is larger than was given.
+    R_WS : (n, 3, 3)
+        Orientations, with the turn that was found.
+    occam : float
+        Logarithm of how probable such a turn, to its uncertainty, was beforehand; 0 where there is none.
     """
 
     log_likelihood: float
@@ -66,14 +76,16 @@ class Evidence:
     freedom: NDArray[np.float64]
     noise: NDArray[np.float64]
     kept: NDArray[np.bool_]
-    residuals: NDArray[np.float64]
+    change: NDArray[np.float64]
+    excess: float
+    R_WS: NDArray[np.float64]
+    occam: float
 
 
 def weigh(
     hypotheses: Sequence[Hypothesis],
     poses: Stack,
-    sigmas: NDArray[np.float64],
-    doubt: float,
+    noise: Noise,
     progress: Callable[[int, int], None] | None = None,
 ) -> list[Evidence]:
     """Fit every hypothesis.
@@ -83,26 +95,48 @@ def weigh(
     hypotheses : sequence of Hypothesis
     poses : Stack
         As declared, four or more.
-    sigmas : (6,)
-        Noise of a pose's mean, N and N·m.
-    doubt : float
-        The noise may be larger or smaller than `sigmas` by a factor whose logarithm has this standard
-        deviation; infinite: nothing is known of it.
+    noise : Noise
     progress : callable, optional
         Called with steps done and steps in all.
     """
+    # Readings that only assume something else of the load have the data of the declared ones; those with a turn to
+    # be found are few, and would slow down all others.
+    own = [hypothesis for hypothesis in hypotheses if hypothesis.prior is None]
+    turning, rest = ([each for each in own if any(each.free) is free] for free in (True, False))
+    found = dict(zip((each.key for each in rest), _weigh(rest, poses, noise, progress), strict=True))
+    found |= dict(zip((each.key for each in turning), _weigh(turning, poses, noise), strict=True))
+    return [found[each.key if each.prior is None else AS_DECLARED] for each in hypotheses]
+
+
+def _weigh(
+    hypotheses: Sequence[Hypothesis],
+    poses: Stack,
+    noise: Noise,
+    progress: Callable[[int, int], None] | None = None,
+) -> list[Evidence]:
+    if not hypotheses:
+        return []
     n = len(poses)
     at_once = -(-n // _STEPS)
     steps = min(n // 4, n - _FEWEST_LEFT) // at_once
-    best = fits = fit(begin(hypotheses, poses, sigmas, doubt))
-    best_value = _log_likelihood(fits)
+    best = fit(begin(hypotheses, poses, noise), _FIRST_ROUNDS)
+    best_value = _log_likelihood(best)
+    alive = best_value > best_value.max() - 2 * _HOPELESS
+    fits = fit(best.take(alive))
+    best, best_value[alive] = best.put(alive, fits), _log_likelihood(fits)
     since = 0
     for step in range(steps):
         if progress is not None:
             progress(step + 1, steps + 1)
-        fits, value = _fewer(fits, at_once)
-        better = value > best_value
-        best, best_value = best.put(better, fits.take(better)), np.maximum(value, best_value)
+        still = best_value[alive] > best_value.max() - _HOPELESS
+        alive[alive] = still
+        fits, value = _fewer(fits.take(still), at_once)
+        better = alive.copy()
+        better[alive] = value > best_value[alive]
+        best, best_value[alive] = (
+            best.put(better, fits.take(better[alive])),
+            np.maximum(value, best_value[alive]),
+        )
         since = 0 if better.any() else since + 1
         if since == _PATIENCE:
             break
@@ -150,11 +184,11 @@ def _exchange(
     inverse = np.linalg.inv(fits.information(J))[:, None]
     J = fits.centred(J)
     leverage = J @ inverse @ J.swapaxes(2, 3)
-    leverage += (1 / np.maximum(fits.beside, 1))[..., None, None] * np.eye(6)
+    leverage += fits.leverage()[..., None, None] * np.eye(6)
     sign = np.where(fits.kept, -1.0, 1.0)[..., None, None]
     change = (r.swapaxes(2, 3) @ np.linalg.solve(_WHOLE + sign * leverage, r))[..., 0, 0]
     rows = np.arange(len(change))
-    spare = np.where(fits.later.any(axis=1), FEWEST_BESIDE, _FEWEST_LEFT)[:, None]
+    spare = np.where((fits.course == 1).any(axis=1), FEWEST_BESIDE, _FEWEST_LEFT)[:, None]
     droppable = fits.kept & (fits.beside > spare)
     worst = np.argmax(np.where(droppable, change, -1.0), axis=1)
     possible: NDArray[np.bool_] = np.asarray(droppable.any(axis=1))
@@ -180,13 +214,13 @@ def _log_likelihood(fits: Fits) -> NDArray[np.float64]:
     """
     d, u = fits.freedom[:, None], fits.u
     residuals = fits.residuals()
-    kept = d * (fits.scale - u) - 0.5 * fits.squares(residuals) * np.exp(-2 * u) - doubts(fits, u)
+    kept = d * (fits.scale - u) - 0.5 * fits.squares(residuals) * np.exp(-2 * u)
     size = np.sqrt(np.square(residuals).reshape(*fits.kept.shape, 2, 3).sum(axis=3))
     bumps = _free_size(size, u[:, None], fits.scale[:, None]).sum(axis=2) + _BUMPED
-    value = kept.sum(axis=1) - (bumps * ~fits.kept).sum(axis=1)
-    changed: NDArray[np.bool_] = np.asarray(fits.later.any(axis=1))
+    value = kept.sum(axis=1) - (bumps * ~fits.kept).sum(axis=1) - joint_doubts(fits, u)
+    changed = fits.changes
     if changed.any():
-        value[changed] -= _change_cost(fits.take(changed)) + np.log(changed.sum())
+        value[changed] -= _change_cost(fits.take(changed))
     return np.asarray(value, dtype=np.float64)
 
 
@@ -198,12 +232,10 @@ def _free_size(
 
 
 def _change_cost(fits: Fits) -> NDArray[np.float64]:
-    """Return what the jumps (h,) of re-zeros cost, marginalised: their variance is the noise's over `pull`."""
-    means = fits.means(fits.raw_residuals())
-    jump = np.linalg.norm((means[:, 1] - means[:, 0]).reshape(-1, 2, 3), axis=2)
-    late, all_ = (fits.kept & fits.later).sum(axis=1), fits.kept.sum(axis=1)
-    pull = np.log(late * (all_ - late) / all_)[:, None]
-    cost = _free_size(jump, fits.u + np.log(_LEAST_JUMP) - pull / 2, fits.scale) + 1.5 * pull
+    """Return what changes of the bias (h,) cost, marginalised: their variance is the noise's over `pull`."""
+    slope = fits.biases(fits.raw_residuals())[1]
+    change, pull = np.linalg.norm(slope.reshape(-1, 2, 3), axis=2), np.log(fits.pull())
+    cost = _free_size(change, fits.u + np.log(_LEAST_JUMP) - pull / 2, fits.scale) + 1.5 * pull
     return np.asarray(cost.sum(axis=1), dtype=np.float64)
 
 
@@ -212,19 +244,33 @@ def _change_cost(fits: Fits) -> NDArray[np.float64]:
 
 def _evidence(fits: Fits, value: NDArray[np.float64]) -> list[Evidence]:
     squares = fits.squares(fits.residuals())
-    covariance = np.linalg.inv(fits.information(fits.jacobian()))
-    unchanged = replace(fits, later=np.zeros_like(fits.later), kept=fits.kept & ~fits.later).residuals()
+    covariance = np.asarray(np.linalg.inv(fits.information(fits.jacobian())), dtype=np.float64)
+    change = fits.biases(fits.raw_residuals())[1] * fits.sigmas
+    excess = joint_doubts(fits, np.maximum(fits.u, 0))
     return [
         Evidence(
             log_likelihood=float(value[i]),
             gravity_W=fits.x[i, :3],
             centre_of_mass_S=fits.x[i, 3:],
-            covariance=covariance[i],
+            covariance=covariance[i, :6, :6],
             squares=squares[i],
             freedom=np.full(2, fits.freedom[i]),
             noise=np.exp(fits.u[i]),
             kept=fits.kept[i],
-            residuals=unchanged[i] * fits.sigmas,
+            change=change[i],
+            excess=float(excess[i]),
+            R_WS=fits.R[i].swapaxes(1, 2),
+            occam=_occam(covariance[i, 6:, 6:], fits.free[i]),
         )
         for i in range(len(value))
     ]
+
+
+def _occam(covariance: NDArray[np.float64], free: NDArray[np.bool_]) -> float:
+    """Return the logarithm of the share of all turns about the free axes that the poses leave open (Laplace)."""
+    if not free.any():
+        return 0.0
+    left_open = covariance[np.ix_(free, free)]
+    every = 2 * np.pi if free.sum() == 1 else 8 * np.pi**2
+    volume = 0.5 * np.linalg.slogdet(2 * np.pi * left_open)[1] - np.log(every)
+    return min(float(volume), 0.0)

@@ -8,18 +8,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.prior import DOWN, MASS, REACH, SIDE, WEIGHED, Prior, angle_between
+from pipeline.calibration.diagnosis.odds import NONE, in_words
+from pipeline.calibration.diagnosis.prior import DOWN, MASS, QUIET, REACH, SIDE, WEIGHED, Prior, angle_between
+from pipeline.calibration.diagnosis.rows import SHIFTED
 from pipeline.calibration.model import STANDARD_GRAVITY
 from pipeline.calibration.observability import observe
 from pipeline.calibration.poses import named
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
     from pipeline.calibration.diagnosis.evidence import Evidence
-    from pipeline.calibration.diagnosis.hypotheses import Hypothesis
+    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from pipeline.calibration.poses import PoseSample
 
 # Readings whose probabilities differ by less than a factor of exp(2) are called a tie.
@@ -28,8 +30,10 @@ RESIDUALS, NOTHING = "residuals", "nothing"
 FELT = 5.0  # standard deviations from zero at which a weight is felt
 
 _SAME = 1e-6
+_EQUAL = 0.02  # of a log likelihood
 _STRANGE = -5.0  # logarithm: a load like this, or a base 13 degrees off level, is worth a word
 _LISTED = 3
+_SURE, _PROBABLE = 0.95, 0.75  # probabilities from which a cause is said as a fact, or as probable
 _BOTH = np.arange(2)
 
 
@@ -60,7 +64,7 @@ class Case:
     @cached_property
     def value(self) -> float:
         """What data and knowledge say, without the preference."""
-        return self.evidence.log_likelihood + sum(self.priors.values())
+        return self.evidence.log_likelihood + self.evidence.occam + sum(self.priors.values())
 
     @property
     def score(self) -> float:
@@ -71,11 +75,6 @@ class Case:
     def mass(self) -> float:
         """Kg."""
         return float(np.linalg.norm(self.evidence.gravity_W)) / STANDARD_GRAVITY
-
-    @property
-    def scales(self) -> bool:
-        """Whether units are read as others."""
-        return bool((np.abs(self.hypothesis.factor) != 1).any())
 
     @property
     def weight_sigma(self) -> float:
@@ -89,10 +88,16 @@ class Case:
         return bool(g @ np.linalg.solve(C, g) > FELT**2)
 
     def same(self, other: Case) -> bool:
-        """Tell whether the data do not differ, read one way or the other."""
+        """Tell whether the data do not differ, read one way or the other; a turn that was found is no twin of none."""
+        if self is other:
+            return True
         a, b = self.hypothesis, other.hypothesis
         return bool(
-            a.change == b.change and (a.factor == b.factor).all() and (np.abs(a.R_WS - b.R_WS) < _SAME).all()
+            not (any(a.free) or any(b.free))
+            and (a.course == b.course).all()
+            and (a.factor == b.factor).all()
+            and (a.channels == b.channels).all()
+            and (np.abs(a.R_WS - b.R_WS) < _SAME).all()
         )
 
 
@@ -155,18 +160,36 @@ class Words:
     best, declared : Case
     tied : sequence of Case
         Those that explain the data as well as the best.
+    odds : mapping of str to float
+        Probability of each case, and of none.
     """
 
-    def __init__(self, context: Context, best: Case, declared: Case, tied: Sequence[Case]) -> None:
+    def __init__(
+        self,
+        context: Context,
+        best: Case,
+        declared: Case,
+        tied: Sequence[Case],
+        odds: Mapping[str, float],
+    ) -> None:
         self._context, self._best, self._declared, self._tied = context, best, declared, tied
+        self._odds = odds
 
-    def sentence(self, *, explained: bool) -> str:
-        """Return the whole finding; `explained`: the best reading leaves no more than chance does."""
-        return " ".join([*self._finding(explained), *self._left_out(self._best)])
+    def sentence(self, *, none_known: bool, untold: str = "") -> str:
+        """Return the whole finding.
 
-    def _finding(self, explained: bool) -> Iterator[str]:
+        Parameters
+        ----------
+        none_known : bool
+            None of the cases is as probable as an unknown cause.
+        untold : str
+            What keeps data that fit as they are from being called consistent.
+        """
+        return " ".join([*self._finding(none_known, untold), *self._left_out(self._best)])
+
+    def _finding(self, none_known: bool, untold: str) -> Iterator[str]:
         best = self._best
-        if not explained:
+        if none_known:
             yield self._unexplained()
         elif self._blind():
             yield "As far as these poses tell, the data are consistent as they are. But they do not tell much:"
@@ -179,12 +202,20 @@ class Words:
         elif best is self._declared:
             yield self._consistent()
             yield from self._second()
-            yield from self._also()
+            yield from [untold] if untold else self._also()
         else:
-            yield f"{best.hypothesis.fact}: {self._because(best)}. {best.hypothesis.remedy}"
+            yield f"{self._said()}: {self._because(best)}. {best.hypothesis.remedy}"
             yield from self._second()
             yield from self._also()
             yield from self._rests_on_noise()
+
+    def _said(self) -> str:
+        """Return the fact of the best reading; as a possibility with its odds where it is not well supported."""
+        probability, fact = self._odds[self._best.key], self._best.hypothesis.fact
+        if probability > _SURE:
+            return fact
+        word = "Probably" if probability > _PROBABLE else "Possibly"
+        return f"{word} {fact[0].lower()}{fact[1:]} (odds {in_words(probability)})"
 
     def _blind(self) -> tuple[str, ...]:
         """Return what the poses, as declared, are too much alike to show."""
@@ -207,7 +238,7 @@ class Words:
         same = [
             case.hypothesis.title
             for case in cases
-            if case is not self._declared and case.same(self._declared)
+            if case is not self._declared and case.same(self._declared) and case.hypothesis.prior is None
         ]
         if same:
             words.append(
@@ -239,6 +270,7 @@ class Words:
             REACH: f"the centre of mass lies {_distance(best)} from the sensor",
             WEIGHED: f"the mass comes out as {best.mass:.2g} kg where {prior.mass or 0:.2g} kg was weighed",
             MASS: f"the mass comes out as {best.mass:.2g} kg",
+            QUIET: f"the noise comes out as {self._noise(best)}",
         }
         strange = [said[part] for part, weight in best.priors.items() if weight < _STRANGE]
         if strange and best is not self._declared:
@@ -253,7 +285,7 @@ class Words:
         if self._best.hypothesis.change and all(changes):
             yield f"It may as well have been before pose {_list([str(change + 1) for change in changes])}."
             return
-        units = any(case.scales for case in (self._best, *self._tied))
+        units = any(case.hypothesis.scales for case in (self._best, *self._tied))
         masses = [f" ({case.mass:.2g} kg)" if units else "" for case in self._tied]
         rivals = [case.hypothesis.title + mass for case, mass in zip(self._tied, masses, strict=True)]
         yield f"Not told apart from: {'; '.join(rivals[:_LISTED])}. {self._telling(units)}"
@@ -266,7 +298,13 @@ class Words:
             return "Weigh the tool and give its mass."
         if units and not self._context.known:
             return "Give the noise of the sensor's data sheet."
+        if all(self._as_likely(case) for case in self._tied):
+            return "Press the tool with a finger, and see which way the forces and torques point."
         return "Take more poses, tilted about two axes by up to 90°."
+
+    def _as_likely(self, case: Case) -> bool:
+        """Tell whether no residual, of these or other poses, sets a case apart from the best."""
+        return abs(case.evidence.log_likelihood - self._best.evidence.log_likelihood) < _EQUAL
 
     def _rests_on_noise(self) -> Iterator[str]:
         forces = np.abs(self._best.hypothesis.factor[0]) != 1
@@ -276,7 +314,11 @@ class Words:
 
     def _because(self, case: Case) -> str:
         if decisive(case, self._declared) in (RESIDUALS, NOTHING):
-            halves = np.flatnonzero(np.abs(case.hypothesis.factor[[0, 3]]) != 1) if case.scales else _BOTH
+            halves = (
+                np.flatnonzero(np.abs(case.hypothesis.factor[[0, 3]]) != 1)
+                if case.hypothesis.scales
+                else _BOTH
+            )
             before, after = (self._residual(each, halves) for each in (self._declared, case))
             change = "rise to the noise's size, from" if after > before else "fall from"
             sizes = self._size(self._declared, halves), self._size(case, halves)
@@ -288,6 +330,10 @@ class Words:
     def _strange(self, part: str, case: Case) -> str:
         """Say what would be strange about the load as declared."""
         declared, prior = self._declared, self._context.prior
+        if part == DOWN and case.hypothesis.prior is not None:
+            return f"gravity would point {np.degrees(_angle(declared, prior)):.0f}° away from down"
+        if part == SIDE and case.hypothesis.prior is not None:
+            return f"the centre of mass would lie {_side(_height(declared, prior))} of the sensor"
         if part == DOWN:
             angles = [np.degrees(_angle(each, prior)) for each in (declared, case)]
             return f"gravity would point {angles[0]:.0f}° away from down, so read {angles[1]:.0f}°"
@@ -296,11 +342,14 @@ class Words:
             return f"the centre of mass would lie {sides[0]} of the sensor, so read {sides[1]}"
         if part == REACH:
             return f"the centre of mass would lie {_distance(declared)} from the sensor, so read {_distance(case)}"
+        if part == QUIET:
+            return f"the noise would be {self._noise(declared)}, so read {self._noise(case)}"
         weighed = f"; {prior.mass:.3g} kg was weighed" if part == WEIGHED else ""
         return f"the mass would be {declared.mass:.2g} kg, so read {case.mass:.2g} kg{weighed}"
 
     def _unexplained(self) -> str:
         best = self._best
+        noise = "noise that was given too small, " if self._context.known and best is self._declared else ""
         if best is self._declared:
             said = f"as they are they leave {self._size(best)}, and no other reading is more probable"
         else:
@@ -309,8 +358,9 @@ class Words:
                 f" {self._size(self._declared)}"
             )
         return (
-            f"No single convention mistake explains the data: {said}. Look for two mistakes at once, a cable that"
-            " pulls, drift, or poses that touched something."
+            f"No single convention mistake explains the data: {said} (odds {in_words(self._odds[NONE])} that the"
+            f" cause is another). Look for two mistakes at once, a cable that pulls, drift, {noise}or poses that"
+            " touched something."
         )
 
     def _left_out(self, case: Case) -> Iterator[str]:
@@ -321,9 +371,16 @@ class Words:
         if len(out) > 1:
             yield f"{_capital(_list(names, len(names)))} look bumped and were left out."
             return
+        if case.key.startswith(SHIFTED):
+            yield f"{_capital(names[0])} then has no orientation of its own and was left out."
+            return
         ends = {0: " (or the sensor was re-zeroed after it)"}
         ends[len(self._context.poses) - 1] = " (or the sensor was re-zeroed before it)"
         yield f"{_capital(names[0])} looks bumped{ends.get(out[0], '')} and was left out."
+
+    def _noise(self, case: Case) -> str:
+        force, torque = case.evidence.noise * self._context.sigmas[[0, 3]]
+        return f"{_force(force)} and {_torque(torque)}"
 
     def _residual(self, case: Case, halves: NDArray[np.intp]) -> float:
         return self._context.residual(case, self._best, halves)

@@ -18,6 +18,7 @@ WEIGHED = "the mass as weighed"
 MASS = "a plausible mass"
 SIDE = "the centre of mass lies on the tool's side"
 REACH = "the centre of mass lies within the tool"
+QUIET = "a plausible noise"
 
 _TAIL = 4.0  # degrees of freedom of Student's t: a base ten standard deviations off level is strange, not impossible
 _HUBER = 3.0  # standard deviations
@@ -25,6 +26,9 @@ _WORST = 20.0  # what a bound that is broken costs at most
 # A centre of mass usually lies about a fifth of the tool's length away, give or take a factor of 4.5.
 _USUAL_SHARE, _USUAL_SPREAD = 0.2, 1.5
 _SOFT_END = 0.15  # a bound on length is soft by this share of it
+# A pose's mean is usually less noisy than this, give or take a factor of 4.5, and hardly ever beyond the bound.
+_USUAL_NOISE, _NOISE_SPREAD, _NOISY = np.array([0.1, 0.004]), 1.5, np.array([0.5, 0.025])
+_BEYOND, _LOUDEST = 6.0, 12.0  # what each factor of e beyond it costs, and all of it at most
 
 
 @dataclass(frozen=True)
@@ -71,7 +75,7 @@ class Prior:
     behind: float = 0.005
     tool_length: float = 0.3
     mistake: float = 0.05
-    noise_factor: float = 1.5
+    noise_factor: float = 1.35
 
     def __post_init__(self) -> None:
         for name in ("down_W", "tool_axis_S"):
@@ -136,6 +140,13 @@ class Prior:
         beyond = max((distance - 2 * L_sigma) / self.tool_length - 1, 0.0)
         parts[REACH] = -0.5 * usual**2 - _bound((beyond / _SOFT_END) ** 2)
         return {name: float(value) for name, value in parts.items()}
+
+
+def quiet(noise: NDArray[np.float64]) -> float:
+    """Return the logarithm of how plausible noise (2,) of a pose's mean is, N and N·m; 0 where it is small."""
+    usual = np.maximum(np.log(noise / _USUAL_NOISE), 0) / _NOISE_SPREAD
+    beyond = np.maximum(np.log(noise / _NOISY), 0)
+    return -min(float((0.5 * usual**2 + _BEYOND * beyond).sum()), _LOUDEST)
 
 
 def angle_between(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

@@ -1,7 +1,8 @@
 """Fits of many hypotheses side by side: the same few array operations for all of them.
 
-Biases enter linearly and with equal weight, so they are taken out with the means; what is left to be found is
-gravity g and the centre of mass L, by Gauss-Newton, and how large the noise is.
+Biases, and their course over the poses, enter linearly and with equal weight, so they are projected out; what is
+left to be found is gravity g and the centre of mass L, for some hypotheses a constant turn of the sensor, by
+Gauss-Newton, and how large the noise is.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pipeline.calibration.model import cross_matrix
 
@@ -18,17 +20,47 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.hypotheses import Hypothesis
+    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
     from pipeline.calibration.poses import Stack
 
 # Noise is at least this share of the readings: none is so small, and simulated data have none at all.
 _LEAST = 1e-6
+_TINY = 1e-12
 # What noise that is not of the size that was given costs at most: sometimes it is simply wrong.
 _WORST_DOUBT = 12.0
+_ALIKE = 0.6  # correlation of the doubts about forces and torques
 # Steps are damped as if g and L were known beforehand to this many times what the readings suggest.
 _DAMPING = 10.0
 _ROUNDS, _HALVINGS = 10, 5
 _CONVERGED = 0.02  # of the likelihood (its logarithm), and of the noise
+_NOT_FREE = 1.0  # information on an angle that is not free: any, its step is zero
+
+
+@dataclass(frozen=True, eq=False)
+class Noise:
+    """What is known of the noise before anything is fitted.
+
+    Attributes
+    ----------
+    sigmas : (6,)
+        Of a pose's mean, N and N·m.
+    doubt : float
+        It may be larger or smaller by a factor whose logarithm has this standard deviation; infinite: nothing
+        is known of it, `sigmas` are a unit to count in.
+    orientation : float
+        1 sigma of the orientations about each axis, rad.
+    heaviest, longest : float
+        Bounds of the load, N, and of its centre of mass, m: an orientation's error moves no more than these.
+    down_W : (3,)
+        Where gravity points, roughly: where turns of the sensor are looked for from.
+    """
+
+    sigmas: NDArray[np.float64]
+    doubt: float
+    orientation: float = 0.0
+    heaviest: float = np.inf
+    longest: float = np.inf
+    down_W: tuple[float, float, float] = (0.0, 0.0, -1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,10 +73,12 @@ class Fits:
         R_SW, as each hypothesis has it.
     y : (h, n, 6)
         Wrenches likewise, over the noise.
-    sigmas : (6,)
-        The noise, N and N·m.
-    later : (h, n) bool
-        Poses after a re-zero.
+    sigmas : (h, 6)
+        The noise, N and N·m, with what the orientations' errors make of the weight.
+    course : (h, n)
+        What the bias changes with over the poses: 0 and 1 before and after a re-zero, time for a drift; else 0.
+    free : (h, 3) bool
+        About which axes of S the sensor may be turned.
     kept : (h, n) bool
     x : (h, 6)
         g and L, N and m.
@@ -55,7 +89,8 @@ class Fits:
     doubt : float
         Standard deviation of u beforehand; infinite for noise that is not known.
     damping : (h, 6)
-        Information on x that is added to what the poses say, N^-2 and m^-2.
+        Information on x that is added to what the poses say, N^-2 and m^-2; (h, 9) with that on a turn, rad^-2,
+        where any hypothesis has one.
     least : (h, 2)
         Lower bound of u.
     """
@@ -63,7 +98,8 @@ class Fits:
     R: NDArray[np.float64]
     y: NDArray[np.float64]
     sigmas: NDArray[np.float64]
-    later: NDArray[np.bool_]
+    course: NDArray[np.float64]
+    free: NDArray[np.bool_]
     kept: NDArray[np.bool_]
     x: NDArray[np.float64]
     scale: NDArray[np.float64]
@@ -76,43 +112,81 @@ class Fits:
         """Return some of the fits."""
         parts = {
             name: getattr(self, name)[chosen]
-            for name in ("R", "y", "later", "kept", "x", "scale", "u", "damping", "least")
+            for name in ("R", "y", "sigmas", "course", "free", "kept", "x", "scale", "u", "damping", "least")
         }
         return replace(self, **parts)
 
     def put(self, chosen: NDArray[np.bool_], others: Fits) -> Fits:
         """Return these fits, with the `chosen` ones taken from `others`, which has no more than those."""
-        parts = {name: getattr(self, name).copy() for name in ("kept", "x", "u")}
+        changing = ("kept", "x", "u", "R") if self.turns else ("kept", "x", "u")
+        parts = {name: getattr(self, name).copy() for name in changing}
         for name, array in parts.items():
             array[chosen] = getattr(others, name)
         return replace(self, **parts)
 
-    def means(self, flat: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the means (h, 2, m) of (h, n, m) values over the kept poses before and after a re-zero."""
-        chosen = np.stack([self.kept & ~self.later, self.kept & self.later], axis=1)
-        sums = chosen.astype(np.float64) @ flat
-        return np.asarray(sums / np.maximum(chosen.sum(axis=2), 1)[..., None], dtype=np.float64)
+    @property
+    def turns(self) -> bool:
+        """Whether any hypothesis has a turn to be found."""
+        return bool(self.damping.shape[1] > 6)
+
+    @property
+    def changes(self) -> NDArray[np.bool_]:
+        """(h,) whether the bias changes."""
+        return np.asarray(self.course.any(axis=1))
+
+    @property
+    def count(self) -> NDArray[np.float64]:
+        """(h, 1) kept poses."""
+        return np.asarray(self.kept.sum(axis=1, keepdims=True), dtype=np.float64)
+
+    def around(self) -> NDArray[np.float64]:
+        """(h, n) the course, less its mean over the kept poses."""
+        mean = (self.course * self.kept).sum(axis=1, keepdims=True) / np.maximum(self.count, 1)
+        return np.asarray(self.course - mean)
+
+    def pull(self) -> NDArray[np.float64]:
+        """(h, 1) sum of its squares over the kept poses: how sure they are of a change of the bias."""
+        square = (self.kept * self.around() ** 2).sum(axis=1, keepdims=True)
+        return np.asarray(np.maximum(square, _TINY))
+
+    def biases(self, flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the means of (h, n, m) values over the kept poses, and their slopes on the course (h, m)."""
+        mean = (self.kept / np.maximum(self.count, 1))[:, None] @ flat
+        slope = np.zeros_like(mean)
+        changes = self.changes
+        if changes.any():
+            part = self.take(changes)
+            slope[changes] = (part.kept * part.around() / part.pull())[:, None] @ flat[changes]
+        return mean[:, 0], slope[:, 0]
 
     def centred(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Take the mean of the kept poses out of (h, n, ...) values, before and after a re-zero."""
+        """Take the bias of the kept poses, and its course, out of (h, n, ...) values."""
         flat = values.reshape(*self.kept.shape, -1)
-        means = self.means(flat)
-        flat = flat - means[:, :1]
-        late, pose = np.nonzero(self.later)
-        flat[late, pose] += means[late, 0] - means[late, 1]
+        mean, slope = self.biases(flat)
+        flat = flat - mean[:, None]
+        changes = self.changes
+        if changes.any():
+            flat[changes] -= self.take(changes).around()[..., None] * slope[changes][:, None]
         return flat.reshape(values.shape)
+
+    def leverage(self) -> NDArray[np.float64]:
+        """(h, n) variance of the bias at each pose, in units of a pose's."""
+        return np.asarray(
+            1 / np.maximum(self.count, 1) + self.around() ** 2 / self.pull() * self.changes[:, None]
+        )
 
     @property
     def beside(self) -> NDArray[np.int64]:
         """(h, n) kept poses that share each pose's bias."""
-        late = self.kept & self.later
-        before, after = (self.kept.sum(axis=1) - late.sum(axis=1))[:, None], late.sum(axis=1)[:, None]
-        return np.asarray(np.where(self.later, after, before), dtype=np.int64)
+        late = self.course == 1  # a drift ends at 0
+        before, after = (self.kept & ~late).sum(axis=1)[:, None], (self.kept & late).sum(axis=1)[:, None]
+        return np.asarray(np.where(late, after, before), dtype=np.int64)
 
     @property
     def freedom(self) -> NDArray[np.float64]:
         """(h,) degrees of freedom of the forces, and of the torques."""
-        return np.asarray(3.0 * self.kept.sum(axis=1) - 6 - 3 * self.later.any(axis=1), dtype=np.float64)
+        lost = 6 + 3 * self.changes + self.free.sum(axis=1) / 2
+        return np.asarray(3.0 * self.kept.sum(axis=1) - lost, dtype=np.float64)
 
     def weights(self) -> NDArray[np.float64]:
         """(h, 1, 6) what residuals are to be multiplied by for unit variance."""
@@ -123,30 +197,46 @@ class Fits:
         g, L = self.x[:, None, :3, None], self.x[:, 3:]
         weight = (self.R @ g)[..., 0]
         torque = weight @ cross_matrix(L).swapaxes(1, 2)
-        return self.y - np.concatenate([weight, torque], axis=2) / self.sigmas
+        return self.y - np.concatenate([weight, torque], axis=2) / self.sigmas[:, None]
 
     def residuals(self) -> NDArray[np.float64]:
         """(h, n, 6) residuals over the noise."""
         return self.centred(self.raw_residuals())
 
     def jacobian(self) -> NDArray[np.float64]:
-        """(h, n, 6, 6) change of the predictions with x, for unit variance, before the biases follow."""
-        J = np.zeros((*self.kept.shape, 6, 6))
+        """(h, n, 6, 6 or 9) change of the predictions with x, for unit variance, before the biases follow."""
+        J = np.zeros((*self.kept.shape, 6, self.damping.shape[1]))
+        L, arm = (
+            cross_matrix(self.x[:, 3:])[:, None],
+            -cross_matrix((self.R @ self.x[:, None, :3, None])[..., 0]),
+        )
         J[..., :3, :3] = self.R
-        J[..., 3:, :3] = cross_matrix(self.x[:, 3:])[:, None] @ self.R
-        J[..., 3:, 3:] = -cross_matrix((self.R @ self.x[:, None, :3, None])[..., 0])
-        J *= (self.weights() / self.sigmas)[..., None]
+        J[..., 3:, :3] = L @ self.R
+        J[..., 3:, 3:6] = arm
+        if self.turns:
+            J[..., :3, 6:] = arm
+            J[..., 3:, 6:] = L @ arm
+            J[..., 6:] *= self.free[:, None, None]
+        J *= (self.weights() / self.sigmas[:, None])[..., None]
         return J
 
+    def stepped(self, step: NDArray[np.float64]) -> Fits:
+        """Return the fits a step (h, 6 or 9) further."""
+        moved = replace(self, x=self.x + step[:, :6])
+        if not self.turns:
+            return moved
+        return replace(moved, R=Rotation.from_rotvec(step[:, 6:]).as_matrix()[:, None] @ self.R)
+
     def information(self, J: NDArray[np.float64]) -> NDArray[np.float64]:
-        """(h, 6, 6) what the kept poses say of x, from the jacobian; a little more, against 0 / 0."""
-        rows = (J * self.kept[..., None, None]).reshape(len(J), -1, 6)
-        means = self.means(J.reshape(*self.kept.shape, -1))
-        late = (self.kept & self.later).sum(axis=1)
-        counts = np.stack([self.kept.sum(axis=1) - late, late], axis=1)
-        means = (means * np.sqrt(counts)[..., None]).reshape(len(J), -1, 6)
+        """(h, 6, 6), or 9: what the kept poses say of x, from the jacobian; a little more, against 0 / 0."""
+        width = J.shape[-1]
+        rows = (J * self.kept[..., None, None]).reshape(len(J), -1, width)
+        mean, slope = self.biases(J.reshape(*self.kept.shape, -1))
+        gone = np.stack([mean * np.sqrt(self.count), slope * np.sqrt(self.pull())], axis=1).reshape(
+            len(J), -1, width
+        )
         return np.asarray(
-            rows.swapaxes(1, 2) @ rows - means.swapaxes(1, 2) @ means + self.damping[..., None] * np.eye(6)
+            rows.swapaxes(1, 2) @ rows - gone.swapaxes(1, 2) @ gone + self.damping[..., None] * np.eye(width)
         )
 
     def squares(self, residuals: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -155,7 +245,7 @@ class Fits:
         return np.asarray((self.kept[:, None].astype(np.float64) @ each)[:, 0], dtype=np.float64)
 
 
-def begin(hypotheses: Sequence[Hypothesis], poses: Stack, sigmas: NDArray[np.float64], doubt: float) -> Fits:
+def begin(hypotheses: Sequence[Hypothesis], poses: Stack, noise: Noise) -> Fits:
     """Return fits that have not begun: g and L are zero.
 
     Parameters
@@ -163,39 +253,77 @@ def begin(hypotheses: Sequence[Hypothesis], poses: Stack, sigmas: NDArray[np.flo
     hypotheses : sequence of Hypothesis
     poses : Stack
         As declared.
-    sigmas : (6,)
-        Noise of a pose's mean, N and N·m.
-    doubt : float
-        As in `Fits`.
+    noise : Noise
     """
     h, n = len(hypotheses), len(poses)
     factors = np.array([hypothesis.factor for hypothesis in hypotheses])
-    changes = np.array([hypothesis.change or n for hypothesis in hypotheses])
-    wrenches = np.concatenate([poses.F, poses.M], axis=1) * factors[:, None]
+    wrenches = np.array([hypothesis.wrench(poses.wrenches) for hypothesis in hypotheses])
     size = np.sqrt(np.square(wrenches).reshape(h, n, 2, 3).mean(axis=(1, 3))) + 1e-9
     span = wrenches.reshape(h, n, 2, 3).std(axis=1).mean(axis=2) + _LEAST * size
     # In proportion to the readings: a change of units changes nothing else.
     wide = _DAMPING * np.stack([size[:, 0], size[:, 1] / span[:, 0]], axis=1)
-    start = 0 if np.isfinite(doubt) else np.log(span / sigmas[[0, 3]])
+    damping = np.repeat(wide, 3, axis=1) ** -2
+    free = np.array([hypothesis.free for hypothesis in hypotheses], dtype=bool)
+    R = np.array([hypothesis.R_WS for hypothesis in hypotheses]).swapaxes(2, 3)
+    if free.any():
+        angles = np.where(free, (_DAMPING * np.pi) ** -2, _NOT_FREE)
+        damping = np.concatenate([damping, angles], axis=1)
+        R = _turned(R, wrenches[..., :3], free, np.array(noise.down_W))
+    unsteady = _unsteady(span, noise) if np.isfinite(noise.doubt) else np.zeros((h, 2))
+    sigmas = np.hypot(noise.sigmas, np.repeat(unsteady, 3, axis=1))
+    larger = np.log(sigmas / noise.sigmas).reshape(h, 2, 3).mean(axis=2)
+    start = 0 if np.isfinite(noise.doubt) else np.log(span / sigmas[:, [0, 3]])
     return Fits(
-        R=np.array([hypothesis.R_WS for hypothesis in hypotheses]).swapaxes(2, 3),
-        y=wrenches / sigmas,
+        R=R,
+        y=wrenches / sigmas[:, None],
         sigmas=sigmas,
-        later=np.arange(n) >= changes[:, None],
+        course=np.array([hypothesis.course for hypothesis in hypotheses]),
+        free=free,
         kept=np.ones((h, n), dtype=bool),
         x=np.zeros((h, 6)),
-        scale=np.log(np.abs(factors[:, [0, 3]])),
+        scale=np.log(np.abs(factors[:, [0, 3]])) - larger,
         u=np.zeros((h, 2)) + start,
-        doubt=doubt,
-        damping=np.repeat(wide, 3, axis=1) ** -2,
-        least=np.log(_LEAST * size / sigmas.reshape(2, 3).min(axis=1)),
+        doubt=noise.doubt,
+        damping=damping,
+        least=np.log(_LEAST * size / sigmas.reshape(h, 2, 3).min(axis=2)),
     )
 
 
-def fit(fits: Fits) -> Fits:
+def _unsteady(span: NDArray[np.float64], noise: Noise) -> NDArray[np.float64]:
+    """Return what the orientations' errors make (h, 2) of the weight and its torque, N and N·m.
+
+    A vector of any direction is sqrt(3) times as long as each component's standard deviation; an error moves it
+    across, along two of three axes.
+    """
+    across = np.sqrt(2)
+    weight, torque = np.minimum(across * span[:, 0], noise.heaviest), across * span[:, 1]
+    return noise.orientation * np.stack([weight, np.minimum(torque, weight * noise.longest)], axis=1)
+
+
+def _turned(
+    R_SW: NDArray[np.float64],
+    forces: NDArray[np.float64],
+    free: NDArray[np.bool_],
+    down_W: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Turn orientations (h, n, 3, 3) as forces (h, n, 3) suggest if gravity points down (Kabsch 1976)."""
+    down = (R_SW @ down_W[:, None])[..., 0]
+    H = (forces - forces.mean(axis=1, keepdims=True)).swapaxes(1, 2) @ (
+        down - down.mean(axis=1, keepdims=True)
+    )
+    U, _, Vt = np.linalg.svd(H)
+    U[..., 2] *= np.linalg.det(U @ Vt)[:, None]
+    yaw = np.arctan2(H[:, 1, 0] - H[:, 0, 1], H[:, 0, 0] + H[:, 1, 1])
+    about_z = Rotation.from_euler("z", yaw[:, None]).as_matrix()
+    any_axis = np.asarray(free.all(axis=1))[:, None, None]
+    turns = np.where(any_axis, U @ Vt, about_z)
+    return np.asarray(turns[:, None] @ R_SW, dtype=np.float64)
+
+
+def fit(fits: Fits, rounds: int = _ROUNDS) -> Fits:
     """Maximise the likelihood; from zeros the first step finds g from forces, the second L from torques."""
     todo = np.ones(len(fits.x), dtype=bool)
-    for _ in range(_ROUNDS):
+    for _ in range(rounds):
         fits_todo, unfinished = _improve(fits.take(todo))
         fits = fits.put(todo, fits_todo)
         todo[todo] = unfinished
@@ -208,7 +336,7 @@ def _improve(fits: Fits) -> tuple[Fits, NDArray[np.bool_]]:
     """Take one step of Gauss-Newton, then adapt the noise; tell which fits (h,) are not at their end yet."""
     J, residuals = fits.jacobian(), fits.residuals()
     r = residuals * fits.weights() * fits.kept[..., None]  # centred, which spares centring J
-    gradient = J.reshape(len(J), -1, 6).swapaxes(1, 2) @ r.reshape(len(J), -1, 1)
+    gradient = J.reshape(len(J), -1, J.shape[-1]).swapaxes(1, 2) @ r.reshape(len(J), -1, 1)
     step = np.asarray(np.linalg.solve(fits.information(J), gradient)[..., 0], dtype=np.float64)
     fits, residuals = _descend(fits, residuals, step)
     u = _noise(fits, fits.squares(residuals))
@@ -226,7 +354,7 @@ def _descend(
     residuals = residuals.copy()
     for halving in range(_HALVINGS):
         attempt = fits.take(todo)
-        attempt = replace(attempt, x=attempt.x + 0.5**halving * step[todo])
+        attempt = attempt.stepped(0.5**halving * step[todo])
         there = attempt.residuals()
         good = (shrink[todo] * attempt.squares(there)).sum(axis=1) <= before[todo] * (1 + 1e-9)
         reached = todo.copy()
@@ -237,6 +365,18 @@ def _descend(
         if not todo.any():
             break
     return fits, residuals
+
+
+def joint_doubts(fits: Fits, u: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what noise of size u (h, 2) costs (h,), beside that which was given.
+
+    Who is wrong about the noise is mostly wrong about that of the forces and of the torques alike.
+    """
+    if not np.isfinite(fits.doubt):
+        return np.zeros(len(u))
+    u = u / fits.doubt
+    square = (np.square(u).sum(axis=1) - 2 * _ALIKE * u[:, 0] * u[:, 1]) / (1 - _ALIKE**2)
+    return np.asarray(np.minimum(0.5 * square, 2 * _WORST_DOUBT))
 
 
 def doubts(fits: Fits, u: NDArray[np.float64]) -> NDArray[np.float64]:

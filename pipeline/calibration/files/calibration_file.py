@@ -19,7 +19,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from pipeline import __version__
-from pipeline.calibration.calibrate import Calibration
+from pipeline.calibration.calibrate import Calibration, direction
+from pipeline.calibration.causes import Cause
 from pipeline.calibration.contact_error import ContactTask
 from pipeline.calibration.files.schema import (
     REMEDY,
@@ -263,7 +264,9 @@ def _decode(data: bytes, name: str) -> CalibrationRecord:
     model = _model(content, name)
     poses = tuple(_sample(pose, f"{name}: poses[{i}]") for i, pose in enumerate(content.poses))
     residuals = np.array([pose.residual_force_N + pose.residual_torque_Nm for pose in content.poses])
-    _check_residuals(model, poses, residuals, name)
+    offsets = np.array([pose.offset_force_N + pose.offset_torque_Nm for pose in content.poses])
+    _check_residuals(model, poses, residuals + offsets, name)
+    drift = content.drift
     calibration = Calibration(
         model=model,
         noise=_noise(content, name),
@@ -277,6 +280,15 @@ def _decode(data: bytes, name: str) -> CalibrationRecord:
         task=_task(content, name),
         contact_error=content.contact_error_m,
         verdict=Verdict(content.verdict.level, tuple(content.verdict.reasons)),
+        causes=tuple(Cause(**vars(part)) for part in content.causes),
+        offsets=offsets,
+        drift_rate=None if drift is None else np.array(drift.force_N_per_s + drift.torque_Nm_per_s),
+        drift_rate_sigma=None
+        if drift is None
+        else np.array(drift.force_sigma_N_per_s + drift.torque_sigma_Nm_per_s),
+        noise_factor=(content.noise_factor[0], content.noise_factor[1]),
+        model_error=content.model_error_m,
+        down_W=_down(content, name),
     )
     source = None if content.source is None else Source(**vars(content.source))
     return CalibrationRecord(
@@ -345,7 +357,16 @@ def _noise(content: Document, name: str) -> PoseNoise:
     least = np.array(part.least_force_N + part.least_torque_Nm)
     freedom = (or_infinite(part.force_freedom), or_infinite(part.torque_freedom))
     with _at(f"{name}: noise"):
-        return PoseNoise(force, torque, part.estimated, freedom, least)
+        return PoseNoise(force, torque, part.estimated, freedom, least, part.orientation_rad)
+
+
+def _down(content: Document, name: str) -> NDArray[np.float64]:
+    with _at(f"{name}: down_W"):
+        direction(content.down_W)
+    down = np.array(content.down_W)
+    if abs(np.linalg.norm(down) - 1) > _ROUNDING:
+        raise CalibrationFileError(f"{name}: down_W is not of length 1: {REMEDY}")
+    return down
 
 
 def _observability(content: Document) -> Observability:

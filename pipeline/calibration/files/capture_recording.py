@@ -1,4 +1,4 @@
-"""From a recording of a sensor and a robot, an MCAP file, to the still poses in it."""
+"""From a recording of a sensor and a robot, in whichever way it is written, to the still poses in it."""
 
 from __future__ import annotations
 
@@ -7,10 +7,15 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pipeline.calibration.files.capture_file import Captured, capture_file, captured
-from pipeline.calibration.files.pose_csv import PoseTable, read_poses, sensor_orientations
+from pipeline.calibration.files.capture_file import Captured, Capturing, capture_file
+from pipeline.calibration.files.pose_csv import (
+    PoseTable,
+    is_recorded_table,
+    read_poses,
+    sensor_orientations,
+)
+from pipeline.calibration.files.track_tables import read_flange_track, read_wrench_track
 from pipeline.calibration.orientation import Convention
-from pipeline.calibration.stillness import StillnessDetector, StillnessSettings
 from pipeline.errors import InputError
 from pipeline.recording import RecordingError, read_recording
 from pipeline.recording.convert import LONGEST_GAP, poses_at
@@ -23,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from pipeline.calibration.model import GravityModel
+    from pipeline.calibration.stillness import StillnessSettings
     from pipeline.recording import FlangeTrack, Recording, WrenchTrack
 
 _MAGIC = b"\x89MCAP0\r\n"
@@ -33,7 +39,7 @@ Delay = float | Literal["auto"] | None
 
 
 def is_recording(source: Path | BinaryIO) -> bool:
-    """Tell whether a file is a recording, by how it begins."""
+    """Tell whether a file is an MCAP recording, by how it begins."""
     if not isinstance(source, Path):
         return False
     try:
@@ -47,6 +53,7 @@ def capture_any(
     source: Path | BinaryIO,
     convention: Convention | None = None,
     *,
+    robot_poses: Path | None = None,
     R_ES: ArrayLike | None = None,
     settings: StillnessSettings | None = None,
     model: GravityModel | None = None,
@@ -59,26 +66,39 @@ def capture_any(
     Raises
     ------
     InputError
-        Also for a convention beside an MCAP file, which has orientations, and a delay beside a CSV file.
+        Also where what was given does not go together: a convention or a table of the robot beside an MCAP file, which
+        has orientations, and a delay beside a table that has them in its rows.
     """
-    if is_recording(source) and isinstance(source, Path):
-        if convention is not None:
-            raise InputError(
-                f"{source}: a recording says itself how its orientations are written: leave the convention out."
-            )
+    mcap = is_recording(source)
+    if mcap and (convention is not None or robot_poses is not None):
+        raise InputError(
+            f"{source}: a recording says itself how its orientations are written, and has the robot's: leave the"
+            " convention out, and the robot's table."
+        )
+    if mcap or robot_poses is not None:
         return capture_recording(
-            source, R_ES=R_ES, settings=settings, model=model, delay=delay, progress=progress
+            source,
+            convention,
+            robot_poses=robot_poses,
+            R_ES=R_ES,
+            settings=settings,
+            model=model,
+            delay=delay,
+            progress=progress,
         )
     if delay is not None:
         raise InputError(
-            f"{source}: a table has wrench and pose in one row: a delay needs a recording, .mcap."
+            f"{source}: a table has wrench and pose in one row: a delay needs a recording, .mcap, or the robot's poses"
+            " as a table of their own."
         )
     return capture_file(source, convention, R_ES=R_ES, settings=settings, model=model, progress=progress)
 
 
 def capture_recording(
-    file: Path,
+    source: Path | BinaryIO,
+    convention: Convention | None = None,
     *,
+    robot_poses: Path | None = None,
     R_ES: ArrayLike | None = None,
     settings: StillnessSettings | None = None,
     model: GravityModel | None = None,
@@ -86,72 +106,99 @@ def capture_recording(
     progress: Callable[[int, int], None] | None = None,
 ) -> Captured:
     """
-    Find where a recording stands still, and average it there.
+    Find where a sensor stood still while a robot held it, and average it there.
 
-    The poses are those of the table that ``contactbench recording convert`` makes: the flange's orientation is
-    interpolated to each wrench, never extrapolated, nor across a gap of more than 0.25 s. The base B must stand
-    upright, for it is taken as W.
+    Sensor and robot have times of their own: the flange's orientation is interpolated to each wrench, never
+    extrapolated, nor across a gap of more than 0.25 s. The poses of an MCAP file are those of the table that
+    ``contactbench recording convert`` makes. The robot's base B is taken as W.
 
     Parameters
     ----------
-    file : path
-        One sensor and one robot.
+    source : path or binary file
+        An MCAP file of one sensor and one robot; with `robot_poses`, the sensor's table, see `read_wrench_track`.
+    convention : Convention, optional
+        How the orientations in `robot_poses` are written.
+    robot_poses : path, optional
+        The robot's table, see `read_flange_track`.
     R_ES : array_like (3, 3), optional
         Orientation of the sensor in the flange.
     settings : StillnessSettings, optional
     model : GravityModel, optional
         A preliminary calibration, to see steady touches.
     delay : float or "auto", optional
-        How much later a wrench is heard than its pose, s; see `estimate_delay`.
+        How much later a wrench is heard than its pose, s. An estimate that is doubtful is not applied, and the
+        warnings say so; see `pipeline.recording.delay`.
     progress : callable, optional
         Gets the bytes read so far, and those in the file.
 
     Raises
     ------
     RecordingError
-        It is no recording, not of one sensor and one robot, has no poses beside the wrenches, or its motion does
-        not show the delay.
+        It is not of one sensor and one robot, has no poses beside the wrenches, or its motion does not show the
+        delay.
+    WrenchFileError
+        A table cannot be used; the message names file, line and column.
     InputError
         R_ES is no rotation, or the delay no time.
     """
-    recording = read_recording(file, progress)
-    wrenches, poses = _only(file, recording)
-    said = list(recording.warnings)
-    seconds = _delay(file, wrenches, poses, delay, said)
+    if robot_poses is None:
+        recording = read_recording(Path(str(source)), progress)
+        wrenches, poses = _only(source, recording)
+        said = list(recording.warnings)
+    else:
+        wrenches = read_wrench_track(source, progress)
+        poses = read_flange_track(robot_poses, convention, progress)
+        said = []
+        _check_overlap(source, robot_poses, wrenches, poses)
+    seconds = _delay(source, wrenches, poses, delay, said)
     quaternions, there = poses_at(poses, wrenches.times - seconds)
-    kept = _kept(file, wrenches, there, said)
+    kept = _kept(source, wrenches, there, said)
     R_WS = sensor_orientations(quaternions[kept, :4], Convention(), R_ES)
     times, readings = wrenches.times[kept], wrenches.wrenches[kept]
-    detector = StillnessDetector(None, settings, model)
+    work = Capturing(settings, model)
     for begin in range(0, len(times), _BLOCK_ROWS):
         rows = slice(begin, begin + _BLOCK_ROWS)
-        detector.update_block(times[rows], readings[rows], R_WS[rows])
-    return captured(detector, len(times), tuple(said), None if delay is None else seconds)
+        work.update(times[rows], readings[rows], R_WS[rows])
+    return work.finish(tuple(said), None if delay is None else seconds)
 
 
 def read_any_poses(
-    source: Path | BinaryIO, convention: Convention | None = None, *, R_ES: ArrayLike | None = None
+    source: Path,
+    convention: Convention | None = None,
+    *,
+    robot_poses: Path | None = None,
+    R_ES: ArrayLike | None = None,
+    delay: Delay = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> PoseTable:
     """
-    Read poses from a CSV file, or find them in a recording; see `read_poses`, `capture_recording`.
+    Read poses from a CSV file, or find them in a recording; see `read_poses`, `capture_any`.
 
-    The lines of poses that were found are their numbers; what was left out is among the warnings.
+    A table of samples, by its column t, is a recording too. The lines of poses that were found are their numbers; the
+    stretches that gave none are among the warnings.
+
+    Raises
+    ------
+    InputError
+        As those two, or the recording stands still nowhere.
     """
-    if not is_recording(source):
+    if not (robot_poses is not None or is_recording(source) or is_recorded_table(source)):
+        if delay is not None:
+            raise InputError(f"{source}: a table of still poses has no delay: leave it out.")
         return read_poses(source, convention, R_ES=R_ES)
-    found = capture_any(source, convention, R_ES=R_ES)
-    left_out = (
-        f"left out, {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.report.rejected
+    found = capture_any(
+        source, convention, robot_poses=robot_poses, R_ES=R_ES, delay=delay, progress=progress
     )
-    warnings = (*found.warnings, *left_out)
+    warnings = (*found.warnings, *found.left_out)
     if not found.poses:
         raise RecordingError(
-            f"{source}: it stands still nowhere: hold each pose for some seconds, touching nothing."
-            f" {' '.join(warnings)}"
+            f"{source}: this is a recording that stands still nowhere: hold each pose for some seconds, touching"
+            f" nothing. {' '.join(warnings)}".rstrip()
         )
     quaternions = _quaternions(np.array([pose.R_WS for pose in found.poses]))
+    note = f"{source} is a recording: {len(found.poses)} still poses found in {found.rows:,} readings."
     return PoseTable(
-        found.poses, quaternions, Convention(), None, np.arange(1, len(found.poses) + 1), warnings
+        found.poses, quaternions, Convention(), None, np.arange(1, len(found.poses) + 1), warnings, (note,)
     )
 
 
@@ -161,36 +208,53 @@ def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
     return Rotation.from_matrix(R).as_quat(canonical=True)[:, [3, 0, 1, 2]]
 
 
-def _only(file: Path, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
+def _only(source: Path | BinaryIO, recording: Recording) -> tuple[WrenchTrack, FlangeTrack]:
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
         raise RecordingError(
-            f"{file}: there are {len(recording.wrenches)} sensors and {len(recording.flanges)} robots in it: record one"
-            " of each, the robot with --pose."
+            f"{source}: there are {len(recording.wrenches)} sensors and {len(recording.flanges)} robots in it: record"
+            " one of each, the robot with --pose."
         )
     (wrenches,), (poses,) = recording.wrenches.values(), recording.flanges.values()
     return wrenches, poses
 
 
-def _delay(file: Path, wrenches: WrenchTrack, poses: FlangeTrack, delay: Delay, said: list[str]) -> float:
+def _check_overlap(
+    source: Path | BinaryIO, robot_poses: Path, wrenches: WrenchTrack, poses: FlangeTrack
+) -> None:
+    """Refuse tables whose times have nothing in common: two clocks, which no delay brings together."""
+    (one, two), (three, four) = wrenches.times[[0, -1]], poses.times[[0, -1]]
+    if two < three - _LONGEST_DELAY_S or four < one - _LONGEST_DELAY_S:
+        raise RecordingError(
+            f"{source}: column t runs from {one:.10g} to {two:.10g} s, that of {robot_poses} from {three:.10g} to"
+            f" {four:.10g} s: nothing was recorded at the same time. Write both with one clock, in s."
+        )
+
+
+def _delay(
+    source: Path | BinaryIO, wrenches: WrenchTrack, poses: FlangeTrack, delay: Delay, said: list[str]
+) -> float:
     if delay == "auto":
         estimate = estimate_delay(wrenches, poses)
         if estimate.seconds is None:
-            raise RecordingError(f"{file}: {estimate.sentence} Or give the delay in seconds.")
-        said.append(estimate.sentence)
-        return estimate.seconds
+            raise RecordingError(f"{source}: {estimate.sentence} Or give the delay in seconds.")
+        seconds, sentence = estimate.usable
+        said.append(sentence)
+        return seconds
     seconds = 0.0 if delay is None else float(delay)
     if not abs(seconds) <= _LONGEST_DELAY_S:
         raise InputError(f"a delay of {seconds:g} s is none: give at most {_LONGEST_DELAY_S:g} s, or auto.")
     return seconds
 
 
-def _kept(file: Path, wrenches: WrenchTrack, there: NDArray[np.bool_], said: list[str]) -> NDArray[np.bool_]:
+def _kept(
+    source: Path | BinaryIO, wrenches: WrenchTrack, there: NDArray[np.bool_], said: list[str]
+) -> NDArray[np.bool_]:
     usable = wrenches.usable
     if bad := int(np.count_nonzero(~usable)):
-        said.append(f"{bad:,} readings are left out: the device says they are no good.")
+        said.append(f"{bad:,} readings are left out: empty, frozen, or no good by what the device says.")
     if lost := int(np.count_nonzero(usable & ~there)):
         said.append(f"{lost:,} readings are left out: no pose within {LONGEST_GAP} s beside them.")
     kept: NDArray[np.bool_] = usable & there
     if not kept.any():
-        raise RecordingError(f"{file}: no wrench with a pose beside it is left. {' '.join(said)}")
+        raise RecordingError(f"{source}: no wrench with a pose beside it is left. {' '.join(said)}")
     return kept

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO
 
@@ -15,7 +16,7 @@ from pipeline.calibration.poses import PoseError, PoseSample, named
 from pipeline.durable import write_durably
 from pipeline.errors import InputError
 from pipeline.robot import ROBOTS
-from pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
+from pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -28,8 +29,12 @@ CHANNELS = (*FORCES, *TORQUES)
 _FORCE_SD, _TORQUE_SD = ("sfx", "sfy", "sfz"), ("smx", "smy", "smz")
 _OPTIONAL = ("t", "count", *_FORCE_SD, *_TORQUE_SD, "temperature")
 
-# A recording that is taken for a list of poses has more rows than this.
-POSE_LIMIT = 10_000
+# Nobody takes more poses than this; a recording has as many rows in a second.
+POSE_LIMIT = 200
+# Rows that are closer than this are samples: averaging a pose takes a second. A few such rows may be poses whose times
+# are in minutes or hours.
+_CLOSEST_POSES_S, _FEWEST_SAMPLES = 0.2, 50
+_PEEK_BYTES = 2**20
 
 _LONGEST_NAME = 256  # bytes; what a table takes as text
 
@@ -68,6 +73,8 @@ class PoseTable:
         The line of each pose in the file; the header is line 1.
     warnings : tuple of str
         What should make one doubt the file: sentences with a remedy.
+    notes : tuple of str
+        How the poses were found in a recording: sentences. Empty for a table of poses.
     """
 
     poses: tuple[PoseSample, ...]
@@ -76,6 +83,7 @@ class PoseTable:
     joints: NDArray[np.float64] | None
     lines: NDArray[np.int64]
     warnings: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
 
 def read_poses(
@@ -100,13 +108,18 @@ def read_poses(
     Raises
     ------
     PoseFileError
-        The file cannot be used; the message names line, column and remedy.
+        The file cannot be used, or is a recording; the message names line, column and remedy.
     InputError
         R_ES is no rotation, or there is no such robot.
     """
     selection = _Selection(convention)
     rows = read_table(source, selection, _wording(convention), row_limit=POSE_LIMIT)
     reader, chosen = selection.reader, selection.convention
+    if "t" in rows.columns and _sampled(rows.column("t")):
+        raise reader.error(
+            f"this is a recording, {len(rows.lines)} rows {_step_text(rows.column('t'))} apart, not a table of still"
+            " poses: find those in it with contactbench captures."
+        )
     _check_ranges(reader, rows)
     raw = np.column_stack([rows.column(name) for name in chosen.columns])
     try:
@@ -159,6 +172,60 @@ def write_poses(file: Path, poses: Sequence[PoseSample]) -> None:
             f"{file}: the poses cannot be written ({error}): choose a folder that exists, is writable and has"
             " space."
         ) from error
+
+
+# ---- recordings --------------------------------------------------------------------------------
+
+
+def is_recorded_table(file: Path) -> bool:
+    """
+    Tell by its first rows whether a CSV file is a recording of samples, not a table of still poses.
+
+    Samples are at most 0.2 s apart, by the column t; a table of poses has at most 200 rows.
+
+    Raises
+    ------
+    PoseFileError
+        There are too many rows for poses, and no times by which a recording could be searched for them.
+    """
+    with open_table(file, PoseFileError) as (stream, name, _):
+        reader = TableReader(stream, name, _wording(None), block_bytes=_PEEK_BYTES)
+        if not set(CHANNELS) <= set(reader.names):
+            return False  # who reads it says what is missing
+        column = "t" if "t" in reader.names else CHANNELS[0]
+        reader.select((column,), allow_nan=(column,))
+        values = next(iter(reader)).numbers[:, 0]
+        if column == "t" and _sampled(values):
+            return True
+        if len(values) <= POSE_LIMIT:
+            return False
+        many = f"there are more than {POSE_LIMIT} rows, too many for a table of still poses"
+        if column == "t" and np.isfinite(values).any():
+            raise reader.error(
+                f"{many}, but by column t they are {_step_text(values)} apart, too far for a recording: t must be in s,"
+                f" and samples at most {_CLOSEST_POSES_S} s apart. Record faster, or shorten the table."
+            )
+        raise reader.error(
+            f"{many}. If this is a recording, add the time of each row in s as column t: contactbench calibrate and"
+            " contactbench captures then find the still poses in it."
+        )
+
+
+def _steps(times: NDArray[np.float64]) -> NDArray[np.float64]:
+    steps: NDArray[np.float64] = np.abs(np.diff(times[np.isfinite(times)]))
+    return steps[steps > 0]  # a controller repeats a time; a column of zeros is no time
+
+
+def _sampled(times: NDArray[np.float64]) -> bool:
+    """Tell whether rows with these times (n,) are samples of a recording."""
+    steps = _steps(times)
+    return len(steps) >= _FEWEST_SAMPLES and float(np.median(steps)) <= _CLOSEST_POSES_S
+
+
+def _step_text(times: NDArray[np.float64]) -> str:
+    steps = _steps(times)
+    step = float(np.median(steps)) if len(steps) else 0.0
+    return f"{step:.3g} s" if step >= 1 else f"{1e3 * step:.3g} ms"
 
 
 # ---- orientations ------------------------------------------------------------------------------
@@ -363,6 +430,59 @@ def _warnings(
             " that the columns of the orientation are those that the robot updates."
         )
     yield from _repeats(np.column_stack([raw, wrenches]), rows.lines)
+    yield from _copied(R_WS, wrenches, rows.lines)
+    if "t" in rows.columns:
+        yield from _time_warnings(rows.column("t"), rows.lines)
+    if rows.text is not None:
+        yield from _name_warnings([_name(cell) for cell in rows.text.tolist()], rows.lines)
+
+
+def _copied(
+    R_WS: NDArray[np.float64], wrenches: NDArray[np.float64], lines: NDArray[np.int64]
+) -> Iterator[str]:
+    """Name a reading that is its neighbour's to the last digit, though the sensor was turned between the two."""
+    turned = (np.einsum("iab,iab->i", R_WS[1:], R_WS[:-1]) - 1) / 2 < np.cos(_SAME)
+    again = np.flatnonzero(turned & (wrenches[1:] == wrenches[:-1]).all(axis=1))
+    if len(again):
+        one, other = lines[again[0] : again[0] + 2].tolist()
+        more = f", and {len(again) - 1} more such pairs" if len(again) > 1 else ""
+        yield (
+            f"Lines {one} and {other} have the same reading to the last digit, though the sensor is turned between"
+            f" them{more}: it was copied, or the readings are shifted by a row. Correct or remove the pose."
+        )
+
+
+def _time_warnings(times: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[str]:
+    known = np.isfinite(times)
+    yield from _disorder("times in column t", times[known], lines[known])
+    steps = _steps(times)
+    if len(steps) and float(np.median(steps)) <= _CLOSEST_POSES_S:
+        yield (
+            f"By column t the poses are {_step_text(times)} apart, and a pose takes a second: write t in s. If the rows"
+            " are samples of a recording, give the whole of it."
+        )
+
+
+def _name_warnings(names: Sequence[str], lines: NDArray[np.int64]) -> Iterator[str]:
+    """Doubt the order of names that are one word with a growing number, such as pose 1, pose 2."""
+    parts = [re.match(r"(\D*)(\d{1,9})", name) for name in names]
+    numbers = [int(part[2]) for part in parts if part]
+    if len(numbers) == len(names) and len({part[1] for part in parts if part}) == 1:
+        yield from _disorder("numbers in column name", np.array(numbers, dtype=np.float64), lines)
+
+
+def _disorder(what: str, values: NDArray[np.float64], lines: NDArray[np.int64]) -> Iterator[str]:
+    """Name the rows that break a rising order; a falling one, newest first, is an order too."""
+    steps = np.diff(values)
+    if (steps >= 0).all() or (steps <= 0).all():
+        return
+    moved = lines[values != np.sort(values)].tolist()
+    shown = ", ".join(map(str, moved[:6])) + (", ..." if len(moved) > 6 else "")
+    how = "two rows are swapped" if len(moved) == 2 else "rows were moved"
+    yield (
+        f"The {what} do not rise at lines {shown}: if {how}, in whole or in some columns, put them back; readings must"
+        " stand beside their own orientation."
+    )
 
 
 def _angle_warnings(raw: NDArray[np.float64], *, degrees: bool) -> Iterator[str]:

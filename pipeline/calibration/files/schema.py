@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from pipeline.calibration.fit import PoseNoise
     from pipeline.calibration.observability import Observability
 
-SCHEMA, VERSION = "contactbench.calibration", 1
+SCHEMA, VERSION = "contactbench.calibration", 2
 
 REMEDY = "use the file as contactbench wrote it, or calibrate again."
 
@@ -83,6 +84,7 @@ class NoisePart(Part):
     torque_freedom: _Freedom | None
     least_force_N: _ThreePositive
     least_torque_Nm: _ThreePositive
+    orientation_rad: _Positive
 
 
 class ObservabilityPart(Part):
@@ -123,8 +125,28 @@ class PosePart(Part):
     temperature_C: _Number | None
     residual_force_N: _Three
     residual_torque_Nm: _Three
+    offset_force_N: _Three
+    offset_torque_Nm: _Three
     force_deviate: _Number
     torque_deviate: _Number
+
+
+class CausePart(Part):
+    """As Cause."""
+
+    key: str
+    odds: Annotated[float, Field(ge=0, le=1)]
+    sentence: str
+    believed: bool
+
+
+class DriftPart(Part):
+    """Growth of the biases at the session's end, and its 1 sigma."""
+
+    force_N_per_s: _Three
+    torque_Nm_per_s: _Three
+    force_sigma_N_per_s: _ThreePositive
+    torque_sigma_Nm_per_s: _ThreePositive
 
 
 class MountPart(Part):
@@ -138,7 +160,7 @@ class Document(Part):
     """A whole file."""
 
     schema_: Literal["contactbench.calibration"] = Field(alias="schema")
-    version: Literal[1]
+    version: Literal[2]
     tool: str
     created: _Time | None
     source: SourcePart | None
@@ -155,6 +177,11 @@ class Document(Part):
     noise: NoisePart
     scatter: _Positive
     plausible: bool
+    noise_factor: Annotated[list[_Positive], Field(min_length=2, max_length=2)]
+    causes: list[CausePart]
+    drift: DriftPart | None
+    model_error_m: _Positive
+    down_W: _Three
     observability: ObservabilityPart
     rejected: list[RejectedPart]
     poses: Annotated[list[PosePart], Field(min_length=3)]
@@ -184,6 +211,8 @@ def parse(data: bytes, name: str) -> Document:
             f"{name}: this is not JSON ({error}): choose a calibration file, or copy it again."
         ) from None
     _check_kind(content, name)
+    if content.get("version") == 1 and not isinstance(content["version"], bool):
+        data = json.dumps(_upgraded(content)).encode()
     try:
         document = Document.model_validate_json(data)
     except ValidationError as error:
@@ -204,6 +233,33 @@ def _check_kind(content: Any, name: str) -> None:
             f"{name}: this file was written by a newer contactbench (its version is above {VERSION}): update"
             " contactbench."
         )
+
+
+def _upgraded(content: dict[str, Any]) -> dict[str, Any]:
+    """Return what version 1 said, as version 2 says it; what is no such file is left for the schema to refuse."""
+    new = {
+        "version": 2,
+        "noise_factor": [1.0, 1.0],
+        "causes": [],
+        "drift": None,
+        "model_error_m": 0.0,
+        "down_W": [0.0, 0.0, -1.0],
+    }
+    noise, poses = content.get("noise"), content.get("poses")
+    scatter = content.get("scatter")
+    if isinstance(noise, dict):
+        noise = {**noise, "orientation_rad": 0.0}
+        # The covariance had been widened by the scatter, the noise beside it had not.
+        if content.get("plausible") is False and isinstance(scatter, int | float) and scatter > 0:
+            wider = float(scatter) ** 0.5
+            new |= {"noise_factor": [wider, wider], "scatter": 1.0}
+            for field in ("force_N", "torque_Nm"):
+                if isinstance(values := noise.get(field), list):
+                    noise[field] = [wider * value if isinstance(value, float) else value for value in values]
+    if isinstance(poses, list):
+        nothing = {"offset_force_N": [0.0] * 3, "offset_torque_Nm": [0.0] * 3}
+        poses = [{**pose, **nothing} if isinstance(pose, dict) else pose for pose in poses]
+    return {**content, **new, "noise": noise, "poses": poses}
 
 
 def _check_facts(content: Document, name: str) -> None:
@@ -284,6 +340,11 @@ def document(
         "noise": _noise(calibration.noise),
         "scatter": float(calibration.scatter),
         "plausible": bool(calibration.plausible),
+        "noise_factor": list(calibration.noise_factor),
+        "causes": [vars(cause) for cause in calibration.causes],
+        "drift": _drift(calibration),
+        "model_error_m": float(calibration.model_error),
+        "down_W": calibration.down_W.tolist(),
         "observability": _observability(calibration.observability),
         "rejected": [vars(rejection) for rejection in calibration.rejected],
         "poses": [_pose(calibration, index) for index in range(len(calibration.poses))],
@@ -300,6 +361,19 @@ def _noise(noise: PoseNoise) -> dict[str, Any]:
         "torque_freedom": _or_null(noise.freedom[1]),
         "least_force_N": noise.least[:3].tolist(),
         "least_torque_Nm": noise.least[3:].tolist(),
+        "orientation_rad": float(noise.orientation),
+    }
+
+
+def _drift(calibration: Calibration) -> dict[str, Any] | None:
+    rate, sigma = calibration.drift_rate, calibration.drift_rate_sigma
+    if rate is None or sigma is None:
+        return None
+    return {
+        "force_N_per_s": rate[:3].tolist(),
+        "torque_Nm_per_s": rate[3:].tolist(),
+        "force_sigma_N_per_s": sigma[:3].tolist(),
+        "torque_sigma_Nm_per_s": sigma[3:].tolist(),
     }
 
 
@@ -318,7 +392,11 @@ def _observability(sight: Observability) -> dict[str, Any]:
 
 
 def _pose(calibration: Calibration, index: int) -> dict[str, Any]:
-    pose, residual = calibration.poses[index], calibration.residuals[index]
+    pose, residual, offset = (
+        calibration.poses[index],
+        calibration.residuals[index],
+        calibration.offsets[index],
+    )
     return {
         "name": pose.name,
         "time_s": None if pose.time is None else float(pose.time),
@@ -331,6 +409,8 @@ def _pose(calibration: Calibration, index: int) -> dict[str, Any]:
         "temperature_C": None if pose.temperature is None else float(pose.temperature),
         "residual_force_N": residual[:3].tolist(),
         "residual_torque_Nm": residual[3:].tolist(),
+        "offset_force_N": offset[:3].tolist(),
+        "offset_torque_Nm": offset[3:].tolist(),
         "force_deviate": float(calibration.deviates[index, 0]),
         "torque_deviate": float(calibration.deviates[index, 1]),
     }

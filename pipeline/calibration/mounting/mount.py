@@ -19,14 +19,21 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc, chdtri, fdtri
+from scipy.special import chdtri, fdtri
 
-from pipeline.calibration.calibrate import Calibration, within_scatter
-from pipeline.calibration.contact_error import ContactTask, usual_task, worst_sigma
-from pipeline.calibration.fit import (
-    PoseNoise,
-    predict,
+from pipeline.calibration.calibrate import (
+    DOWN_W,
+    Calibration,
+    assembled,
+    between,
+    checked_angle,
+    direction,
+    used,
+    within_scatter,
 )
+from pipeline.calibration.comparison import compare
+from pipeline.calibration.contact_error import ContactTask, usual_task, worst_sigma
+from pipeline.calibration.fit import turn_jacobian
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
@@ -34,21 +41,22 @@ from pipeline.calibration.model import (
     TORQUE_BIAS,
     GravityModel,
     cross_matrix,
+    prediction_jacobian,
 )
-from pipeline.calibration.outliers import rejection
-from pipeline.calibration.poses import PoseError, PoseSample, Stack, stack
-from pipeline.calibration.verdict import Level, Limits, Verdict
-from pipeline.errors import InputError
+from pipeline.calibration.mounting.sight import see
+from pipeline.calibration.mounting.start import start_rotation
+from pipeline.calibration.mounting.turns import ROTATION, largest_sigma, matrices
+from pipeline.calibration.mounting.words import simple, verdict
+from pipeline.calibration.poses import PoseError, PoseSample, stack
+from pipeline.calibration.reml import NoisePrior
+from pipeline.calibration.verdict import Level, Limits
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
-from pipeline.calibration.mounting.sight import Sight, see
-from pipeline.calibration.mounting.start import agreeing
-from pipeline.calibration.mounting.turns import DOUBT, ROTATION, largest_sigma, matrices
-from pipeline.calibration.mounting.unknowns import jacobian, to_estimate
-from pipeline.calibration.mounting.words import simple, verdict
+
+    from pipeline.calibration.fit import PoseNoise
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +156,8 @@ class MountCalibration:
             The shape does not fit.
         """
         R_EW = np.swapaxes(matrices(R_WE), -1, -2)
-        J = jacobian((self.R_SE @ R_EW).reshape(-1, 3, 3), self.calibration.model.vector)
+        R_SW, theta = (self.R_SE @ R_EW).reshape(-1, 3, 3), self.calibration.model.vector
+        J = np.concatenate([prediction_jacobian(R_SW, theta), turn_jacobian(R_SW, theta)], axis=2)
         C = J @ self.joint_covariance @ J.swapaxes(1, 2)
         return 0.5 * (C + C.swapaxes(1, 2)).reshape(*R_EW.shape[:-2], 6, 6)
 
@@ -157,7 +166,8 @@ def estimate_mount(
     poses: Sequence[PoseSample],
     noise: PoseNoise | None = None,
     *,
-    base_tilt_sigma: float | None = None,
+    orientation_sigma: float | None = None,
+    down_W: ArrayLike = DOWN_W,
     task: ContactTask | None = None,
     limits: Limits | None = None,
 ) -> MountCalibration:
@@ -173,9 +183,10 @@ def estimate_mount(
     noise : PoseNoise, optional
         Of a pose's mean. Left out: estimated from the residuals, and at least what the scatter within the
         poses says.
-    base_tilt_sigma : float, optional
-        How level the base is: standard deviation of the angle between the z axis of W and the vertical,
-        about each horizontal axis, rad. Left out: nothing is assumed, gravity is free.
+    orientation_sigma : float, optional
+        1 sigma of the poses' orientations about each axis, rad. Left out: estimated, around what a robot has.
+    down_W : (3,)
+        Where gravity points in W, roughly.
     task : ContactTask, optional
         The touches that the calibration is for.
     limits : Limits, optional
@@ -191,66 +202,44 @@ def estimate_mount(
     PoseError
         There are fewer than four poses.
     InputError
-        `base_tilt_sigma` is not a finite number above 0.
+        `orientation_sigma` or `down_W` is not finite, or the latter zero.
     """
     if len(poses) < 4:
         raise PoseError(
             f"{len(poses)} poses: fifteen unknowns need at least four poses that tilt about two axes, and six or"
             " more to check them against one another."
         )
-    if base_tilt_sigma is not None and not 0 < base_tilt_sigma < np.inf:
-        raise InputError(
-            f"base_tilt_sigma is {base_tilt_sigma}: give a finite angle above 0, rad, or leave it out"
-        )
-    flange = stack(poses)
-    level = np.inf if base_tilt_sigma is None else float(base_tilt_sigma)
-    fit, noise, inside, far = agreeing(flange, noise or to_estimate(within_scatter(poses)), level)
-    freedom = float(fit.freedom.sum())
-    scatter = fit.cost / freedom
-    plausible = noise.estimated or bool(chdtrc(freedom, fit.cost) > DOUBT)
-    if not plausible:
-        fit = replace(fit, covariance=fit.covariance * scatter)
-    sight = see(flange.take(inside), fit, noise, level)
-    calibration = replace(
-        _assembled(poses, flange, sight, noise, inside, far, task or usual_task()),
-        scatter=scatter,
-        plausible=plausible,
+    flange, down = stack(poses), direction(down_W)
+    prior = NoisePrior.of(noise, checked_angle(orientation_sigma), within_scatter(poses))
+    R_start, _ = start_rotation(flange, prior, down)
+    arrays = replace(flange, R_SW=R_start @ flange.R_SW)
+    compared = compare(arrays, prior, down, mounted=False)
+    told, chosen = used(arrays, compared)
+    fit = chosen.noisy.fit
+    wider = np.zeros_like(fit.covariance)
+    wider[:15, :15] = between(compared, chosen)
+    fit = replace(fit, covariance=(fit.covariance + wider)[:15, :15])
+    R_SE = fit.mount @ R_start
+    sight = see(flange, chosen.inside, fit, R_SE, chosen.noisy.noise)
+    theta, joint = sight.fit.theta, sight.fit.covariance
+    task = task or usual_task()
+    noisy = replace(chosen.noisy, fit=replace(chosen.noisy.fit, theta=theta))
+    calibration = assembled(
+        [replace(pose, R_WS=pose.R_WS @ R_SE.T) for pose in poses],
+        arrays,
+        prior,
+        compared,
+        (told, replace(chosen, noisy=noisy)),
+        GravityModel.from_vector(theta, joint[:12, :12]),
+        sight.parameters,
+        task,
+        _contact_error(task, theta, joint),
+        down,
     )
-    calibration = replace(calibration, verdict=verdict(calibration, sight, limits or Limits()))
-    R_SE, joint = sight.fit.R_SE, sight.fit.covariance
-    mounting = "" if calibration.verdict.level is Level.REFUSE else simple(R_SE, joint[ROTATION, ROTATION])
+    found = verdict(calibration, sight, chosen.agree, limits or Limits())
+    calibration = replace(calibration, verdict=found)
+    mounting = "" if found.level is Level.REFUSE else simple(R_SE, joint[ROTATION, ROTATION])
     return MountCalibration(R_SE, calibration, joint, mounting)
-
-
-def _assembled(
-    poses: Sequence[PoseSample],
-    flange: Stack,
-    sight: Sight,
-    noise: PoseNoise,
-    inside: NDArray[np.bool_],
-    far: NDArray[np.float64],
-    task: ContactTask,
-) -> Calibration:
-    """Return the calibration as from known orientations, complete but for scatter and verdict."""
-    theta, R_SE, joint = sight.fit.theta, sight.fit.R_SE, sight.fit.covariance
-    residuals = flange.wrenches - predict(R_SE @ flange.R_SW, theta)
-    return Calibration(
-        model=GravityModel.from_vector(theta, joint[:12, :12]),
-        noise=noise,
-        poses=tuple(replace(pose, R_WS=pose.R_WS @ R_SE.T) for pose in poses),
-        residuals=residuals,
-        deviates=far,
-        rejected=tuple(
-            rejection(poses, index, far[index], residuals[index])
-            for index in np.flatnonzero(~inside).tolist()
-        ),
-        observability=sight.parameters,
-        scatter=1.0,
-        plausible=True,
-        task=task,
-        contact_error=_contact_error(task, theta, joint),
-        verdict=Verdict(Level.REFUSE, ()),
-    )
 
 
 def _contact_error(task: ContactTask, theta: NDArray[np.float64], joint: NDArray[np.float64]) -> float:

@@ -9,11 +9,7 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
-from pipeline.calibration.fit import (
-    UNKNOWN,
-    PoseNoise,
-    parameter_covariance,
-)
+from pipeline.calibration.fit import ANY_TURN, UNKNOWN, Fit, PoseNoise, parameter_covariance
 from pipeline.calibration.model import (
     FORCE_BIAS,
     GRAVITY,
@@ -27,8 +23,7 @@ from pipeline.calibration.poses import Stack
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 from pipeline.calibration.mounting.start import DOWNS, centred
-from pipeline.calibration.mounting.turns import ALL_UNKNOWN, ANY_TURN, ROTATION, unit
-from pipeline.calibration.mounting.unknowns import Fit
+from pipeline.calibration.mounting.turns import ALL_UNKNOWN, ROTATION, unit
 from pipeline.calibration.mounting.words import blind_words, named_axes
 
 # A mount that is known less well than this, 1 sigma, is of no use (the eye does better), and is more than a
@@ -58,28 +53,28 @@ class Sight:
     parameters: Observability
 
 
-def see(inside: Stack, fit: Fit, noise: PoseNoise, level: float) -> Sight:
-    """Widen what the poses do not show of the mount, and say why."""
-    R_SW = fit.R_SE @ inside.R_SW
+def see(
+    flange: Stack, inside: NDArray[np.bool_], fit: Fit, R_SE: NDArray[np.float64], noise: PoseNoise
+) -> Sight:
+    """Widen what the poses inside do not show of the mount, and say why."""
+    R_EW, poses = flange.R_SW[inside], flange.take(inside)
+    R_SW = R_SE @ R_EW
     # A fit of poses that show nothing may put gravity anywhere, and then see all from there: ask level, too.
-    found = [_sines(R_SW, down, level) for down in (unit(fit.theta[GRAVITY]), DOWNS[0])]
+    found = [_sines(R_SW, down) for down in (unit(fit.theta[GRAVITY]), DOWNS[0])]
     sines, axes_S = min(found, key=lambda pair: float(pair[0].sum()))
     blind = axes_S[:, sines < _BLIND]
-    felt = _felt(inside, fit, noise)
+    felt = _felt(poses, fit, noise)
     weighs = felt or blind.shape[1] == 3  # what looks alike in every pose may well be weight
     if blind.shape[1] == 3:
-        fit = replace(_biases(inside, fit, noise), covariance=np.diag(ALL_UNKNOWN**2))
+        fit = replace(_biases(poses, R_SW, fit, noise), covariance=np.diag(ALL_UNKNOWN**2))
     else:
-        fit = _widened(fit, blind) if felt else _biases(inside, fit, noise)
-    parameters = observe(fit.R_SE @ inside.R_SW, fit.theta[GRAVITY], weighs=weighs)
-    if level < np.inf and blind.shape[1] < 3 and parameters.torque_rank == 6:
-        # Gravity is down: what the poses alone cannot tell from bias, the prior can.
-        parameters = replace(parameters, rank=12, force_rank=6, null_directions=())
+        fit = _widened(fit, blind) if felt else _biases(poses, R_SW, fit, noise)
+    parameters = observe(R_SW, fit.theta[GRAVITY], weighs=weighs)
     values, vectors = np.linalg.eigh(fit.covariance[ROTATION, ROTATION])
-    worst, axis = float(np.sqrt(values[-1])), named_axes(fit.R_SE.T @ vectors[:, -1:])
+    worst, axis = float(np.sqrt(values[-1])), named_axes(R_SE.T @ vectors[:, -1:])
     known = f"The mount's rotation about {axis} is known to {np.degrees(worst):.1f}° (1 sigma) only"
     if blind.shape[1]:
-        grave = blind_words(inside.R_SW, fit.R_SE.T @ blind, level)
+        grave = blind_words(R_EW, R_SE.T @ blind)
     elif not felt:
         grave = (
             "The weight is too small to show a rotation: the forces do not follow the orientations beyond"
@@ -104,7 +99,7 @@ def _felt(inside: Stack, fit: Fit, noise: PoseNoise) -> bool:
 
 
 def _sines(
-    R_SW: NDArray[np.float64], down_W: NDArray[np.float64], level: float
+    R_SW: NDArray[np.float64], down_W: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return how far a turn of the mount is from all that gravity and bias can do to forces.
 
@@ -119,7 +114,6 @@ def _sines(
     n = len(R_SW)
     rows = centred(np.concatenate([R_SW, -cross_matrix(R_SW @ down_W)], axis=2)[None]).reshape(-1, 6)
     square = rows.T @ rows / n
-    square[[0, 1], [0, 1]] += (_ORIENTATION / level) ** 2  # a prior counts like orientations that good
     alike = np.linalg.pinv(square[:3, :3], rcond=1e-9, hermitian=True)
     values, axes = np.linalg.eigh(square[3:, 3:] - square[3:, :3] @ alike @ square[:3, 3:])
     return np.sqrt(np.maximum(values, 0.0)), axes
@@ -132,11 +126,11 @@ def _widened(fit: Fit, blind_S: NDArray[np.float64]) -> Fit:
     return replace(fit, covariance=C + follow @ follow.T)
 
 
-def _biases(inside: Stack, fit: Fit, noise: PoseNoise) -> Fit:
+def _biases(inside: Stack, R_SW: NDArray[np.float64], fit: Fit, noise: PoseNoise) -> Fit:
     """Fit the biases alone; the weight may be up to what would have been felt, in any direction."""
     theta = np.zeros(12)
     theta[FORCE_BIAS], theta[TORQUE_BIAS] = inside.F.mean(axis=0), inside.M.mean(axis=0)
-    C = parameter_covariance(prediction_jacobian(fit.R_SE @ inside.R_SW, theta) / noise.sigmas[:, None])
+    C = parameter_covariance(prediction_jacobian(R_SW, theta) / noise.sigmas[:, None])
     C += 8 * C[:, GRAVITY] @ np.linalg.solve(C[GRAVITY, GRAVITY], C[GRAVITY])
     # A weight that small, on any lever, is in the torques' mean, too.
     C[TORQUE_BIAS, TORQUE_BIAS] += np.linalg.norm(C[GRAVITY, GRAVITY], 2) * UNKNOWN[6] ** 2 * np.eye(3)

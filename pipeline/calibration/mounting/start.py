@@ -1,17 +1,13 @@
-"""A start for the fit in closed form (Kabsch 1976), and the poses that agree."""
+"""A start for the mount's rotation in closed form (Kabsch 1976)."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.special import chdtrc
+from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.fit import (
-    PoseNoise,
-    predict,
-    solve_with_offset,
-)
+from pipeline.calibration.fit import solve_with_offset
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
@@ -19,13 +15,15 @@ from pipeline.calibration.model import (
     TORQUE_BIAS,
     cross_matrix,
 )
-from pipeline.calibration.outliers import LARGEST_SHARE, as_deviates, limit
-from pipeline.calibration.poses import Stack
+from pipeline.calibration.outliers import LARGEST_SHARE
+from pipeline.calibration.reml import LEAST
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-from pipeline.calibration.mounting.turns import DOUBT, turn
-from pipeline.calibration.mounting.unknowns import LEAST, Fit, fit_all, jacobian, to_estimate
+
+    from pipeline.calibration.poses import Stack
+    from pipeline.calibration.reml import NoisePrior
+from pipeline.calibration.mounting.turns import turn
 
 # Where gravity may point in W: down; else the sensor or the orientations are turned over, or W is.
 DOWNS = np.array([[0.0, 0, -1], [0, 0, 1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])
@@ -43,81 +41,40 @@ _MEDIAN = 2.366  # of the sum of three squared standard normal numbers
 _ROUNDS, _RIDGE = 3, 1e-4
 
 
-def agreeing(
-    flange: Stack, given: PoseNoise, level: float
-) -> tuple[Fit, PoseNoise, NDArray[np.bool_], NDArray[np.float64]]:
-    """Return the fit of the poses that agree, its noise, which they are (n,), and deviates (n, 2) of all."""
-    n = len(flange)
-    if not given.estimated:
-        everybody = np.ones(n, dtype=bool)
-        R, theta = (one[0] for one in _start(flange.R_SW[None], flange.wrenches[None], DOWNS[:1]))
-        fit, _ = fit_all(flange, given, R, theta, level)
-        far = _deviates(flange, everybody, fit, given)
-        if (far < limit(n)).all():
-            return fit, given, everybody, far
-    R, theta, inside = _best_majority(flange, given)
-    noise = given
-    if not given.estimated:
-        noise = to_estimate(given.sigmas)
-        _, seen = fit_all(flange.take(inside), noise, R, theta, level, float(inside.mean()))
-        excess = np.mean((seen.sigmas / given.sigmas).reshape(2, 3) ** 2, axis=1)
-        if (chdtrc(seen.freedom, excess * seen.freedom) > DOUBT).all():
-            noise = given  # else even the majority finds it too small: it must not cost good poses
-    while True:
-        # The fit includes the mount: with R_SE held, good poses outside would look worse than they are.
-        fit, now = fit_all(flange.take(inside), noise, R, theta, level, float(inside.mean()))
-        far = _deviates(flange, inside, fit, now)
-        worst = np.where(inside, np.inf, far.max(axis=1))
-        if worst.min() >= limit(n):
-            break
-        inside[np.argmin(worst)] = True
-        R, theta = fit.R_SE, fit.theta
-    if not given.estimated:
-        fit, now = fit_all(flange.take(inside), given, fit.R_SE, fit.theta, level)
-    return fit, now, inside, far
-
-
-def _deviates(flange: Stack, inside: NDArray[np.bool_], fit: Fit, noise: PoseNoise) -> NDArray[np.float64]:
-    """Return outliers.deviates (n, 2) with the rotation among what the fit has to determine."""
-    R_SW = fit.R_SE @ flange.R_SW
-    residuals = (flange.wrenches - predict(R_SW, fit.theta)) / noise.sigmas
-    halves = (jacobian(R_SW, fit.theta) / noise.sigmas[:, None]).reshape(-1, 2, 3, 15)
-    # A pose that helped to make the fit is nearer to it than noise alone; any other is further away.
-    sign = np.where(inside, -1.0, 1.0)[:, None, None, None]
-    spread = (1 + 1e-6) * np.eye(3) + sign * (halves @ fit.covariance @ halves.swapaxes(2, 3))
-    r = residuals.reshape(-1, 2, 3, 1)
-    squares = (r.swapaxes(2, 3) @ np.linalg.solve(spread, r))[..., 0, 0]
-    return as_deviates(squares, inside, noise)
-
-
-def _best_majority(
-    flange: Stack, noise: PoseNoise
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-    """Return R_SE, parameters and poses (n,) of the smallest trimmed sum of squares.
+def start_rotation(
+    flange: Stack, prior: NoisePrior, down_W: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return R_SE (3, 3) and the poses (n,) of the smallest trimmed sum of squares.
 
     From many sets of four poses, with gravity that points down; or, where that explains the poses far
-    better, up or along a horizontal axis of W: a wrench of the opposite sign, or a base on a wall.
+    better, up or along a horizontal axis: a wrench of the opposite sign, or a base on a wall of which nobody spoke.
     """
+    downs = DOWNS @ _from_down(down_W).T
     n = len(flange)
     size = min(n, max(n - int(LARGEST_SHARE * n), _FEWEST))
-    ways = np.repeat(np.arange(len(DOWNS)), _SETS)
+    ways = np.repeat(np.arange(len(downs)), _SETS)
     sets = np.random.default_rng(0).random((len(ways), n)).argpartition(3, axis=1)[:, :4]
-    variances = None if noise.estimated else (noise.sigmas**2).reshape(2, 3).mean(axis=1)
+    variances = None if prior.sigmas is None else (prior.sigmas**2).reshape(2, 3).mean(axis=1)
     for leading in (_REFINED, _REFINED, 1):  # concentration: fit the majority, see who the majority is now
-        R, theta = _start(flange.R_SW[sets], flange.wrenches[sets], DOWNS[ways])
+        R, theta = _start(flange.R_SW[sets], flange.wrenches[sets], downs[ways])
         squares = _squares(flange, R, theta)
         if variances is None:
             variances = np.maximum(np.median(squares, axis=1).min(axis=0) / _MEDIAN, LEAST[[0, 3]] ** 2)
         total = squares @ (1 / variances)
         sets = np.argsort(total, axis=1)[:, :size]
         trimmed = np.take_along_axis(total, sets, axis=1).sum(axis=1)
-        order = np.lexsort((trimmed, ways)).reshape(len(DOWNS), -1)[:, :leading].ravel()
+        order = np.lexsort((trimmed, ways)).reshape(len(downs), -1)[:, :leading].ravel()
         sets, ways, trimmed = sets[order], ways[order], trimmed[order]
     gain = (6 * size - 15) * np.log((trimmed[0] + 1) / (trimmed + 1))
     way = int(np.argmax(gain)) if gain.max() > _ANOTHER else 0
     inside = np.zeros(n, dtype=bool)
     inside[sets[way]] = True
-    return R[order][way], theta[order][way], inside
+    return R[order][way], inside
+
+
+def _from_down(down_W: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a rotation (3, 3) that turns -z into `down_W`."""
+    return Rotation.align_vectors(down_W[None], -np.eye(3)[2:])[0].as_matrix()
 
 
 def _start(

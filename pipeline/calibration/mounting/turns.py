@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.fit import (
-    UNKNOWN,
-)
+from pipeline.calibration.fit import ANY_TURN, UNKNOWN
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,15 +17,7 @@ if TYPE_CHECKING:
 ROTATION = slice(12, 15)  # behind PARAMETERS
 
 
-# What a rotation could be if the poses say nothing of it: any angle is as likely as another, rad.
-ANY_TURN = np.pi / np.sqrt(3)
-
-
 ALL_UNKNOWN = np.append(UNKNOWN, np.full(3, ANY_TURN))
-
-
-# Noise that was given is doubted when chance explains the residuals once in so many clean sets.
-DOUBT = 1e-3
 
 
 _ROTATION_TOLERANCE = 1e-3  # as for PoseSample

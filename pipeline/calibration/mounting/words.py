@@ -29,7 +29,7 @@ _ONE_AXIS = 0.1
 _SIMPLE, _NEAR, _TWO_SIGMA = 45.0, np.radians(2.0), float(chdtri(3, 0.0455))
 
 
-def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64], level: float) -> str:
+def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64]) -> str:
     """Say why turns of the mount about the flange's axes (3, k) cannot be seen, and what would show them."""
     turns = Rotation.from_matrix(R_EW @ R_EW[0].T).as_rotvec()
     spread = np.degrees(
@@ -48,8 +48,6 @@ def blind_words(R_EW: NDArray[np.float64], axes_E: NDArray[np.float64], level: f
     else:
         why = f"the poses, within {spread:.0f}° of one another, are too much alike"
         remedy += ", and turn it about the vertical as well"
-    if level == np.inf:
-        remedy += ", or say how level the base is (base_tilt_sigma)"
     return f"The mount's rotation about {named_axes(axes_E)} cannot be told from a tilt of the base: {why}. {remedy}."
 
 
@@ -79,9 +77,9 @@ def simple(R_SE: NDArray[np.float64], covariance: NDArray[np.float64]) -> str:
     return f"Within {np.degrees(angle):.1f}° (1 sigma {sigma:.1f}°) of a sensor mounted {how}."
 
 
-def verdict(calibration: Calibration, sight: Sight, limits: Limits) -> Verdict:
+def verdict(calibration: Calibration, sight: Sight, agree: bool, limits: Limits) -> Verdict:
     """Combine what the parameters and the mount deserve."""
-    core = judge(calibration, True, limits)
+    core = judge(calibration, agree, limits)
     grave = list(sight.grave)
     kept, n = int(calibration.kept.sum()), len(calibration.poses)
     if kept < n and (kept < _FEWEST_IN or n - kept > _MOST_OUT * n):
@@ -91,7 +89,7 @@ def verdict(calibration: Calibration, sight: Sight, limits: Limits) -> Verdict:
         )
     if core.level is Level.REFUSE:
         grave += core.reasons
-    if calibration.gravity_W[2] > 2 * np.sqrt(calibration.covariance[2, 2]):
+    if calibration.gravity_W @ calibration.down_W < 0 and core.level is Level.REFUSE:
         grave.append(
             "With an unknown mount, a sensor frame with one axis of the wrong sign (a left-handed frame) looks"
             " like gravity that points up, too."

@@ -19,10 +19,13 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from scipy.spatial.transform import Rotation
 
 from pipeline.calibration.contact_error import contact_sensitivity, force_directions, largest_eigenvalue
 from pipeline.calibration.model import prediction_jacobian
+from pipeline.calibration.nuisance import REZERO
 from pipeline.calibration.outliers import FEWEST, limit
+from pipeline.calibration.report.beside import taken_off
 from pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
@@ -75,6 +78,7 @@ _WIDTH = 6.9  # inches: the width of the text on an A4 page
 _TURN = np.linspace(0, 2 * np.pi, 73)
 _ROOMY = 20  # poses that can have all their numbers
 CROWDED = 60  # poses: with more, only those that were left out have a number
+_DISPLAYED = np.repeat([1.0, 1e3], 3)  # N and N·m as the pictures have them: N and mN·m
 _SIGNS = ((1, "+"), (-1, "\N{MINUS SIGN}"))
 
 
@@ -84,6 +88,8 @@ class Figures:
 
     Attributes
     ----------
+    signed : str
+        What each channel read beside bias and weight, over time.
     residuals : str
         How far each pose is from the others.
     gravity, probe : str
@@ -92,6 +98,7 @@ class Figures:
         The predicted error over force directions; empty when it was not asked for.
     """
 
+    signed: str
     residuals: str
     gravity: str
     probe: str
@@ -109,7 +116,8 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
     noise : str
         What noise that is, for the map's title.
     """
-    R_WS, kept = np.array([pose.R_WS for pose in calibration.poses]), calibration.kept
+    upright = Rotation.align_vectors([[0, 0, -1.0]], [calibration.down_W])[0].as_matrix()
+    R_WS, kept = upright @ np.array([pose.R_WS for pose in calibration.poses]), calibration.kept
     halves = ("sensor's +z half", "sensor's \N{MINUS SIGN}z half")
     ways = ("upper half: probe points up", "lower half: probe points down")
     with _style():
@@ -117,6 +125,7 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
         probe = _coverage(R_WS @ calibration.task.normal, kept, ways, lower_first=True)
         contact = None if sigmas is None else _contact(calibration, sigmas, noise)
         return Figures(
+            _svg(_signed(calibration), "s", "Signed residuals of every channel over time"),
             _svg(_residuals(calibration), "r", "Deviates of force and torque of every pose"),
             _svg(gravity, "g", "Direction of gravity in the sensor frame in every pose"),
             _svg(probe, "p", "Direction of the probe in the world in every pose"),
@@ -125,6 +134,69 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
 
 
 # ---- residuals ---------------------------------------------------------------------------------
+
+_CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+
+
+def in_time(calibration: Calibration) -> tuple[NDArray[np.float64], str]:
+    """Return when each pose was taken (n,), and in what unit: minutes from the first one, or its number."""
+    times = [pose.time for pose in calibration.poses]
+    known = np.array([time for time in times if time is not None])
+    if len(known) == len(times) and np.ptp(known) > 0:
+        return (known - known.min()) / 60, "minutes from the first pose"
+    return np.arange(1.0, len(times) + 1), "pose"
+
+
+def _signed(calibration: Calibration) -> Figure:
+    """Plot what each channel read beside bias and weight, with the drift or the jumps that were found as a line."""
+    when, unit = in_time(calibration)
+    R_SW = np.array([pose.R_WS.T for pose in calibration.poses])
+    V = calibration.noise.covariances(R_SW, calibration.model.vector)
+    band = np.sqrt(np.diagonal(V.mean(axis=0))) * _DISPLAYED
+    lines = calibration.offsets * _DISPLAYED
+    points = lines + calibration.residuals * _DISPLAYED
+    figure = Figure(figsize=(_WIDTH, 3.5))
+    figure.subplots_adjust(left=0.105, right=0.99, bottom=0.125, top=0.93, hspace=0.26, wspace=0.08)
+    rows = figure.subplots(2, 3, sharex=True, sharey="row")
+    for part, row, unit_of in ((slice(3), rows[0], "N"), (slice(3, 6), rows[1], "mN·m")):
+        top = 1.15 * max(float(np.abs(points[calibration.kept, part]).max()), 2 * float(band[part].max()))
+        row[0].set(ylim=(-top, top), ylabel=unit_of)
+    for channel, axes in enumerate(rows.flat):
+        _band(axes, calibration, when, lines[:, channel], float(band[channel]))
+        _points(axes, calibration.kept, when, points[:, channel], torque=channel >= 3)
+        axes.set_title(_CHANNELS[channel], fontsize=9, pad=3)
+        axes.grid(axis="y", color=_GRID, linewidth=0.6)
+        axes.set_axisbelow(True)
+    rows[1][1].set_xlabel(unit)
+    figure.align_ylabels(rows[:, 0])
+    return figure
+
+
+def _band(
+    axes: Axes, calibration: Calibration, when: NDArray[np.float64], line: NDArray[np.float64], half: float
+) -> None:
+    """Draw where one channel's poses should lie: a line, and the noise on both sides of it."""
+    order = np.argsort(when, kind="stable")
+    x, y = when[order], line[order]
+    jumps = taken_off(calibration) == REZERO
+    axes.fill_between(
+        x, y - half, y + half, step="mid" if jumps else None, color=_GRID, alpha=0.55, linewidth=0
+    )
+    axes.plot(x, y, color=_INK, linewidth=1, drawstyle="steps-mid" if jumps else "default")
+
+
+def _points(
+    axes: Axes, kept: NDArray[np.bool_], when: NDArray[np.float64], y: NDArray[np.float64], *, torque: bool
+) -> None:
+    """Draw one channel's poses, hollow if left out; what lies off the plot is a triangle at its edge."""
+    colour, shape = (_TORQUE, "D") if torque else (_FORCE, "o")
+    style: dict[str, Any] = {"color": colour, "linestyle": "none", "clip_on": False, "zorder": 3}
+    top = axes.get_ylim()[1]
+    for used, fill in ((kept, colour), (~kept, _PAPER)):
+        shown = used & (np.abs(y) <= top)
+        axes.plot(when[shown], y[shown], marker=shape, mfc=fill, markersize=3.6, **style)
+    for beyond, edge, mark in ((y > top, 0.94 * top, "^"), (y < -top, -0.94 * top, "v")):
+        axes.plot(when[beyond], np.full(beyond.sum(), edge), marker=mark, mfc=_PAPER, markersize=5, **style)
 
 
 def _residuals(calibration: Calibration) -> Figure:

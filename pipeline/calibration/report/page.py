@@ -11,21 +11,25 @@ from datetime import UTC
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.special import chdtr, chdtrc
+from scipy.special import chdtrc
 
 from pipeline import __version__
+from pipeline.calibration.comparison import NOISE, PLAIN
 from pipeline.calibration.fit import UNKNOWN
 from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
+from pipeline.calibration.nuisance import DRIFT, REZERO
 from pipeline.calibration.observability import WEAK
 from pipeline.calibration.outliers import FEWEST, limit
 from pipeline.calibration.poses import named
 from pipeline.calibration.reachable import describe
+from pipeline.calibration.report.beside import taken_off
 from pipeline.calibration.verdict import Level
 from pipeline.calibration.wording import plain, signed, with_sigma
 from pipeline.durable import write_durably
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from datetime import datetime
     from pathlib import Path
 
@@ -43,13 +47,17 @@ _AS_GOOD_AS_UNKNOWN = 0.1 * UNKNOWN
 _LOST = 0.05
 # Noise of three axes is one number when they differ by no more than this.
 _ALIKE = 1.1
-# Noise that was given is called too large when so few sets have residuals as small as these.
-_TOO_QUIET = 1e-3
 # A direction of gravity that is less sure than this, rad, is none.
 _ANY_TILT = 0.5
 
 # Control characters, halves of characters, and what turns the direction of writing.
 _UNPRINTABLE = re.compile("[\0-\x1f\x7f-\x9f\ud800-\udfff\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+
+# Residuals fit to the noise that was given unless so few sets have larger ones, or smaller ones.
+_FITS = 1e-3
+# Causes that are less probable than this are not listed.
+_HARDLY = 0.01
+_HOUR = 3600.0
 
 _UNKNOWN = "unknown"
 _WORDS = {
@@ -124,6 +132,7 @@ def report_html(
         reasons=calibration.verdict.reasons,
         shares=_shares(calibration),
         parameters=_parameters(calibration),
+        down=_down(calibration),
         some_unknown=bool(_unknown(calibration).any()),
         poses=_poses(calibration),
         rejected=calibration.rejected,
@@ -132,6 +141,8 @@ def report_html(
         used=int(calibration.kept.sum()),
         beyond=bool(calibration.deviates.max() > 2 * limit(len(calibration.poses))),
         residual_words=_residual_words(calibration),
+        causes=_causes(calibration),
+        drawn_beside={DRIFT: "the drift", REZERO: "the re-zero"}.get(taken_off(calibration), ""),
         sight=calibration.observability,
         condition=plain(calibration.condition) if np.isfinite(calibration.condition) else "",
         weak_from=f"{WEAK:g}",
@@ -221,7 +232,8 @@ def _shares(calibration: Calibration) -> dict[str, Any]:
         "point": ", ".join(signed(f"{1e3 * value:.0f}") for value in task.point),
         "friction": round(float(np.degrees(task.friction))),
         "tilt": round(float(np.degrees(task.tilt))),
-        # Not so where the sensor's mounting was estimated too: then the number holds that as well.
+        "model": _length(calibration.model_error) if calibration.model_error else "",
+        # Not so where the mounting was estimated too, or the model leaves something out: the number holds that as well.
         "mapped": bool(np.isclose(mapped, calibration.contact_error, rtol=0.01)),
     }
 
@@ -242,17 +254,31 @@ def _parameters(calibration: Calibration) -> list[dict[str, Any]]:
     tilt = None if weightless else tilt_of(calibration)
     if tilt and tilt[1] > _ANY_TILT:
         tilt = None
+    then = " at the end of the session" if taken_off(calibration) else ""
     rows = [
         _row("Mass of the load", "", [mass], "kg"),
         _row("", "", [mass], "g", 1e3),
         _vector(calibration, "Gravity vector (weight)", "W", GRAVITY, "N"),
         _row("Tilt from the vertical", "W", [tilt], "°", float(np.degrees(1.0))),
-        _vector(calibration, "Force bias", "S", FORCE_BIAS, "N"),
+        _vector(calibration, f"Force bias{then}", "S", FORCE_BIAS, "N"),
         _vector(calibration, "Centre of mass", "S", CENTRE_OF_MASS, "mm", 1e3),
-        _vector(calibration, "Torque bias", "S", TORQUE_BIAS, "mN·m", 1e3),
+        _vector(calibration, f"Torque bias{then}", "S", TORQUE_BIAS, "mN·m", 1e3),
         _vector(calibration, "", "S", TORQUE_BIAS, "N·m"),
+        *_drift(calibration),
     ]
     return [row for row in rows if row["name"] or any(row["cells"])]  # "unknown" is not said twice
+
+
+def _drift(calibration: Calibration) -> list[dict[str, Any]]:
+    """Return the rows of a drift per hour; none where no drift was found, or the poses have no times."""
+    rate, sigma = calibration.drift_rate, calibration.drift_rate_sigma
+    if rate is None or sigma is None:
+        return []
+    pairs = list(zip(rate.tolist(), sigma.tolist(), strict=True))
+    return [
+        _row("Drift of the force bias", "S", pairs[:3], "N/h", _HOUR),
+        _row("Drift of the torque bias", "S", pairs[3:], "mN·m/h", 1e3 * _HOUR),
+    ]
 
 
 def _vector(
@@ -266,24 +292,34 @@ def _vector(
 
 
 def _row(
-    name: str, frame: str, cells: list[tuple[float, float] | None], unit: str, scale: float = 1.0
+    name: str, frame: str, cells: Sequence[tuple[float, float] | None], unit: str, scale: float = 1.0
 ) -> dict[str, Any]:
     shown = [None if cell is None else with_sigma(scale * cell[0], scale * cell[1]) for cell in cells]
     return {"name": name, "frame": frame, "cells": shown, "unit": unit}
 
 
 def tilt_of(calibration: Calibration) -> tuple[float, float]:
-    """Return the angle between gravity and the vertical of W, and its standard deviation, rad."""
-    x, y, z = calibration.gravity_W
-    across = float(np.hypot(x, y))
-    square = x * x + y * y + z * z
+    """Return the angle between gravity and where it was said to point, and its standard deviation, rad."""
+    g, down = calibration.gravity_W, calibration.down_W
+    along = float(g @ down)
+    sideways = g - along * down
+    across = float(np.linalg.norm(sideways))
+    square = along * along + across * across
     C = calibration.covariance[GRAVITY, GRAVITY]
     if across * across > 1e-12 * square:
-        gradient = np.array([-z * x / across, -z * y / across, across]) / square
-        sigma = np.sqrt(gradient @ C @ gradient)
+        gradient = (along * sideways / across - across * down) / square
+        variance = float(gradient @ C @ gradient)
     else:  # upright to a millionth: every direction is the direction of the tilt
-        sigma = np.sqrt(np.linalg.eigvalsh(C[:2, :2])[-1] / square) if square else 0.0
-    return float(np.arctan2(across, -z)), float(sigma)
+        level = np.linalg.svd(down[None])[2][1:]
+        variance = float(np.linalg.eigvalsh(level @ C @ level.T)[-1]) / square if square else 0.0
+    return float(np.arctan2(across, along)), float(np.sqrt(variance))
+
+
+def _down(calibration: Calibration) -> str:
+    """Return where gravity was said to point, if that is not down along z."""
+    if np.allclose(calibration.down_W, [0, 0, -1]):
+        return ""
+    return ", ".join(signed(f"{value:.3g}") for value in calibration.down_W.tolist())
 
 
 # ---- poses -------------------------------------------------------------------------------------
@@ -324,16 +360,44 @@ def _residual_words(calibration: Calibration) -> list[str]:
     far = int((calibration.deviates[calibration.kept].max(axis=1) >= limit(n)).sum())
     words = [f"{_of(out, n)} left out."] if out else []
     if far:
-        words.append(
-            f"{_of(far, n)} used although beyond the limit: they contradict one another too much to say"
-            " which are right."
+        refused = calibration.verdict.level is Level.REFUSE
+        why = (
+            "the poses contradict one another too much to say which are right"
+            if refused
+            else "chance explains that nearly as well as a touch"
         )
+        words.append(f"{_of(far, n)} used although beyond the limit: {why}.")
     else:
-        words.append(f"{'The others' if out else f'All {n} poses'} agree with one another.")
+        words.append(_agreement(calibration, "the others" if out else f"all {n} poses"))
     words.append(
         f"The limit is {limit(n):.1f} sigma: the worst of {n} undisturbed poses passes it once in a hundred sets."
     )
     return words
+
+
+def _agreement(calibration: Calibration, them: str) -> str:
+    """Say whether the poses that were used fit together, which needs more than that none of them stands out."""
+    without = {DRIFT: "With the drift", REZERO: "With the re-zero"}.get(taken_off(calibration))
+    if without:
+        return f"{without} taken off, {them} agree with one another."
+    if calibration.causes[0].key not in {PLAIN, NOISE}:
+        return "No pose stands out, but together they do not fit the model: see what may explain it below."
+    if max(calibration.noise_factor) > 1:
+        return "No pose stands out, but together the poses scatter more than the noise that was given."
+    return f"{them[0].upper()}{them[1:]} agree with one another."
+
+
+def _causes(calibration: Calibration) -> list[dict[str, str]]:
+    """Return what may explain the residuals, the most probable first."""
+    return [
+        {"odds": _percent(cause.odds), "sentence": cause.sentence}
+        for cause in calibration.causes
+        if cause.odds >= _HARDLY
+    ]
+
+
+def _percent(probability: float) -> str:
+    return "over 99 %" if probability > 0.99 else f"{100 * probability:.0f} %"
 
 
 def _of(some: int, all_of_them: int) -> str:
@@ -345,37 +409,27 @@ def _of(some: int, all_of_them: int) -> str:
 
 def _noise(calibration: Calibration) -> dict[str, Any]:
     """Return where the noise comes from, and whether the residuals fit to it."""
-    noise = calibration.noise
+    noise, factors = calibration.noise, calibration.noise_factor
     return {
+        "orientation": plain(float(np.degrees(noise.orientation))) if noise.orientation else "",
+        "given": "" if calibration.plausible else _sizes(noise.sigmas / np.repeat(factors, 3)),
+        "factors": [plain(factor) for factor in factors],
         "estimated": noise.estimated,
         "freedom": [f"{freedom:.0f}" for freedom in noise.freedom],
         "percent": [f"{100 / np.sqrt(2 * freedom):.0f}" for freedom in noise.freedom],
         "least": bool((np.isclose(noise.sigmas, noise.least) & (noise.least > 0)).any()),
-        "chance": "" if noise.estimated else _chance(calibration),
+        "chance": _chance(calibration),
     }
 
 
 def _chance(calibration: Calibration) -> str:
-    kept = calibration.residuals[calibration.kept] / calibration.noise.sigmas
-    square = float(np.vdot(kept, kept))
-    if not square or not calibration.scatter:
-        return "The residuals are zero."
-    freedom = square / calibration.scatter
+    """Say how large the residuals are beside the noise that was given."""
+    freedom = max(6 * int(calibration.kept.sum()) - calibration.rank, 1)
+    square = calibration.scatter * freedom
     chance = float(chdtrc(freedom, square))
     odds = "fewer than 1" if chance < 0.01 else "more than 99" if chance > 0.99 else f"{100 * chance:.0f}"
-    words = (
+    return (
         f"The residuals are {plain(float(np.sqrt(calibration.scatter)))} times as large as that explains (chi-square"
         f" {square:.0f} at {freedom:.0f} degrees of freedom); chance alone gives as much in {odds} of 100"
-        " undisturbed sets."
+        f" undisturbed sets.{' That fits.' if _FITS < chance < 1 - _FITS else ''}"
     )
-    if not calibration.plausible:
-        return (
-            f"{words} That does not fit: drift, cable pull or a wrong noise figure do this. Every uncertainty on"
-            " this page has been widened by that factor."
-        )
-    if chdtr(freedom, square) < _TOO_QUIET:
-        return (
-            f"{words} That is less than it should be: the noise that was given is too large, and every uncertainty"
-            " on this page with it."
-        )
-    return f"{words} That fits."

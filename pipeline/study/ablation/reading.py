@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from itertools import count, cycle
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pipeline import kernel
 from pipeline.calibration import PoseNoise, PoseSample, calibrate
-from pipeline.calibration.drift import BiasTracker
 from pipeline.calibration.mounting import estimate_mount
 from pipeline.calibration.reachable import by_hand
 from pipeline.calibration.suggest import plan_poses
@@ -24,6 +24,7 @@ from pipeline.timing import time_calls
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from pipeline.calibration import GravityModel
     from pipeline.study.ablation.records import Record
 
 DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
@@ -80,9 +81,7 @@ def costs(rng: np.random.Generator, rounds: int) -> dict[str, tuple[float, float
     poses = _poses(R_WE, readings)
     calibration = calibrate(poses)
     inverse, rows = np.linalg.inv(crosstalk_of(USUAL[CROSSTALK])), list(readings)
-    tracker = BiasTracker(calibration.model)
-    moments = zip(count(60.0, 60.0), cycle(readings), strict=False)
-    model, R, told = calibration.model, R_WE[0], _pose_noise()
+    model, R, watch, begun = calibration.model, R_WE[0], _watch(calibration.model), count(60.0, 60.0)
     calls: dict[str, Any] = {
         "compensate": (lambda row: model.compensate(R, row), rows),
         CROSSTALK: (lambda row: model.compensate(R, inverse @ row), rows),
@@ -92,8 +91,7 @@ def costs(rng: np.random.Generator, rounds: int) -> dict[str, tuple[float, float
     timed = {name: timing.median / 1e3 for name, timing in time_calls(calls, rounds=rounds, block=12).items()}
 
     def follow(_: None) -> None:
-        t, reading = next(moments)
-        tracker.update(t, R, reading, told)
+        _see(watch, next(begun), R, model.compensate(R, readings[0]), rng)
 
     inertia, place = Inertia(model, 0.04), np.zeros(3)
 
@@ -152,19 +150,44 @@ def _drift(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.ra
     R = _orientations()
     still = WEIGHT.predict(R) + bias + noise.sigmas * rng.standard_normal((_POSES, 6))
     model = calibrate(_poses(R, still)).model
-    tracker = BiasTracker(model)
+    watch = _watch(model)
     first, last = _FREE_S
     for number, t in enumerate(np.linspace(first, last, _FREE)):
-        warmer = amount * (t - first) / (last - first)
-        free = WEIGHT.predict(R[number % _POSES]) + bias + warmer * drift
-        free = free + noise.sigmas * rng.standard_normal(6)
-        tracker.update(float(t), R[number % _POSES], free, noise)
+        warmer, turn = amount * (t - first) / (last - first), R[number % _POSES]
+        free = WEIGHT.predict(turn) + bias + warmer * drift
+        _see(watch, float(t), turn, model.compensate(turn, free), rng)
+    zero = watch.at(last).offset
+    moved = np.zeros(6) if zero is None else zero
     readings = record.contacts + WEIGHT.predict(record.R_WS) + bias + amount * drift + drawn
     return Read(
         model.compensate(record.R_WS, readings),
-        tracker.corrected_model().compensate(record.R_WS, readings),
+        model.compensate(record.R_WS, readings) - moved,
         (np.eye(3),) * 3,
     )
+
+
+def _watch(model: GravityModel) -> kernel.ZeroWatch:
+    """Watch the zero of a sensor whose probe is touched 100 mm away from it."""
+    return kernel.ZeroWatch(
+        model.vector,
+        model.covariance,
+        np.tile([0.0, 0.0, 0.1], (6, 1)),
+        orientation_sigma=0.0,
+        min_force=0.5,
+    )
+
+
+def _see(
+    watch: kernel.ZeroWatch,
+    t: float,
+    R_WS: NDArray[np.float64],
+    wrench: NDArray[np.float64],
+    rng: np.random.Generator,
+) -> None:
+    """Show it a moment without contact: a second of readings about a compensated wrench (6,), S."""
+    times = t + np.arange(_MEANED + 1) / _MEANED
+    noise = preset(SENSOR).noise * rng.standard_normal((len(times), 6))
+    watch.see(wrench + noise, np.repeat(R_WS[None], len(times), axis=0), times)
 
 
 def _bias() -> NDArray[np.float64]:

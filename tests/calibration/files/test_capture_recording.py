@@ -23,7 +23,9 @@ from pipeline.calibration.files.capture_recording import (
     is_recording,
     read_any_poses,
 )
-from pipeline.calibration.orientation import Convention
+from pipeline.calibration.orientation import Convention, Kind
+from pipeline.contact.wrench_csv import WrenchFileError
+from pipeline.demo.files import write_csv as write_table
 from pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from pipeline.errors import InputError
 from pipeline.recording import RecordingError, RecordingInfo, RecordingWriter, read_recording
@@ -36,7 +38,10 @@ NOWHERE = np.full(3, np.nan)
 
 @pytest.fixture(scope="module")
 def taken() -> Recording:
-    return stream(5, poses=6, bumps=0.2, vertical=0.0)
+    made = stream(5, poses=6, bumps=0.2, vertical=0.0)
+    knock = made.dwells[2].start + 1.6  # while it is averaged: the pose is taken once more
+    made.wrenches[(made.t > knock) & (made.t < knock + 0.3), 0] += 8
+    return made
 
 
 def write(file: Path, taken: Recording, *, late: float = 0.0, gap: tuple[float, float] = (0, 0)) -> Path:
@@ -51,6 +56,27 @@ def write(file: Path, taken: Recording, *, late: float = 0.0, gap: tuple[float, 
             if row % step == 0 and not gap[0] < t < gap[1]:
                 writer.flange(FlangeSample(t - late, taken.R_WS[row] @ MOUNT.T, NOWHERE))
     return file
+
+
+def tables(folder: Path, taken: Recording, *, late: float = 0.0, clock: float = 0.0) -> tuple[Path, Path]:
+    """Write the same as `write` into two tables, the robot's with angles about fixed axes in degrees."""
+    wrenches = taken.wrenches.copy()
+    wrenches[500::1000] = np.nan
+    step = round(taken.rate / 50)
+    angles = Rotation.from_matrix(taken.R_WS[::step] @ MOUNT.T).as_euler("xyz", degrees=True)
+    sensor, robot = folder / "wrenches.csv", folder / "robot.csv"
+    rows = np.column_stack([taken.t, wrenches]).tolist()
+    cells = [["" if value != value else value for value in row] for row in rows]
+    write_table(sensor, ("t", "fx", "fy", "fz", "mx", "my", "mz"), cells)
+    write_table(
+        robot,
+        ("t", "rx", "ry", "rz"),
+        np.column_stack([taken.t[::step] - late + clock, angles]).tolist(),
+    )
+    return sensor, robot
+
+
+EULER = Convention(Kind.EULER, "xyz")
 
 
 @pytest.fixture(scope="module")
@@ -144,6 +170,99 @@ def test_a_delay_needs_a_recording() -> None:
     with pytest.raises(InputError, match="a delay needs a recording"):
         capture_any(io.BytesIO(b"t\n"), delay=0.1)
     assert not is_recording(Path("none"))
+
+
+# ---- two tables ----------------------------------------------------------------------------------
+
+
+def test_two_tables_give_what_the_recording_gives(file: Path, taken: Recording, tmp_path: Path) -> None:
+    sensor, robot = tables(tmp_path, taken)
+    found = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT)
+    expected = capture_recording(file, R_ES=MOUNT)
+    assert found.rows == expected.rows
+    assert len(found.poses) == len(expected.poses) >= 5
+    for one, other in zip(found.poses, expected.poses, strict=True):
+        assert (one.name, one.force.tolist(), one.torque.tolist()) == (
+            other.name,
+            other.force.tolist(),
+            other.torque.tolist(),
+        )
+        np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=1e-12)
+    assert "no good" in found.warnings[0]
+
+
+@pytest.mark.parametrize("command", ["calibrate", "captures"])
+def test_the_commands_join_two_tables(taken: Recording, tmp_path: Path, command: str) -> None:
+    sensor, robot = tables(tmp_path, taken, late=LATE)
+    options = ("--robot-poses", robot, "--euler", "xyz", "--mount", "10,-20,70", "--delay", "auto")
+    result = invoke(command, sensor, *options, "--out", tmp_path / "out", "--json")
+    assert result.exit_code == 0, result.stderr
+    facts = json.loads(result.stdout)
+    assert "ms later than the robot" in said(result)
+    assert "left out, " in said(result)
+    if command == "calibrate":
+        assert facts["mass_kg"] == pytest.approx(taken.model.mass, abs=0.01)
+        assert f"{facts['poses']} still poses found" in facts["notes"][0]
+    else:
+        assert facts["delay_s"] == pytest.approx(LATE, abs=0.005)
+
+
+def test_the_other_commands_join_two_tables(taken: Recording, tmp_path: Path) -> None:
+    sensor, robot = tables(tmp_path, taken)
+    options = ("--robot-poses", robot, "--euler", "xyz", "--mount", "10,-20,70")
+    assert invoke("calibrate", sensor, *options, "--out", tmp_path / "c.json").exit_code == 0
+    checked = invoke("verify-still", tmp_path / "c.json", sensor, *options, "--json")
+    assert checked.exit_code == 0, checked.stderr
+    assert "still poses found" in json.loads(checked.stdout)["notes"][0]
+    assert "left out, " in said(checked)
+    diagnosed = invoke("diagnose", sensor, *options, "--json")
+    assert "still poses found" in json.loads(diagnosed.stdout)["notes"][0]
+    assert "left out, " in said(diagnosed)
+
+
+def test_a_doubtful_delay_is_told_and_not_applied(taken: Recording, tmp_path: Path) -> None:
+    sensor, robot = tables(tmp_path, taken, late=-LATE)
+    found = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay="auto")
+    assert found.delay == 0.0
+    assert "The delay is not applied" in " ".join(found.warnings)
+    assert "--delay -0.04" in " ".join(found.warnings)
+    forced = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay=-LATE)
+    assert forced.delay == -LATE
+
+
+def test_a_delay_brings_the_poses_to_their_wrenches(file: Path, taken: Recording, tmp_path: Path) -> None:
+    sensor, robot = tables(tmp_path, taken, late=3.0)
+    found = capture_any(sensor, EULER, robot_poses=robot, R_ES=MOUNT, delay=3.0)
+    expected = capture_recording(file, R_ES=MOUNT)
+    assert len(found.poses) == len(expected.poses)
+    for one, other in zip(found.poses, expected.poses, strict=True):
+        np.testing.assert_allclose(one.R_WS, other.R_WS, rtol=0, atol=1e-6)
+        np.testing.assert_allclose(one.force, other.force, rtol=0, atol=1e-9)
+
+
+def test_tables_that_do_not_go_together(file: Path, taken: Recording, tmp_path: Path) -> None:
+    sensor, robot = tables(tmp_path, taken, clock=1.7e9)
+    with pytest.raises(
+        RecordingError, match=r"wrenches\.csv: column t runs from .*, that of .*robot\.csv from 17"
+    ):
+        capture_any(sensor, EULER, robot_poses=robot)
+    with pytest.raises(InputError, match="leave the convention out, and the robot's table"):
+        capture_any(file, robot_poses=robot)
+    with pytest.raises(WrenchFileError, match=r"line 1: there is no orientation .*--robot-poses FILE"):
+        capture_any(sensor)
+    with pytest.raises(WrenchFileError, match="pass --euler ORDER"):
+        capture_any(sensor, robot_poses=robot)
+
+
+def test_wrong_rows_of_the_robot_are_named(taken: Recording, tmp_path: Path) -> None:
+    sensor, robot = tables(tmp_path, taken)
+    rows = robot.read_text().splitlines()
+    robot.write_text("\n".join([*rows[:5], rows[6], rows[5], *rows[7:]]) + "\n")
+    with pytest.raises(WrenchFileError, match=r"robot\.csv: line 7: column t runs backwards"):
+        capture_any(sensor, EULER, robot_poses=robot)
+    (tmp_path / "q.csv").write_text("t,qw,qx,qy,qz\n0,1,0,0,0\n1,1,1,0,0\n")
+    with pytest.raises(WrenchFileError, match=r"q\.csv: line 3: the quaternion has length"):
+        capture_any(sensor, robot_poses=tmp_path / "q.csv")
 
 
 def flat(file: Path, *, robot: bool, shift: float = 0.0) -> Path:

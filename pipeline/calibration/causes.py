@@ -1,0 +1,206 @@
+"""What is found behind the residuals, in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration import nuisance
+from pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
+from pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
+from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
+from pipeline.calibration.diagnosis.odds import NONE
+from pipeline.calibration.diagnosis.prior import Prior
+from pipeline.calibration.fit import PoseNoise
+from pipeline.calibration.poses import named
+from pipeline.calibration.wording import plain
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration.calibrate import Calibration
+    from pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from pipeline.calibration.poses import PoseSample, Stack
+    from pipeline.calibration.reml import NoisePrior
+
+_TOLD = 0.01  # probability from which a cause is listed
+_LIKELY = 0.75  # three to one
+_OFF = float(np.log(2.0))  # of the logarithm of a figure that is called wrong
+_HOUR = 3600.0  # s
+
+
+@dataclass(frozen=True)
+class Cause:
+    """What may be behind the residuals.
+
+    Attributes
+    ----------
+    key : str
+        plain, noise, drift, rezero, cable or mount; a convention that the diagnosis found; or none of those known.
+    odds : float
+        Its probability among all causes that were compared, 0 to 1.
+    sentence : str
+        What it would mean, with its size and the remedy.
+    believed : bool
+        The evidence is strong: the calibration rests on it.
+    """
+
+    key: str
+    odds: float
+    sentence: str
+    believed: bool = False
+
+
+def causes(
+    poses: Sequence[PoseSample], arrays: Stack, compared: Comparison, told: Candidate
+) -> tuple[Cause, ...]:
+    """Return what the comparison found, the most probable first.
+
+    Parameters
+    ----------
+    poses : sequence of PoseSample
+    arrays : Stack
+        The same.
+    compared : Comparison
+    told : Candidate
+        The cause that is believed; it is listed in any case.
+    """
+    shares: dict[str, float] = {}
+    first: dict[str, Candidate] = {}
+    for candidate, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True):
+        key = _key(candidate)
+        shares[key] = shares.get(key, 0.0) + probability
+        first.setdefault(key, candidate)
+    found = [
+        Cause(key, share, _sentence(first[key], poses, arrays, compared), key == _key(told))
+        for key, share in shares.items()
+        if share > _TOLD or key == _key(told)
+    ]
+    return tuple(sorted(found, key=lambda cause: -cause.odds))
+
+
+def convention_cause(
+    calibration: Calibration, prior: NoisePrior, raw: RawOrientations | None
+) -> Cause | None:
+    """Return the mistaken convention that explains poses better than what they were said to be, if there is one.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    prior : NoisePrior
+        With the noise as it was given.
+    raw : RawOrientations or None
+        The numbers behind the orientations.
+    """
+    poses = calibration.poses
+    if not FEWEST_POSES <= len(poses) <= MOST_POSES:
+        return None
+    noise = None
+    if prior.sigmas is not None:
+        noise = PoseNoise(prior.sigmas[:3], prior.sigmas[3:], orientation=prior.orientation)
+    known = Prior(down_W=(calibration.down_W[0], calibration.down_W[1], calibration.down_W[2]))
+    found = diagnose(poses, noise, prior=known, raw=raw)
+    key = NONE if found.none_known else found.best.hypothesis
+    told = {cause.key for cause in calibration.causes if cause.believed}
+    if found.consistent or key in {AS_DECLARED, *told} or (key == NONE and told - {PLAIN, NOISE}):
+        return None
+    odds = min(max(float(found.odds.get(key, 0.0)), 0.0), 1.0)
+    return Cause(key, odds, found.sentence, odds >= _LIKELY)
+
+
+def overruled(causes: tuple[Cause, ...], by: Cause) -> tuple[Cause, ...]:
+    """Return causes with one more that speaks for the same residuals: what it leaves of them is theirs."""
+    others = (
+        replace(cause, odds=cause.odds * (1 - by.odds), believed=cause.believed and not by.believed)
+        for cause in causes
+    )
+    return tuple(sorted((by, *others), key=lambda cause: -cause.odds))
+
+
+def _key(candidate: Candidate) -> str:
+    doubted = candidate.key == PLAIN and candidate.prior.sigmas is not None and not candidate.prior.believed
+    return NOISE if doubted else candidate.key
+
+
+def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, compared: Comparison) -> str:
+    fit = candidate.noisy.fit
+    match _key(candidate):
+        case nuisance.DRIFT:
+            return _drift(candidate, arrays)
+        case nuisance.REZERO:
+            return _rezero(candidate, poses, arrays, compared)
+        case nuisance.CABLE:
+            return (
+                f"Something pulls with the orientation otherwise than a weight does, by up to"
+                f" {_sizes(fit.offsets)}: a cable or a hose, or a sensor whose axes differ in gain. Loosen what"
+                " leads to the tool, fix it to the flange, and take the poses again."
+            )
+        case nuisance.MOUNT:
+            turn = Rotation.from_matrix(fit.mount).as_rotvec()
+            angle = float(np.linalg.norm(turn))
+            axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
+            return (
+                f"The sensor looks turned by {np.degrees(angle):.2g}° about ({axis}) from where it was said to be on"
+                " its mount. Calibrate with --estimate-mount, or correct the mounting."
+            )
+        case "noise":
+            given = candidate.prior.sigmas
+            factors = (candidate.noisy.noise.sigmas / given)[[0, 3]] if given is not None else np.ones(2)
+            turn = candidate.noisy.noise.orientation
+            said = candidate.prior.orientation
+            if said and not candidate.prior.guessed and abs(np.log(turn / said)) > _OFF:
+                return (
+                    f"The orientations scatter by {np.degrees(turn):.2g}°, not by"
+                    f" {np.degrees(said):.2g}° as was given: every uncertainty is computed from"
+                    " what the poses show."
+                )
+            return (
+                f"The residuals are {plain(factors[0])} times what the noise given explains for forces and"
+                f" {plain(factors[1])} times for torques: every uncertainty is computed from what the poses show."
+            )
+        case _:
+            return "Bias, weight and noise alone explain the poses."
+
+
+def _drift(candidate: Candidate, arrays: Stack) -> str:
+    fit = candidate.noisy.fit
+    whole = candidate.terms.columns[np.argmin(arrays.moments)] @ fit.added
+    rate = ""
+    if arrays.duration is not None:
+        F, M = (np.linalg.norm(half) for half in np.split(fit.added[:6] * _HOUR / arrays.duration, 2))
+        rate = f", at the end by {plain(float(F))} N and {plain(1e3 * float(M))} mN·m an hour"
+    return (
+        f"The bias drifts: by {_sizes(whole[None])} from the first pose to the last{rate}. It has been taken out, and"
+        " the bias is that of the session's end. Let the sensor warm up, and calibrate again before it counts."
+    )
+
+
+def _rezero(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, compared: Comparison) -> str:
+    moments = {
+        each.moment: probability
+        for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True)
+        if each.key == nuisance.REZERO
+    }
+    total = sum(moments.values())
+    likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.moment]
+    names = " or ".join(named(poses, _at(arrays, moment)) for moment in sorted(likely))
+    return (
+        f"The sensor's zero jumped by {_sizes(candidate.noisy.fit.added[None])} before {names}, as after a re-zero."
+        " The bias is that of the poses since then. Keep the sensor from being zeroed while poses are taken."
+    )
+
+
+def _at(arrays: Stack, moment: float) -> int:
+    later = np.where(arrays.moments >= moment, arrays.moments, np.inf)
+    return int(np.argmin(later))
+
+
+def _sizes(wrenches: NDArray[np.float64]) -> str:
+    F = float(np.linalg.norm(wrenches[:, :3], axis=1).max())
+    M = float(np.linalg.norm(wrenches[:, 3:], axis=1).max())
+    return f"{plain(F)} N and {plain(1e3 * M)} mN·m"

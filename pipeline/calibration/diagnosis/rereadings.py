@@ -1,0 +1,239 @@
+"""Other meanings of the same orientations: transposed, another order, other angles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import permutations, product
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from pipeline.calibration.diagnosis.conversions import (
+    COLUMNS_REVERSED,
+    FIXED_ORDERS,
+    VECTOR,
+    columns_mistaken,
+    from_angles,
+    recovered,
+)
+from pipeline.calibration.diagnosis.hypothesis import Hypothesis
+from pipeline.calibration.orientation import Convention, Kind, rotations
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+_PROPER = tuple(first + second + first for first, second in permutations("xyz", 2))
+ORDERS = tuple(way(order) for way in (str.lower, str.upper) for order in (*FIXED_ORDERS, *_PROPER))
+_SAME = 1e-3  # rad: orientations printed with four digits differ by less
+# Transposed orientations are by far the most common mistake of this family, then another order of quaternions.
+_OFTEN, _SOMETIMES = 20.0, 5.0
+
+
+@dataclass(frozen=True, eq=False)
+class RawOrientations:
+    """Orientations as they were written, and how they were read.
+
+    Parameters
+    ----------
+    values : (n, k)
+        One row a pose, columns as `convention.columns`.
+    convention : Convention
+        How the poses' R_WS were made from them; a constant rotation of the sensor in the flange may have
+        followed.
+
+    Raises
+    ------
+    InputError
+        The shape does not fit the convention, or a value is not finite.
+    """
+
+    values: NDArray[np.float64]
+    convention: Convention
+
+    def __post_init__(self) -> None:
+        values, columns = np.array(self.values, dtype=np.float64), self.convention.columns
+        if values.ndim != 2 or values.shape[1] != len(columns) or not np.isfinite(values).all():
+            raise InputError(
+                f"RawOrientations.values: give finite numbers of shape (n, {len(columns)}), columns"
+                f" {', '.join(columns)}, not shape {values.shape}."
+            )
+        object.__setattr__(self, "values", values)
+
+
+class Rereadings:
+    """Other meanings of the same orientations."""
+
+    def __init__(self, R_WS: NDArray[np.float64], raw: RawOrientations | None) -> None:
+        self._R_WS, self._raw = R_WS, raw
+        self._mount = np.eye(3) if raw is None else _mount(R_WS, raw)
+        self.not_testable: list[str] = []
+
+    def __iter__(self) -> Iterator[Hypothesis]:
+        yield self._transposed()
+        kind = Kind.QUATERNION if self._raw is None else self._raw.convention.kind
+        if kind is Kind.QUATERNION:
+            yield from self._quaternions()
+            yield from self._converted()
+        else:
+            yield from self._angles()
+
+    def _transposed(self) -> Hypothesis:
+        if self._raw is None:
+            R_WS, inverse = self._R_WS.transpose(0, 2, 1), False
+        else:
+            inverse = self._raw.convention.inverse
+            R_WS = self._read(replace(self._raw.convention, inverse=not inverse))
+        there, here = ("R_WS", "R_SW") if inverse else ("R_SW", "R_WS")
+        return Hypothesis(
+            "transposed",
+            "orientations transposed",
+            f"The orientations are transposed ({there}, not {here})",
+            f"them read as {there}",
+            "Leave out --inverse." if inverse else "Pass --inverse, or export R_WS.",
+            R_WS,
+            share=_OFTEN,
+        )
+
+    def _read(self, convention: Convention) -> NDArray[np.float64]:
+        assert self._raw is not None  # noqa: S101 - for the type checker; callers have seen to it
+        return np.asarray(rotations(self._raw.values, convention) @ self._mount, dtype=np.float64)
+
+    def _quaternions(self) -> Iterator[Hypothesis]:
+        if self._raw is None:
+            values, convention = _quaternions(self._R_WS), Convention()
+        else:
+            values, convention = self._raw.values, self._raw.convention
+        for shift, order, read in ((1, "x, y, z, w", "w, x, y, z"), (-1, "w, x, y, z", "x, y, z, w")):
+            yield Hypothesis(
+                "quaternion_" + order.replace(", ", ""),
+                f"quaternions in the order {order}",
+                f"The quaternions are in the order {order}, but were read as {read}",
+                f"them read as {order}",
+                "Swap the columns' names or the order in which they are exported: contactbench wants qw, qx, qy, qz.",
+                rotations(np.roll(values, shift, axis=1), convention) @ self._mount,
+                share=_SOMETIMES,
+            )
+
+    def _angles(self) -> Iterator[Hypothesis]:
+        assert self._raw is not None  # noqa: S101
+        given = self._raw.convention
+        if given.kind is Kind.EULER:
+            for degrees in (given.degrees, not given.degrees):
+                yield self._kind(replace(given, kind=Kind.ROTATION_VECTOR, degrees=degrees))
+        if given.kind is not Kind.JOINTS:
+            for order in ORDERS:
+                if given.kind is not Kind.EULER or order != given.order:
+                    yield self._kind(replace(given, kind=Kind.EULER, order=order))
+        unit, other = ("radians", "degrees") if given.degrees else ("degrees", "radians")
+        try:
+            R_WS = self._read(replace(given, degrees=not given.degrees))
+        except InputError as error:
+            self.not_testable.append(f"The angles cannot be {unit}: {error}")
+            return
+        yield Hypothesis(
+            unit,
+            f"angles in {unit}",
+            f"The angles are in {unit}, but were read as {other}",
+            f"them read as {unit}",
+            "Pass --radians." if given.degrees else "Leave out --radians.",
+            R_WS,
+            share=_OFTEN,
+        )
+
+    def _kind(self, convention: Convention) -> Hypothesis:
+        assert self._raw is not None  # noqa: S101
+        given = self._raw.convention
+        what, here = _meaning(convention), _meaning(given)
+        if convention.kind is Kind.ROTATION_VECTOR:
+            key, option, share = "rotation_vector", "--rotation-vector", _SOMETIMES
+        else:
+            key, option, share = f"euler_{convention.order}", f"--euler {convention.order}", 1.0
+        remedy = f"Pass {option}."
+        if convention.degrees != given.degrees:
+            unit = "degrees" if convention.degrees else "radians"
+            key, what = f"{key}_{unit}", f"{what} in {unit}"
+            remedy = f"Pass {option}, and {'leave out' if convention.degrees else 'pass'} --radians."
+        return Hypothesis(
+            key,
+            what,
+            f"The orientations are {what}, not {here}",
+            "them read so",
+            remedy,
+            self._read(convention),
+            share=share,
+        )
+
+    def _converted(self) -> Iterator[Hypothesis]:
+        """Yield what an earlier program did that took angles for other angles than they were."""
+        self.not_testable.append(
+            "Degrees taken for radians, or the reverse, can only be tested with the angles as they were written."
+        )
+        R = self._R_WS @ self._mount.T
+        inverse = self._raw is not None and self._raw.convention.inverse
+        if inverse:
+            R = R.transpose(0, 2, 1)
+        for read, meant in product((*FIXED_ORDERS, VECTOR), repeat=2):
+            if meant != read:
+                again = from_angles(recovered(R, read, meant), meant)
+                names = _named(meant), _named(read), _short(meant), _short(read)
+                yield self._mended(f"{_slug(meant)}_read_as_{_slug(read)}", names, again, inverse)
+        # The three columns the other way round. Of angles whose first axis is also the last, such as ZYZ, two sets
+        # are equally plain: only the numbers themselves tell which was written.
+        for read, meant in COLUMNS_REVERSED:
+            long = f"Euler angles in the order {meant}", f"Euler angles in the order {read}"
+            again = columns_mistaken(R, read, meant)
+            yield self._mended(f"columns_{meant}_read_as_{read}", (*long, *long), again, inverse)
+
+    def _mended(self, key: str, names: tuple[str, ...], R: NDArray[np.float64], inverse: bool) -> Hypothesis:
+        """Return the hypothesis of a wrong conversion; `names` of what was meant and read, long and short."""
+        meant, read, short_meant, short_read = names
+        return Hypothesis(
+            key,
+            f"{short_meant} converted as {short_read.removeprefix('Euler angles in the order ')}",
+            f"The orientations were made from {meant} as if they were {read}",
+            "that conversion mended",
+            f"Convert again as {meant}, or give contactbench the angles themselves.",
+            (R.transpose(0, 2, 1) if inverse else R) @ self._mount,
+        )
+
+
+def _meaning(convention: Convention) -> str:
+    vector = convention.kind is Kind.ROTATION_VECTOR
+    return "rotation vectors" if vector else f"Euler angles in the order {convention.order}"
+
+
+def _mount(R_WS: NDArray[np.float64], raw: RawOrientations) -> NDArray[np.float64]:
+    """Return the constant rotation R_ES that the sensor has in the flange of raw orientations R_WE."""
+    if len(raw.values) != len(R_WS):
+        raise InputError(
+            f"raw has {len(raw.values)} rows for {len(R_WS)} poses: give the numbers behind each pose, in order."
+        )
+    mounts = rotations(raw.values, raw.convention).transpose(0, 2, 1) @ R_WS
+    wrong = np.flatnonzero(np.abs(mounts - mounts[0]).max(axis=(1, 2)) > _SAME)
+    if len(wrong):
+        raise InputError(
+            f"raw row {wrong[0] + 1} is not the orientation of pose {wrong[0] + 1}, as the other rows are: give"
+            " the numbers that the poses were made from, and the convention by which."
+        )
+    return np.asarray(mounts[0], dtype=np.float64)
+
+
+def _named(way: str) -> str:
+    return "rotation vectors" if way == VECTOR else f"Euler angles about the fixed axes {', '.join(way)}"
+
+
+def _short(way: str) -> str:
+    return "rotation vectors" if way == VECTOR else f"Euler angles {way}"
+
+
+def _slug(way: str) -> str:
+    return "rotation_vector" if way == VECTOR else f"euler_{way}"
+
+
+def _quaternions(R: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return w, x, y, z (n, 4)."""
+    return np.roll(Rotation.from_matrix(R).as_quat(), 1, axis=1)

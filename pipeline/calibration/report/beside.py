@@ -1,0 +1,24 @@
+"""What was taken off the poses' readings beside weight and bias, as a report has to name it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.calibration.nuisance import DRIFT, REZERO
+
+if TYPE_CHECKING:
+    from pipeline.calibration.calibrate import Calibration
+
+_SAME = 1e-9  # N, N·m
+
+
+def taken_off(calibration: Calibration) -> str:
+    """Return DRIFT or REZERO, or nothing: after a re-zero there are two biases, in a drift one for each pose."""
+    offsets = calibration.offsets
+    if not offsets.any():
+        return ""
+    first = offsets[np.argmax(np.abs(offsets).sum(axis=1))]
+    two = [np.abs(offsets - one).max(axis=1) < _SAME for one in (first, np.zeros(6))]
+    return REZERO if np.logical_or(*two).all() else DRIFT

@@ -1,0 +1,213 @@
+"""``contactbench check ...``: a known weight and a known point, before contacts are trusted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from pipeline.commands.options import (
+    EulerOption,
+    InverseOption,
+    MountOption,
+    RadiansOption,
+    RobotOption,
+    VectorOption,
+    convention,
+    numbers,
+    refuse_overwriting,
+)
+from pipeline.console import JsonOption, print_json, say
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_NOT_PASSED = 1
+_STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
+
+check_app = typer.Typer(
+    help="Check a calibration against a known weight and a known point: what its own residuals cannot show.",
+    epilog="Example: contactbench check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv"
+    " --mass 1.0",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+CalibrationOption = Annotated[Path, typer.Option(help="What contactbench calibrate wrote.")]
+OutOption = Annotated[
+    Path | None,
+    typer.Option(help="Also write the result to this file, JSON, for config export and a session."),
+]
+
+
+@check_app.command(
+    help=(
+        "Hang a known weight on the tool, and compare it with what the sensor reads.\n\n"
+        "UNLOADED and LOADED are still readings without the weight and with it: recordings, or tables of poses as for"
+        " calibrate. Take both in the same orientation; more orientations test more channels. This finds forces in kgf,"
+        " lbf or mN, a wrong scale or sign, swapped channels, and torques in N·mm.\n\n"
+        "Exit code 1: the weight is not what it should be, or the uncertainty is too large to tell."
+    ),
+    epilog="Example: contactbench check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv"
+    " --mass 1.0 --mass-sigma 0.0005 --certificate DKD-1234 --out known_weight.json",
+)
+def weight(
+    calibration: CalibrationOption,
+    unloaded: Annotated[Path, typer.Option(help="Readings without the weight: .csv or .mcap.")],
+    loaded: Annotated[Path, typer.Option(help="Readings with the weight: .csv or .mcap.")],
+    mass: Annotated[float, typer.Option(help="Mass of the weight, kg.")],
+    mass_sigma: Annotated[
+        float, typer.Option(help="Standard uncertainty of the mass, kg; half of a certificate's U (k = 2).")
+    ] = 0.0,
+    certificate: Annotated[str, typer.Option(help="Number of the weight's certificate.")] = "",
+    gravity: Annotated[
+        float | None, typer.Option(help="Local acceleration of free fall, m/s² [9.80665 ± 0.015].")
+    ] = None,
+    limit: Annotated[float, typer.Option(help="Largest error of scale that passes, %.")] = 1.0,
+    reach: Annotated[
+        float, typer.Option(help="Largest plausible distance of the weight's string from the sensor, mm.")
+    ] = 500.0,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    out: OutOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Compare a known weight with what the sensor reads."""
+    inputs = {"calibration": calibration, "unloaded": unloaded, "loaded": loaded}
+    refuse_overwriting(out, list(inputs.values()))
+    convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from pipeline.verification.known_weight import WeightParameters, weight_content
+
+    given = WeightParameters.checked(
+        {
+            "name": "known_weight.json" if out is None else out.name,
+            "mass": mass,
+            "mass_sigma": mass_sigma,
+            "certificate": certificate,
+            "gravity": gravity,
+            "limit": limit,
+            "reach": reach,
+            **_orientations(euler, rotation_vector, robot, mount, radians=radians, inverse=inverse),
+        }
+    )
+    _finish(weight_content(inputs, given, _now()), out, as_json=as_json)
+
+
+@check_app.command(
+    help=(
+        "Press one known point of the probe, and compare it with where the contact is located.\n\n"
+        "RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw"
+        " readings) and orientations; every steady press in it is taken to be of the point. Press with a finger, 5 to"
+        " 15 N, on the side of the probe, 15 mm or more off the sensor's axis. This finds torques of the wrong sign or"
+        " unit, forces in kgf, and a probe that is turned on the sensor.\n\n"
+        "Exit code 1: the contact is elsewhere, or the press cannot tell."
+    ),
+    epilog="Example: contactbench check touch --probe probe.ply --calibration calibration.json --point 20,0,185"
+    " press.mcap --out known_touch.json",
+)
+def touch(
+    recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="The press: .mcap or .csv.")],
+    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
+    calibration: CalibrationOption,
+    point: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z", help="Where it was pressed, mm in the sensor frame, as the probe's mesh."
+        ),
+    ] = None,
+    markers: Annotated[Path | None, typer.Option(help="Instead: table of markers, with --marker.")] = None,
+    marker: Annotated[str | None, typer.Option(metavar="NAME", help="The marker that was pressed.")] = None,
+    point_sigma: Annotated[float, typer.Option(help="How well the point is hit, 1 sigma, mm.")] = 2.0,
+    limit: Annotated[float, typer.Option(help="Largest error that passes, mm.")] = 5.0,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    mount: MountOption = None,
+    out: OutOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Compare a known point with where a press on it is located."""
+    inputs = {"calibration": calibration, "probe": probe, "touch": recording}
+    refuse_overwriting(out, list(inputs.values()))
+    convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
+    from pipeline.verification.known_touch import TouchParameters, touch_content
+
+    given = TouchParameters.checked(
+        {
+            "name": "known_touch.json" if out is None else out.name,
+            "point": _point(point, markers, marker),
+            "point_sigma": point_sigma,
+            "limit": limit,
+            **_orientations(euler, rotation_vector, None, mount, radians=radians, inverse=inverse),
+        }
+    )
+    _finish(touch_content(inputs, given, _now()), out, as_json=as_json)
+
+
+def _point(point: str | None, markers: Path | None, marker: str | None) -> list[float]:
+    if (markers is None) != (marker is None) or (point is None) == (marker is None):
+        raise typer.BadParameter(
+            "say where it was pressed: --point X,Y,Z, or --markers FILE with --marker NAME."
+        )
+    if point is not None:
+        return numbers(point, 3, "--point")
+    from pipeline.verification import load_markers
+
+    assert markers is not None  # noqa: S101 - for the type checker; seen to above
+    known = load_markers(markers)
+    if marker not in known.names:
+        known_names = ", ".join(known.names[:20])
+        raise typer.BadParameter(f"{markers}: no marker {marker}: it has {known_names}.")
+    found: list[float] = (1e3 * known[known.names.index(marker)].point_S).tolist()
+    return found
+
+
+def _orientations(
+    euler: str | None,
+    rotation_vector: bool,
+    robot: str | None,
+    mount: str | None,
+    *,
+    radians: bool,
+    inverse: bool,
+) -> dict[str, Any]:
+    return {
+        "euler": euler,
+        "rotation_vector": rotation_vector,
+        "robot": robot,
+        "radians": radians,
+        "inverse": inverse,
+        "mount": None if mount is None else numbers(mount, 3, "--mount"),
+    }
+
+
+def _now() -> str:
+    from pipeline.calibration.files.calibration_file import creation_time
+
+    return creation_time().strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def _finish(content: Mapping[str, Any], out: Path | None, *, as_json: bool) -> None:
+    """Write, show, and end with the exit code."""
+    from pipeline.durable import write_durably
+    from pipeline.errors import InputError
+    from pipeline.verification.known import to_bytes
+
+    if out is not None:
+        try:
+            write_durably(out, to_bytes(content))
+        except (OSError, ValueError) as error:
+            raise InputError(f"{out}: cannot be written ({error}): choose another place.") from error
+    for sentence in content["warnings"]:
+        say(f"warning: {sentence}", "yellow")
+    say(f"{content['outcome'].upper()}: {content['sentence']}", _STYLES[content["outcome"]])
+    if as_json:
+        print_json({**content, "out": None if out is None else str(out)})
+    if not content["passed"]:
+        raise typer.Exit(_NOT_PASSED)

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.pages.probe_housing import bench_address, take_housing
+from pipeline.calibration.model import STANDARD_GRAVITY
 from pipeline.errors import InputError
 from pipeline.session import Session
+from pipeline.verification.known import TOUCH, WEIGHT
 from pipeline.workbench import gravity_results
 from pipeline.workbench.desk import Desk
 from pipeline.workbench.gravity import GravityWork
 from pipeline.workbench.gravity_settings import gravity_settings
+from pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from pipeline.workbench.live import Live
 from pipeline.workbench.markers import keep, spread
 from pipeline.workbench.probe import Plan, ProbeWork
@@ -33,6 +36,7 @@ STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
 _STEPS_A_SECOND = 250
 _FACETS, _MARKERS, _FORCE = 2_000, 12, 9.0
 _PATIENCE_S, _MOST = 120.0, 40
+_HUNG_S = 60.0  # the known weight
 
 
 def make_session(folder: Path, say: Callable[[str], None] = lambda _: None) -> None:
@@ -52,6 +56,7 @@ def make_session(folder: Path, say: Callable[[str], None] = lambda _: None) -> N
             ("gravity", _weigh),
             ("probe", _prepare),
             ("region", _paint),
+            ("known weight and known point", _check),
             ("touches", _verify),
         ):
             say(title)
@@ -146,6 +151,37 @@ def _paint(desk: Desk, _live: Live) -> None:
     snapshot, shell = regions.model.snapshot(), regions.shell
     desk.do(lambda session: keep_regions(session, snapshot, shell)).result()
     desk.do(apply(desk)).result()
+
+
+def _check(desk: Desk, live: Live) -> None:
+    """Hang a kilogram on the tool, and press the marker that is farthest off the axis."""
+    work, bench = KnownChecks(desk, live), live.pair.bench if live.pair is not None else None
+    reading = live.reading()
+    assert bench is not None  # noqa: S101  (the virtual bench is open)
+    assert reading is not None  # noqa: S101  (it gave samples)
+    unloaded = _read(work, live, StillReading())
+    bench.bump((reading.R_WS.T @ [0.0, 0.0, -STANDARD_GRAVITY]).tolist(), _HUNG_S)
+    go_on(live, 1.0)
+    loaded = _read(work, live, StillReading())
+    bench.bump([0.0, 0.0, 0.0], 0.01)
+    go_on(live, 1.0)
+    given = {"mass": 1.0, "mass_sigma": 0.0005, "certificate": "DKD-K-1234"}
+    work.compute(WEIGHT, {"unloaded": unloaded, "loaded": loaded}, given)
+    tool = tool_of(desk.folder, desk.state)
+    points = spread(tool.probe, _MARKERS).as_set().points
+    point = points[int(np.argmax(np.hypot(points[:, 0], points[:, 1])))]
+    bench.touch(point_S=point, force=_FORCE, seconds=1.3)
+    touch = _read(work, live, PressReading(tool.model))
+    work.compute(TOUCH, {"touch": touch}, {"point": (1e3 * point).tolist()})
+
+
+def _read(work: KnownChecks, live: Live, reading: StillReading | PressReading) -> str:
+    work.start(reading)
+    for _ in range(_MOST):
+        if reading.done:
+            return work.keep()
+        go_on(live, 0.5)
+    raise InputError(f"The reading did not end: {reading.sentence}")
 
 
 def _verify(desk: Desk, live: Live) -> None:

@@ -17,6 +17,7 @@ from typer.core import TyperGroup
 
 from pipeline import __version__
 from pipeline.commands.bench import bench_app
+from pipeline.commands.check import check_app
 from pipeline.commands.config import config_app
 from pipeline.commands.control import control_app
 from pipeline.commands.emulate import emulate_app
@@ -224,6 +225,7 @@ app.add_typer(recording_app, name="recording")
 app.add_typer(session_app, name="session")
 app.add_typer(verify_app)
 app.add_typer(markers_app, name="markers")
+app.add_typer(check_app, name="check")
 app.add_typer(config_app, name="config")
 app.add_typer(run_app)
 app.add_typer(control_app, name="control")

@@ -72,6 +72,7 @@ class Coverage(QWidget):
         self._next: NDArray[np.float64] | None = None
         self._now: NDArray[np.float64] | None = None
         self._tilt = 180.0
+        self._down_W = np.array([0.0, 0.0, -1.0])
         self._beat = 0
 
     def sizeHint(self) -> QSize:
@@ -85,9 +86,17 @@ class Coverage(QWidget):
     # ---- what it shows -----------------------------------------------------------------------------
 
     def show_poses(
-        self, rows: tuple[PoseRow, ...], suggested: NDArray[np.float64] | None, max_tilt: float = 180.0
+        self,
+        rows: tuple[PoseRow, ...],
+        suggested: NDArray[np.float64] | None,
+        max_tilt: float = 180.0,
+        down_W: tuple[float, float, float] = (0.0, 0.0, -1.0),
     ) -> None:
-        """Show poses, the orientation R_WS (3, 3) to take next, and the largest tilt that can be reached, degrees."""
+        """Show poses, the orientation R_WS (3, 3) to take next, and the largest tilt that can be reached, degrees.
+
+        `down_W` is where gravity points in W.
+        """
+        self._down_W = np.array(down_W) / max(float(np.linalg.norm(down_W)), 1e-12)
         self._rows = tuple(row for row in rows if row.R_WS is not None)
         self._next, self._tilt = suggested, max_tilt
         counts = {state: sum(row.state is state for row in self._rows) for state in PoseState}
@@ -113,7 +122,7 @@ class Coverage(QWidget):
     def spot_of(self, row: PoseRow) -> QPointF:
         """Return where a pose is drawn, px."""
         assert row.R_WS is not None  # noqa: S101 - those without are not shown
-        spot = place(-row.R_WS[2])
+        spot = place(self._down_W @ row.R_WS)
         return self._disc(front=spot.front).at(spot)
 
     # ---- drawing -----------------------------------------------------------------------------------
@@ -133,7 +142,7 @@ class Coverage(QWidget):
         for row in self._rows:
             self._draw_pose(painter, self.spot_of(row), row.state, c)
         if self._next is not None:
-            spot = place(-self._next[2])
+            spot = place(self._down_W @ self._next)
             swell = 2.0 + 3.0 * abs(self._beat / _PULSE * 2 - 1)
             painter.setPen(QPen(QColor(c.accent), 3))
             painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -191,7 +200,7 @@ class Coverage(QWidget):
         painter.drawEllipse(at, _DOT, _DOT)
 
     def _draw_now(self, painter: QPainter, R_WS: NDArray[np.float64], c: Colours) -> None:
-        spot = place(-R_WS[2])
+        spot = place(self._down_W @ R_WS)
         disc = self._disc(front=spot.front)
         painter.setPen(QPen(QColor(c.text), 1))
         painter.drawLine(disc.middle, disc.at(spot))

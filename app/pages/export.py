@@ -203,9 +203,7 @@ class ExportPage(Page):
     def _show(self, view: ExportView) -> None:
         self.checklist.show_items(
             [
-                ShownCheck(
-                    self._name(item.step, item.name), item.state.value, item.sentence, item.step, item.holds
-                )
+                ShownCheck(self._name(item.name), item.state.value, item.sentence, item.step, item.holds)
                 for item in view.items
             ]
         )
@@ -251,10 +249,14 @@ class ExportPage(Page):
         if preview.reasons:
             why = " ".join(said(reason) for reason in preview.reasons[:2])
             self._stand("warning", "warning", self.tr("Not verified: {why}").format(why=why))
-        elif self._setting("export.sha256") == preview.sha256:
-            self._stand("done", "good", self.tr("Verified, and exported as it is."))
         else:
-            self._stand("done", "good", self.tr("Verified: ready to be exported."))
+            words = (
+                self.tr("Verified, and exported as it is.")
+                if self._setting("export.sha256") == preview.sha256
+                else self.tr("Verified: ready to be exported.")
+            )
+            sign = ("warning", "warning") if preview.unchecked else ("done", "good")
+            self._stand(*sign, f"{words} {said(preview.unchecked)}".strip())
 
     def _figure(self, what: str) -> str:
         return {
@@ -268,13 +270,17 @@ class ExportPage(Page):
             "Made by": self.tr("Made by"),
         }.get(what, what)
 
-    def _name(self, step: Step, name: str) -> str:
+    def _name(self, name: str) -> str:
         return {
-            Step.DEVICES: self.tr("Sensor"),
-            Step.GRAVITY: self.tr("Calibration"),
-            Step.PROBE: self.tr("Probe"),
-            Step.REGIONS: self.tr("Regions"),
-        }.get(step, self.tr("Report") if name == "Report" else self.tr("Verification"))
+            "Sensor": self.tr("Sensor"),
+            "Calibration": self.tr("Calibration"),
+            "Probe": self.tr("Probe"),
+            "Regions": self.tr("Regions"),
+            "Verification": self.tr("Verification"),
+            "Known weight": self.tr("Known weight"),
+            "Known touch": self.tr("Known touch"),
+            "Report": self.tr("Report"),
+        }.get(name, name)
 
     def _stand(self, name: str, colour: str, words: str) -> None:
         self.sign.show_icon(icon(name, colour))

@@ -15,9 +15,12 @@ from app.pages.gravity_changes import GravityChanges
 from app.pages.gravity_choices import GravityChoices
 from app.pages.gravity_panel import GravityPanel, big_button
 from app.pages.gravity_run import GravityRun, Phase
+from app.pages.gravity_weight import WeightPanel
+from pipeline.calibration import Level
+from pipeline.calibration.model import DOWN_W
 from pipeline.calibration.stillness import StillState
 from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_settings import TILT
+from pipeline.workbench.gravity_settings import DOWN, ORIENTATION_NOISE, TILT
 from pipeline.workbench.steps import Step, StepState
 from widgets.icons import icon
 from widgets.phrases import said
@@ -46,7 +49,8 @@ class GravityPage(Page):
         super().__init__(bench, parent)
         self.run = GravityRun(bench, self)
         self.changes, self.choices = GravityChanges(self.run), GravityChoices(self.run)
-        self.panel = GravityPanel()
+        self.panel, self.weight = GravityPanel(), WeightPanel(bench)
+        self.panel.add_check(self.weight)
         self.primary, self.second = big_button(""), big_button("")
         self._shown, self._heard = -1, -1
         self._locked = self._entered = False
@@ -67,6 +71,7 @@ class GravityPage(Page):
     def _connect(self) -> None:
         panel, run = self.panel, self.run
         run.changed.connect(self._show)
+        self.weight.changed.connect(self._show_buttons)
         self.space.activated.connect(self._take)
         self.primary.clicked.connect(lambda: self._press(0))
         self.second.clicked.connect(lambda: self._press(1))
@@ -78,6 +83,8 @@ class GravityPage(Page):
         panel.turn.clicked.connect(self._turn)
         panel.bump.clicked.connect(self._bump)
         panel.tilt.valueChanged.connect(self._set_tilt)
+        panel.down.activated.connect(self._set_down)
+        panel.orientation_noise.activated.connect(self._set_orientation_noise)
 
     # ---- what the window calls ---------------------------------------------------------------------
 
@@ -87,6 +94,7 @@ class GravityPage(Page):
         self.bench.scene.show_orientation(self._now())  # before: then the whole of its world is fitted
         self.bench.scene.look("fit")
         self.run.reload()
+        self.weight.read()
         self._show()
 
     def leave(self) -> None:
@@ -100,6 +108,7 @@ class GravityPage(Page):
         """Show how the step stands."""
         self._locked = status.state is StepState.LOCKED
         self.run.reload()
+        self.weight.read()
         self._show()
         if self._locked:
             self.panel.problem.show_verdict(LOCKED, [status.sentence])
@@ -108,6 +117,7 @@ class GravityPage(Page):
     def tick(self) -> None:
         """Show the newest of what is live."""
         self.run.poll()
+        self.weight.poll()
         R_WS = self._now()
         self.bench.scene.show_orientation(R_WS)
         self.panel.coverage.show_now(R_WS)
@@ -122,10 +132,12 @@ class GravityPage(Page):
     def watch(self) -> None:
         """Hear of findings while another page is shown."""
         self.run.poll()
+        self.weight.poll()
 
     def close_page(self) -> None:
         """End everything."""
         self.run.close()
+        self.weight.close_panel()
 
     # ---- what it shows -----------------------------------------------------------------------------
 
@@ -152,6 +164,8 @@ class GravityPage(Page):
         panel.figures.setVisible(capturing or outcome is not None)
         panel.verdict.setVisible(outcome is not None)
         panel.checked.setVisible(run.checked is not None and outcome is not None)
+        refused = outcome is not None and outcome.calibration.verdict.level is Level.REFUSE
+        self.weight.setVisible(run.phase is Phase.IDLE and outcome is not None and not refused)
         for widget in (panel.table, panel.out, panel.back, panel.coverage):
             widget.setVisible(capturing or outcome is not None)
         self._show_tilt()
@@ -179,7 +193,9 @@ class GravityPage(Page):
         panel.figures.show_figures(
             int(fitted.kept.sum()), len(fitted.poses), (fitted.contact_error,), running=False
         )
-        panel.coverage.show_poses(outcome.rows, None if check is None else check.proposal, self._max_tilt())
+        panel.coverage.show_poses(
+            outcome.rows, None if check is None else check.proposal, self._max_tilt(), self._down()
+        )
         panel.table.show_rows(outcome.rows)
         if run.checked is not None:
             verdict = run.checked.verdict
@@ -207,7 +223,9 @@ class GravityPage(Page):
         self._shown = view.revision * 2 + view.busy
         proposal = view.solved.proposal
         panel.table.show_rows(view.rows)
-        panel.coverage.show_poses(view.rows, None if proposal is None else proposal.R_WS, self._max_tilt())
+        panel.coverage.show_poses(
+            view.rows, None if proposal is None else proposal.R_WS, self._max_tilt(), self._down()
+        )
         panel.figures.show_figures(view.count, view.expected, view.errors, running=True)
         panel.findings.show_findings(view.solved.findings)
         panel.show_next(proposal, virtual=self._bench() is not None, running=True)
@@ -244,16 +262,20 @@ class GravityPage(Page):
         self.primary.setText(first.text)
         self.second.setText("" if second is None else second.text)
         self.second.setVisible(second is not None)
-        waits = run.busy or run.phase is Phase.CHECKING  # for the machine, or for a pose
+        waits = run.busy or run.phase is Phase.CHECKING or self.weight.busy  # for the machine, or for a pose
         self.primary.setEnabled(not waits and not self._locked)
-        self.second.setEnabled(not run.busy and not self._locked)
+        self.second.setEnabled(not run.busy and not self.weight.busy and not self._locked)
         tip = ""
         if run.phase is Phase.CAPTURING and run.work is not None:
             enough = run.work.view().count >= 3
             self.primary.setEnabled(enough)
             tip = "" if enough else self.tr("A calibration needs three poses or more.")
         self.primary.setToolTip(tip)
-        good = self._enough() if run.work is not None else run.phase is Phase.IDLE and not self._mendable()
+        good = (
+            self._enough()
+            if run.work is not None
+            else run.phase is Phase.IDLE and not self._mendable() and not self.weight.unloaded
+        )
         if self._locked and not waits and run.phase is Phase.IDLE:
             self.primary.setText(self.tr("Go to Devices"))
             self.primary.setEnabled(True)
@@ -285,10 +307,21 @@ class GravityPage(Page):
         setting = self.bench.desk.state.settings.get(TILT)
         return 180.0 if setting is None else float(setting.value)
 
+    def _limits(self) -> tuple[float, tuple[float, float, float]]:
+        """Return the largest tilt, degrees, and where gravity points in W."""
+        settings = self.run.settings()
+        return self._max_tilt(), DOWN_W if settings is None else settings.down_W
+
     def _show_tilt(self) -> None:
         self.panel.tilt.blockSignals(True)
         self.panel.tilt.setValue(round(self._max_tilt()))
         self.panel.tilt.blockSignals(False)
+        settings = self.bench.desk.state.settings
+        for box, key, usual in (
+            (self.panel.down, DOWN, DOWN_W),
+            (self.panel.orientation_noise, ORIENTATION_NOISE, None),
+        ):
+            self.panel.show_setting(box, settings[key].value if key in settings else usual)
 
     # ---- what the buttons do -----------------------------------------------------------------------
 
@@ -318,6 +351,16 @@ class GravityPage(Page):
     def _set_tilt(self, degrees: int) -> None:
         self.changes.set_parameters(
             self.tr("set the largest tilt to {degrees}°").format(degrees=degrees), ((TILT, float(degrees)),)
+        )
+
+    def _set_down(self, index: int) -> None:
+        down = self.panel.down.itemData(index)
+        self.changes.set_parameters(self.tr("say where down is"), ((DOWN, list(down)),))
+
+    def _set_orientation_noise(self, index: int) -> None:
+        degrees = self.panel.orientation_noise.itemData(index)
+        self.changes.set_parameters(
+            self.tr("say how well orientations are known"), ((ORIENTATION_NOISE, degrees),)
         )
 
     # ---- on the virtual bench ----------------------------------------------------------------------

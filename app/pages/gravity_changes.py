@@ -12,7 +12,7 @@ from app.pages.gravity_run import GravityRun, Phase
 from app.pages.gravity_undo import Confirm, LeaveOut
 from pipeline.workbench import gravity_results as results
 from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_settings import INVERSE, MOUNT, TILT
+from pipeline.workbench.gravity_settings import DOWN, INVERSE, MOUNT, ORIENTATION_NOISE, TILT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -22,7 +22,13 @@ if TYPE_CHECKING:
     from pipeline.workbench.gravity_results import Outcome
     from pipeline.workbench.gravity_solving import Finding
 
-_BEFORE: dict[str, Any] = {MOUNT: [0.0, 0.0, 0.0], INVERSE: False, TILT: 180.0}  # where nothing was set
+_BEFORE: dict[str, Any] = {  # where nothing was set
+    MOUNT: [0.0, 0.0, 0.0],
+    INVERSE: False,
+    TILT: 180.0,
+    DOWN: [0.0, 0.0, -1.0],
+    ORIENTATION_NOISE: None,
+}
 
 
 class GravityChanges(QObject):

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
+    QComboBox,
     QFrame,
     QHBoxLayout,
     QLabel,
@@ -18,6 +19,7 @@ from PySide6.QtWidgets import (
 )
 
 from pipeline.calibration import Limits
+from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from pipeline.calibration.wording import plain
 from widgets.capture_state import CaptureState
 from widgets.coverage import Coverage
@@ -200,6 +202,7 @@ class GravityPanel(Scrolled):
         self._add(self.figures, self.verdict, self.checked, self.findings, self.coverage, self.table)
         self._make_table_buttons()
         self._make_tilt()
+        self._make_bench()
         self._box.addStretch(1)
 
     def _add(self, *widgets: QWidget) -> None:
@@ -250,6 +253,72 @@ class GravityPanel(Scrolled):
         row.addWidget(label, 1)
         row.addWidget(self.tilt)
         self._box.addLayout(row)
+
+    def _make_bench(self) -> None:
+        """Make the questions of where down is, and of what gives the orientations."""
+        self.down = self._choice(
+            self.tr("The robot"),
+            (
+                (self.tr("stands upright"), (0.0, 0.0, -1.0)),
+                (self.tr("hangs from the ceiling"), (0.0, 0.0, 1.0)),
+                (self.tr("is on a wall, its +x points down"), (1.0, 0.0, 0.0)),
+                (self.tr("is on a wall, its -x points down"), (-1.0, 0.0, 0.0)),
+                (self.tr("is on a wall, its +y points down"), (0.0, 1.0, 0.0)),
+                (self.tr("is on a wall, its -y points down"), (0.0, -1.0, 0.0)),
+            ),
+            self.tr(
+                "Where gravity points in the frame of the orientations. Others: session set calibration.down"
+            ),
+        )
+        names = {
+            "robot": self.tr("by a robot ({degrees}°)"),
+            "tracker": self.tr("by a tracker ({degrees}°)"),
+            "hand": self.tr("by hand ({degrees}°)"),
+        }
+        self.orientation_noise = self._choice(
+            self.tr("Orientations are known"),
+            (
+                (self.tr("as the poses show"), None),
+                *(
+                    (names[key].format(degrees=f"{degrees:g}"), degrees)
+                    for key, degrees in ORIENTATION_NOISE_DEG.items()
+                ),
+            ),
+            self.tr(
+                "How well, 1 sigma about each axis: errors of the orientations move the weight in the readings."
+            ),
+        )
+
+    def _choice(self, words: str, choices: Sequence[tuple[str, Any]], tip: str) -> QComboBox:
+        box = QComboBox()
+        for text, value in choices:
+            box.addItem(text, value)
+        box.setMinimumHeight(_HIGH)
+        box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        box.setToolTip(tip)
+        label = QLabel(words)
+        label.setBuddy(box)
+        box.setAccessibleName(words)
+        row = QHBoxLayout()
+        row.addWidget(label, 1)
+        row.addWidget(box)
+        self._box.addLayout(row)
+        return box
+
+    def show_setting(self, box: QComboBox, value: Any) -> None:
+        """Show a setting; one that is not among the choices gets an entry of its own."""
+        box.blockSignals(True)
+        known = [box.itemData(index) for index in range(box.count())]
+        value = tuple(value) if isinstance(value, list) else value
+        if value not in known:
+            box.addItem(str(value), value)
+            known.append(value)
+        box.setCurrentIndex(known.index(value))
+        box.blockSignals(False)
+
+    def add_check(self, widget: QWidget) -> None:
+        """Put a further check of the calibration below its verdicts."""
+        self._box.insertWidget(self._box.indexOf(self.findings), widget)
 
     def show_next(self, proposal: Proposal | None, *, virtual: bool, running: bool) -> None:
         """Show the pose to take next, and on a virtual bench the buttons that do it."""

@@ -12,6 +12,7 @@ from app.pages.verify_editing import MarkerEditing
 from app.pages.verify_leaving import Leaving
 from app.pages.verify_live import LiveShow
 from app.pages.verify_markers import MarkersPanel
+from app.pages.verify_point import PointPanel
 from app.pages.verify_result import ResultPanel
 from app.pages.verify_scene import TouchScene
 from app.pages.verify_settings import SettingsPanel
@@ -37,12 +38,12 @@ if TYPE_CHECKING:
     from pipeline.workbench.steps import StepStatus
     from widgets.scene.scene import Pick
 
-_MARKERS, _HOW, _TOUCH, _RESULT = range(4)
+_MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)
 
 
 class VerifyPage(Page):
     """
-    Markers, how to touch them, the touches, and the verdict, on a tab each.
+    Markers, how to touch them, a known point, the touches, and the verdict, on a tab each.
 
     Attributes
     ----------
@@ -90,9 +91,11 @@ class VerifyPage(Page):
         self.tabs.setUsesScrollButtons(False)
         self.panel_markers, self.panel_how = MarkersPanel(), SettingsPanel()
         self.panel_touch, self.panel_result = TouchPanel(), ResultPanel()
+        self.panel_point = PointPanel(self.bench)
         for panel, name in (
             (self.panel_markers, self.tr("Markers")),
             (self.panel_how, self.tr("How")),
+            (_filling_top(self.panel_point), self.tr("Point")),
             (self.panel_touch, self.tr("Touch")),
             (self.panel_result, self.tr("Result")),
         ):
@@ -150,14 +153,17 @@ class VerifyPage(Page):
     def tick(self) -> None:
         """Show the newest of what is live."""
         self._live.tick()
+        self.panel_point.poll()
 
     def watch(self) -> None:
         """Hear of devices and disk while another page is shown."""
         self._live.watch()
+        self.panel_point.poll()
 
     def close_page(self) -> None:
         """End it; what was recorded is kept."""
         self._closed = True
+        self.panel_point.close_panel()
         if self._job is not None:
             self._job.cancel()
         # Not here: it may have to wait for what is just being judged, and for the disk.
@@ -196,6 +202,7 @@ class VerifyPage(Page):
                 self._show_outcome(found[1], differs)
 
         self.bench.jobs.start(self.tr("Reading the verification"), work, came, self._not_read)
+        self.panel_point.read()
         self._load_tool()
 
     def read_again(self) -> None:
@@ -380,4 +387,17 @@ class VerifyPage(Page):
         self.panel_touch.allow(ready=ready, going_on=going_on, virtual=self.toucher.there, busy=self._busy)
         self.panel_markers.lock(going_on or self._busy or self.tool is None)
         self.panel_how.setEnabled(not going_on and not self._busy)
+        known = [(each.name, each.point_S.tolist()) for each in self.markers.all]
+        self.panel_point.show_markers(known, None if self.tool is None else self.tool.model)
+        self.panel_point.setEnabled(not going_on and not self._busy)
         self._live.show_idle()
+
+
+def _filling_top(panel: QWidget) -> QWidget:
+    """Return a panel at the top of its tab, with what is left empty below it."""
+    widget = QWidget()
+    column = QVBoxLayout(widget)
+    column.setContentsMargins(0, 8, 0, 0)
+    column.addWidget(panel)
+    column.addStretch(1)
+    return widget

@@ -1207,6 +1207,14 @@
         <translation>Überprüfung</translation>
     </message>
     <message>
+        <source>Known weight</source>
+        <translation>Bekanntes Gewicht</translation>
+    </message>
+    <message>
+        <source>Known touch</source>
+        <translation>Bekannter Druckpunkt</translation>
+    </message>
+    <message>
         <source>Export a file</source>
         <translation>Als Datei exportieren</translation>
     </message>
@@ -1633,6 +1641,14 @@
         <source>set the largest tilt to {degrees}°</source>
         <translation>größte Neigung auf {degrees}° setzen</translation>
     </message>
+    <message>
+        <source>say where down is</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>say how well orientations are known</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>GravityPanel</name>
@@ -1687,6 +1703,62 @@
     <message>
         <source>Largest angle between the sensor&apos;s z axis and straight down, degrees; poses beyond are not proposed.</source>
         <translation>Größter Winkel zwischen der z-Achse des Sensors und senkrecht nach unten, in Grad; Posen darüber hinaus werden nicht vorgeschlagen.</translation>
+    </message>
+    <message>
+        <source>The robot</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>stands upright</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>hangs from the ceiling</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>is on a wall, its +x points down</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>is on a wall, its -x points down</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>is on a wall, its +y points down</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>is on a wall, its -y points down</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Where gravity points in the frame of the orientations. Others: session set calibration.down</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by a robot ({degrees}°)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by a tracker ({degrees}°)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>by hand ({degrees}°)</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>Orientations are known</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>as the poses show</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <source>How well, 1 sigma about each axis: errors of the orientations move the weight in the readings.</source>
+        <translation type="unfinished"></translation>
     </message>
     <message>
         <source>Next: {words}</source>
@@ -1850,6 +1922,49 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Keeping the regions</source>
         <translation>Die Regionen werden behalten</translation>
+    </message>
+</context>
+<context>
+    <name>KnownCheckPanel</name>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Reading the check</source>
+        <translation>Prüfung lesen</translation>
+    </message>
+    <message>
+        <source>Ending the recording</source>
+        <translation>Aufnahme beenden</translation>
+    </message>
+    <message>
+        <source>Beginning to record</source>
+        <translation>Aufnahme beginnen</translation>
+    </message>
+    <message>
+        <source>Keeping the recording</source>
+        <translation>Aufnahme sichern</translation>
+    </message>
+    <message>
+        <source>Computing the check</source>
+        <translation>Prüfung berechnen</translation>
+    </message>
+    <message>
+        <source>Passed</source>
+        <translation>Bestanden</translation>
+    </message>
+    <message>
+        <source>Cannot tell</source>
+        <translation>Nicht zu entscheiden</translation>
+    </message>
+    <message>
+        <source>Failed</source>
+        <translation>Nicht bestanden</translation>
+    </message>
+    <message>
+        <source>Stale: check again</source>
+        <translation>Veraltet: bitte neu prüfen</translation>
     </message>
 </context>
 <context>
@@ -2689,6 +2804,29 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>Placing the mesh</source>
         <translation>Das Netz wird platziert</translation>
+    </message>
+</context>
+<context>
+    <name>PointPanel</name>
+    <message>
+        <source>Known point</source>
+        <translation>Bekannter Punkt</translation>
+    </message>
+    <message>
+        <source>Press one marker on the side of the probe with a finger. It shows a wrong sign or unit of the torques, and a probe that is turned on the sensor.</source>
+        <translation>Mit dem Finger auf einen Marker an der Seite der Sonde drücken. Das zeigt ein falsches Vorzeichen oder eine falsche Einheit der Drehmomente und eine Sonde, die auf dem Sensor verdreht ist.</translation>
+    </message>
+    <message>
+        <source>Marker</source>
+        <translation>Marker</translation>
+    </message>
+    <message>
+        <source>Record a press</source>
+        <translation>Druck aufnehmen</translation>
+    </message>
+    <message>
+        <source>Place a marker first, on the tab Markers.</source>
+        <translation>Zuerst unter Marker einen Marker setzen.</translation>
     </message>
 </context>
 <context>
@@ -4468,6 +4606,10 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
         <translation>Wie</translation>
     </message>
     <message>
+        <source>Point</source>
+        <translation>Punkt</translation>
+    </message>
+    <message>
         <source>Touch</source>
         <translation>Berühren</translation>
     </message>
@@ -4557,6 +4699,53 @@ Tasten: links und rechts, Leertaste für den anderen Griff.</translation>
     <message>
         <source>What is nearer looks larger; lengths are then not true, so there is no scale</source>
         <translation>Was näher ist, wirkt größer; Längen stimmen dann nicht, deshalb gibt es keinen Maßstab</translation>
+    </message>
+</context>
+<context>
+    <name>WeightPanel</name>
+    <message>
+        <source>Known weight</source>
+        <translation>Bekanntes Gewicht</translation>
+    </message>
+    <message>
+        <source>Hang a weight of known mass on the tool. It shows a wrong unit, sign or scale of the sensor, which poses cannot show.</source>
+        <translation>Ein Gewicht bekannter Masse an das Werkzeug hängen. Das zeigt eine falsche Einheit, ein falsches Vorzeichen oder eine falsche Skala des Sensors, die Posen nicht zeigen können.</translation>
+    </message>
+    <message>
+        <source>Mass</source>
+        <translation>Masse</translation>
+    </message>
+    <message>
+        <source>Uncertainty (1 sigma)</source>
+        <translation>Unsicherheit (1 Sigma)</translation>
+    </message>
+    <message>
+        <source>Number, if there is one</source>
+        <translation>Nummer, falls vorhanden</translation>
+    </message>
+    <message>
+        <source>Certificate</source>
+        <translation>Zertifikat</translation>
+    </message>
+    <message>
+        <source>1. Read without weight</source>
+        <translation>1. Ohne Gewicht messen</translation>
+    </message>
+    <message>
+        <source>2. Read with weight</source>
+        <translation>2. Mit Gewicht messen</translation>
+    </message>
+    <message>
+        <source>Take everything off the tool, and hold it still.</source>
+        <translation>Alles vom Werkzeug nehmen und es still halten.</translation>
+    </message>
+    <message>
+        <source>Read. Now hang the weight on the tool, wait until it is at rest, then press 2.</source>
+        <translation>Gemessen. Jetzt das Gewicht an das Werkzeug hängen, warten, bis es ruht, dann 2 drücken.</translation>
+    </message>
+    <message>
+        <source>Wait until the weight is at rest.</source>
+        <translation>Warten, bis das Gewicht ruht.</translation>
     </message>
 </context>
 <context>

@@ -16,6 +16,7 @@ from pipeline.calibration.contact_error import ContactTask, usual_task
 from pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
+    DOWN_W,
     GRAVITY,
     PARAMETERS,
     TORQUE_BIAS,
@@ -25,7 +26,7 @@ from pipeline.calibration.observability import Observability, observe, observe_w
 from pipeline.calibration.outliers import Rejection, deviates, refit, rejection
 from pipeline.calibration.poses import PoseError, Stack, stack
 from pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
-from pipeline.calibration.verdict import Level, Limits, Verdict, judge
+from pipeline.calibration.verdict import Level, Limits, Verdict, judge, same_readings
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -36,11 +37,11 @@ if TYPE_CHECKING:
     from pipeline.calibration.diagnosis.diagnose import RawOrientations
     from pipeline.calibration.poses import PoseSample
 
-DOWN_W = (0.0, 0.0, -1.0)
-
 # Odds from which a cause is believed that nobody has asked for.
 _STRONG = 20.0
 _POSSIBLE = 0.01  # probability from which a cause widens the uncertainty
+_NO_ORIENTATION = 0.5  # rad: beyond, the orientations say nothing
+_EXPLAINED = 2.5  # times the noise given: what is left with a cause that explains the poses
 _UNEXPECTED = 3.0  # times the noise that was given
 _ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
 
@@ -243,7 +244,7 @@ def calibrate(
     covariance = noisy.fit.covariance[:12, :12] + between(compared, chosen)[:12, :12]
     if sight.null_directions or sight.weak:
         covariance = covariance + _product(covariance, arrays.R_SW[chosen.inside])
-    task = task or usual_task()
+    task = facing(task or usual_task(), down)
     model = GravityModel.from_vector(noisy.fit.theta, covariance)
     error = task.calibration_error(noisy.fit.theta, covariance)
     calibration = assembled(
@@ -263,6 +264,8 @@ def _doubtful(calibration: Calibration) -> bool:
         cause.believed and cause.key in {nuisance.CABLE, nuisance.MOUNT} for cause in calibration.causes
     )
     refused = calibration.verdict.level is Level.REFUSE and calibration.observability.force_rank == 6
+    if same_readings(calibration):
+        return False
     return strange or refused or max(calibration.noise_factor) > _UNEXPECTED
 
 
@@ -286,7 +289,12 @@ def assembled(
     offsets = terms.columns @ fit.added
     residuals = arrays.wrenches - predict(R_SW, fit.theta) - offsets
     far = deviates(arrays, inside, noisy, terms)
-    model_error = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task)
+    # What is not excluded counts by its probability.
+    square = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task) ** 2
+    for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True):
+        if each.key not in {*_ONLY_BIAS, told.key} and probability > _POSSIBLE:
+            square += probability * _model_error(arrays, each, fit, task) ** 2
+    model_error = float(np.sqrt(square))
     factors = (1.0, 1.0)
     if prior.sigmas is not None and not chosen.prior.believed:
         F, M = (noisy.noise.sigmas / prior.sigmas)[[0, 3]].tolist()
@@ -322,21 +330,32 @@ def assembled(
     )
 
 
+def facing(task: ContactTask, down_W: NDArray[np.float64]) -> ContactTask:
+    """Return a task whose probe points where gravity does."""
+    return task if np.array_equal(task.down_W, down_W) else replace(task, down_W=down_W)
+
+
 def direction(down_W: ArrayLike) -> NDArray[np.float64]:
     """Return a direction (3,) at length 1; InputError if it is none."""
-    down = np.array(down_W, dtype=np.float64)
+    try:
+        down = np.array(down_W, dtype=np.float64)
+    except (TypeError, ValueError):
+        down = np.zeros(0)
     if down.shape != (3,) or not np.isfinite(down).all() or not down.any():
         raise InputError(
-            f"down_W is {down_W}: give where gravity points in the world frame, three finite numbers that are"
-            " not all 0, such as 0,0,-1"
+            f"down_W is {np.array(down_W).tolist()!r}: give where gravity points in the world frame, three finite"
+            " numbers that are not all 0, such as 0,0,-1"
         )
+    down /= np.abs(down).max()
     return np.asarray(down / np.linalg.norm(down), dtype=np.float64)
 
 
 def checked_angle(sigma: float | None) -> float | None:
     """Return a standard deviation of orientations, rad; InputError if it cannot be one."""
-    if sigma is not None and not 0 <= sigma < np.pi:
-        raise InputError(f"orientation_sigma is {sigma} rad: give at least 0 and less than half a turn")
+    if sigma is not None and not 0 <= sigma < _NO_ORIENTATION:
+        raise InputError(
+            f"orientation_sigma is {sigma} rad: give at least 0 and less than {_NO_ORIENTATION:g} rad, not degrees"
+        )
     return sigma
 
 
@@ -347,7 +366,10 @@ def used(arrays: Stack, compared: Comparison) -> tuple[Candidate, Candidate]:
     if compared.probability(best.key) < _STRONG * compared.probability(PLAIN) or best.key == PLAIN:
         return plain, plain
     if best.key in _ONLY_BIAS:
-        return best, best
+        left = 1.0
+        if best.prior.sigmas is not None and not best.prior.believed:
+            left = float((best.noisy.noise.sigmas / best.prior.sigmas).max())
+        return (best, best) if left < _EXPLAINED else (plain, plain)
     doubted = plain.prior.doubted
     noisy = refit(arrays, best.inside, doubted, plain.terms)
     return best, replace(plain, noisy=noisy, bumped=best.bumped, prior=doubted)

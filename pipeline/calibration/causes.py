@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pipeline.calibration.reml import NoisePrior
 
 _TOLD = 0.01  # probability from which a cause is listed
-_LIKELY = 0.75  # three to one
+_LIKELY = 0.95  # a mistake that overrules what the residuals say by themselves
 _OFF = float(np.log(2.0))  # of the logarithm of a figure that is called wrong
 _HOUR = 3600.0  # s
 
@@ -151,11 +151,10 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, 
         case "noise":
             given = candidate.prior.sigmas
             factors = (candidate.noisy.noise.sigmas / given)[[0, 3]] if given is not None else np.ones(2)
-            turn = candidate.noisy.noise.orientation
-            said = candidate.prior.orientation
-            if said and not candidate.prior.guessed and abs(np.log(turn / said)) > _OFF:
+            scatter, said = candidate.noisy.noise.orientation, candidate.prior.orientation
+            if said and not candidate.prior.guessed and abs(np.log(scatter / said)) > _OFF:
                 return (
-                    f"The orientations scatter by {np.degrees(turn):.2g}°, not by"
+                    f"The orientations scatter by {np.degrees(scatter):.2g}°, not by"
                     f" {np.degrees(said):.2g}° as was given: every uncertainty is computed from"
                     " what the poses show."
                 )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import cross_matrix, prediction_jacobian
+from pipeline.calibration.model import DOWN_W, cross_matrix, prediction_jacobian, upright
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ class ContactTask:
         Largest angle between the normal and straight down, rad.
     friction : float
         Angle between the force and the normal at the sides, rad.
+    down_W : (3,)
+        Where gravity points in W: the probe points there.
 
     Raises
     ------
@@ -59,6 +61,7 @@ class ContactTask:
     force: float = 10.0
     tilt: float = np.radians(60.0)
     friction: float = np.radians(30.0)
+    down_W: NDArray[np.float64] = field(default_factory=lambda: np.array(DOWN_W))
 
     def __post_init__(self) -> None:
         point, normal = (np.array(value, dtype=np.float64) for value in (self.point, self.normal))
@@ -79,7 +82,8 @@ class ContactTask:
     @cached_property
     def orientations(self) -> NDArray[np.float64]:
         """(k, 3, 3) R_SW in which the probe is used: pointing down, and tilted in all directions."""
-        return _cone(self.normal, self.tilt)
+        orientations: NDArray[np.float64] = _cone(self.normal, self.tilt) @ upright(self.down_W)
+        return orientations
 
     @cached_property
     def forces(self) -> NDArray[np.float64]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from pipeline.errors import InputError
 
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 STANDARD_GRAVITY = 9.80665  # m/s²
+DOWN_W = (0.0, 0.0, -1.0)  # where gravity points if nobody says otherwise: W has z up
 _IDENTITY = np.eye(3)
 # Row k holds, flattened, what component k of v contributes to [v]x: one product makes many matrices.
 _CROSS = np.array(
@@ -159,6 +161,18 @@ class GravityModel:
         J = prediction_jacobian(np.swapaxes(R, -1, -2).reshape(-1, 3, 3), self.vector)
         C = J @ self.covariance @ J.transpose(0, 2, 1)
         return 0.5 * (C + C.transpose(0, 2, 1)).reshape(*R.shape[:-2], 6, 6)
+
+
+def upright(down_W: ArrayLike) -> NDArray[np.float64]:
+    """Return the rotation (3, 3) that turns the world by the shortest way so that `down_W` (3,) becomes -z.
+
+    The identity for a robot that stands upright; then orientations seen from it are those of the world.
+    """
+    down = np.asarray(down_W, dtype=np.float64)
+    if down[0] == 0 and down[1] == 0 and down[2] < 0:
+        return np.eye(3)
+    turned: NDArray[np.float64] = Rotation.align_vectors([[0.0, 0.0, -1.0]], down[None])[0].as_matrix()
+    return turned
 
 
 def prediction_jacobian(R_SW: NDArray[np.float64], theta: NDArray[np.float64]) -> NDArray[np.float64]:

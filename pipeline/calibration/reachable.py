@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from pipeline.calibration.model import DOWN_W, upright
 from pipeline.errors import InputError
 from pipeline.robot import Clearance, ClearanceCheck
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from pipeline.robot import Robot
 
@@ -37,6 +38,8 @@ class Reachable:
         Where the robot is, rad.
     check : ClearanceCheck or None
         Says what a move would hit.
+    down_W : (3,)
+        Where gravity points in W.
     """
 
     R_WS: NDArray[np.float64]
@@ -45,6 +48,7 @@ class Reachable:
     robot: Robot | None = None
     start: NDArray[np.float64] | None = None
     check: ClearanceCheck | None = None
+    down_W: ArrayLike = DOWN_W
 
     def __len__(self) -> int:
         return len(self.R_WS)
@@ -73,7 +77,11 @@ class Reachable:
 
 
 def by_hand(
-    count: int = 300, *, max_tilt: float = np.pi, R_WS_now: NDArray[np.float64] | None = None
+    count: int = 300,
+    *,
+    max_tilt: float = np.pi,
+    R_WS_now: NDArray[np.float64] | None = None,
+    down_W: ArrayLike = DOWN_W,
 ) -> Reachable:
     """Return orientations spread evenly over all that a free sensor can take.
 
@@ -85,6 +93,8 @@ def by_hand(
         Largest angle between the sensor's z axis and straight down, rad.
     R_WS_now : (3, 3), optional
         Where the sensor is; without it no orientation is nearer than another.
+    down_W : (3,)
+        Where gravity points in W.
 
     Raises
     ------
@@ -104,11 +114,13 @@ def by_hand(
     axis = np.column_stack([np.cos(bearing), np.sin(bearing), np.zeros(count)])
     down = Rotation.from_rotvec([np.pi, 0.0, 0.0])
     spin = Rotation.from_rotvec(np.column_stack([np.zeros((count, 2)), yaw]))
-    turned = Rotation.from_rotvec(tilt[:, None] * axis) * down * spin
+    turned = (
+        Rotation.from_matrix(upright(down_W).T) * Rotation.from_rotvec(tilt[:, None] * axis) * down * spin
+    )
     travel = np.zeros(count)
     if R_WS_now is not None:
         travel = np.asarray((Rotation.from_matrix(R_WS_now).inv() * turned).magnitude())
-    return Reachable(turned.as_matrix(), travel)
+    return Reachable(turned.as_matrix(), travel, down_W=down_W)
 
 
 def by_robot(
@@ -121,6 +133,7 @@ def by_robot(
     wrist_only: bool = True,
     clearance: Clearance | None = None,
     seed: int = 0,
+    down_W: ArrayLike = DOWN_W,
 ) -> Reachable:
     """Return orientations that a robot reaches within its joint limits, clear of itself and the floor.
 
@@ -141,6 +154,8 @@ def by_robot(
         Tool and floor to keep clear of.
     seed : int
         Of the choice.
+    down_W : (3,)
+        Where gravity points in W.
 
     Raises
     ------
@@ -155,16 +170,19 @@ def by_robot(
         R_WS = R_WB @ R_WS
     check = ClearanceCheck(robot.description, clearance or Clearance())
     start = np.array(q_now, dtype=np.float64)
-    return Reachable(R_WS, robot.travel(start, joints), joints, robot, start, check)
+    return Reachable(R_WS, robot.travel(start, joints), joints, robot, start, check, down_W)
 
 
-def describe(R_WS: NDArray[np.float64]) -> str:
+def describe(R_WS: NDArray[np.float64], down_W: ArrayLike = DOWN_W) -> str:
     """Return in words how the sensor stands: where its z axis points, and which side is down.
 
     Parameters
     ----------
     R_WS : (3, 3)
+    down_W : (3,)
+        Where gravity points in W.
     """
+    R_WS = upright(down_W) @ R_WS
     z_W = R_WS[:, 2]
     tilt = float(np.degrees(np.arccos(np.clip(-z_W[2], -1, 1))))
     down_S = -R_WS[2]

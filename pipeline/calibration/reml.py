@@ -243,7 +243,8 @@ def _base(poses: Stack, prior: NoisePrior, theta: NDArray[np.float64], terms: Te
         fit = maximise(poses, rough, theta, ALL, terms)
         squares = (poses.wrenches - predict(fit.R_SW, fit.theta) - fit.offsets) ** 2
         rough = np.repeat(np.sqrt(squares.reshape(-1, 2, 3).sum(axis=(0, 2)) / freedom), 3)
-    return np.maximum(rough, np.maximum(prior.least, LEAST))
+    at_least: NDArray[np.float64] = np.maximum(rough, np.maximum(prior.least, LEAST))
+    return at_least
 
 
 @dataclass(frozen=True, eq=False)

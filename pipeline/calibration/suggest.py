@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, usual_task, worst_sigma
 from pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
-from pipeline.calibration.model import GRAVITY, GravityModel, prediction_jacobian
+from pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
 from pipeline.calibration.reachable import describe
 from pipeline.calibration.wording import plain
 from pipeline.errors import InputError
@@ -201,7 +201,7 @@ def _plausible(calibration: Calibration) -> NDArray[np.float64]:
     """
     theta = calibration.model.vector
     variances, axes = np.linalg.eigh(calibration.covariance[GRAVITY, GRAVITY])
-    missing = USUAL_LOAD.gravity_W - theta[GRAVITY]
+    missing = length(USUAL_LOAD.gravity_W) * calibration.down_W - theta[GRAVITY]
     if felt(theta, calibration.covariance):
         unknown = axes[:, variances > (_HARDLY_KNOWN * UNKNOWN[GRAVITY][0]) ** 2]
         missing = unknown @ (unknown.T @ missing)
@@ -327,7 +327,7 @@ def _gain(before: float, after: float) -> str:
 
 def _how(reachable: Reachable, index: int) -> str:
     """Say how to take a pose."""
-    stands = describe(reachable.R_WS[index])
+    stands = describe(reachable.R_WS[index], reachable.down_W)
     joints, start = reachable.joint_vector(index), reachable.start
     if joints is None or start is None:
         return stands

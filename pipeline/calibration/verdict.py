@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from pipeline.calibration.outliers import limit
 from pipeline.calibration.poses import named, stack
 from pipeline.calibration.wording import plain
 from pipeline.errors import InputError
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
 _RESTLESS = 50.0  # drift and hum make a mean several times worse than its samples promise, but not this much
 _WORTH_A_WORD = 0.2  # probability from which a cause that is not believed is told
-_ABSURD = 10.0  # times the noise given: no wrong figure, but something that nobody knows
+_LEVEL, _SURELY = 1.0, 4.0  # degrees to which bases are level, and standard deviations
+_ABSURD = 5.0  # times the noise given: no wrong figure, but something that nobody knows
 _HARDLY = 1.3  # times the noise given: nobody knows it better
 _LEAN = np.radians(60.0)  # bases are mounted in multiples of 90 degrees
 _NAMED_FROM = 8  # poses: with fewer, leaving some out leaves little to be sure that it was the right ones
@@ -117,11 +119,30 @@ def _possible(calibration: Calibration) -> list[str]:
         f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}"
         for cause in calibration.causes
         if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
-    ] + [cause.sentence for cause in calibration.causes if cause.believed and _harmless(calibration, cause)]
+    ] + [
+        *(cause.sentence for cause in calibration.causes if cause.believed and _harmless(calibration, cause)),
+        *_tilted(calibration),
+    ]
+
+
+def _tilted(calibration: Calibration) -> list[str]:
+    """Say that gravity surely points aside: the sensor cannot tell a tilted base from a pull that never changes."""
+    g, C, down = calibration.gravity_W, calibration.covariance[:3, :3], calibration.down_W
+    aside = g - (g @ down) * down
+    size = float(np.linalg.norm(aside))
+    angle = float(np.degrees(np.arctan2(size, g @ down)))
+    sigma = float(np.sqrt(aside @ C @ aside)) / max(size, 1e-12)
+    if angle < _LEVEL or size < _SURELY * sigma or not calibration.observability.weighs:
+        return []
+    return [
+        f"Gravity comes out {angle:.1f}° from down: the base is not level, or something pulls that way all the time,"
+        " such as a cable, which would count as weight."
+    ]
 
 
 def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) -> list[str]:
     words = []
+    told = any(cause.believed and cause.key not in {"plain", "noise"} for cause in calibration.causes)
     if not agree:
         words.append(
             "No majority of the poses agrees with one gravity model. Either the orientations are in another"
@@ -133,12 +154,12 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
             " orientations are in another convention than was said (contactbench diagnose tells), or captures"
             " were disturbed."
         )
-    elif max(calibration.noise_factor) > _ABSURD:
+    elif min(calibration.noise_factor) > _ABSURD and not told:
         words.append(
             f"The residuals are {max(calibration.noise_factor):.0f} times what the noise given explains: check how the"
             " orientations are written (contactbench diagnose), and that nothing touched the tool."
         )
-    if _same_readings(calibration):
+    if same_readings(calibration):
         words.append(
             "Every pose has the same reading to the last digit, though the tool stood differently: the sensor does not"
             " answer. Check its cable and its power."
@@ -161,7 +182,8 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
     return words
 
 
-def _same_readings(calibration: Calibration) -> bool:
+def same_readings(calibration: Calibration) -> bool:
+    """Tell whether the sensor read the same in every pose, to the last digit, though it stood differently."""
     readings = np.array([[*pose.force, *pose.torque] for pose in calibration.poses])
     return bool((np.ptp(readings, axis=0) == 0).all()) and calibration.observability.force_rank == 6
 
@@ -194,7 +216,7 @@ def _slight(calibration: Calibration, limits: Limits, error: str) -> list[str]:
         remedy = "One or two more poses help." if helps else "It is not noise, and more poses do not help."
         words.append(f"{error}; {1e3 * limits.good_error:g} mm would be good. {remedy}")
     latest = int(np.argmax(stack(calibration.poses).moments))
-    if rejected and not calibration.kept[latest]:
+    if calibration.deviates[latest].max() >= limit(len(calibration.poses)):
         words.append(
             f"{named(calibration.poses, latest).capitalize()}, the last one, disagrees: it was bumped, or the sensor's"
             " zero jumped before it, and then the bias is wrong. Take one or two poses more; they tell which."

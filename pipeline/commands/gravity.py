@@ -305,9 +305,10 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
 @gravity_app.command(
     help=(
         "Tell whether poses are written in the conventions that the options say, or which mistake explains them.\n\n"
-        "Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, reversed signs, a"
-        " turned sensor and a re-zero half way; changes nothing. The noise, if you know it, and the load's"
-        " mass from a balance make it much surer.\n\n"
+        "Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, pounds, reversed signs,"
+        " swapped channels, shifted rows, another frame, a turned sensor and a re-zero half way; says how probable"
+        " each is, and whether none of them explains the poses; changes nothing. The noise, if you know it, and the"
+        " load's mass from a balance make it much surer.\n\n"
         "Exit code 1: something is not as it was said to be."
     ),
     epilog="Example: contactbench diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002",
@@ -363,11 +364,12 @@ def _show_diagnosis(found: Diagnosis) -> None:
     from rich.table import Table
 
     table = Table(box=None)
-    for heading in ("reading", "residual", "mass", "log odds"):
+    for heading in ("reading", "residual", "mass", "probability"):
         table.add_column(heading, justify="left" if heading == "reading" else "right")
     for finding in found.ranking[:6]:
-        odds = finding.score - found.best.score
-        table.add_row(finding.title, f"{finding.residual:.2g} sigma", f"{finding.mass:.2f} kg", f"{odds:.1f}")
+        share = f"{100 * found.odds[finding.hypothesis]:.1f} %"
+        table.add_row(finding.title, f"{finding.residual:.2g} sigma", f"{finding.mass:.2f} kg", share)
+    table.add_row("none of these", "", "", f"{100 * found.odds['none']:.1f} %")
     Console(stderr=True).print(table)
     say(found.sentence, "green" if found.consistent else "yellow")
     for sentence in found.not_testable:

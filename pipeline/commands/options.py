@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -301,22 +300,21 @@ def reachable(
         Of --robot and --joints only one was given.
     """
     import numpy as np
-    from scipy.spatial.transform import Rotation
 
     from pipeline.calibration.reachable import by_hand, by_robot
 
     if (robot is None) != (joints is None):
         raise typer.BadParameter("--robot and --joints go together: which robot, and where it is now.")
     if robot is None or joints is None:
-        choice = by_hand(max_tilt=np.radians(max_tilt))
-        turn = Rotation.align_vectors(np.reshape(down_W, (1, 3)), [[0.0, 0.0, -1.0]])[0].as_matrix()
-        return replace(choice, R_WS=turn @ choice.R_WS)
+        return by_hand(max_tilt=np.radians(max_tilt), down_W=down_W)
     from pipeline.robot import Clearance, Robot
 
     arm = Robot.named(robot)
     q_now = np.radians(numbers(joints, len(arm.lower), "--joints"))
     clearance = Clearance((0.0, 0.0, tool_length / 1000), z_min=floor / 1000)
-    return by_robot(arm, q_now, R_ES=mount_rotation(mount), wrist_only=not all_joints, clearance=clearance)
+    return by_robot(
+        arm, q_now, R_ES=mount_rotation(mount), wrist_only=not all_joints, clearance=clearance, down_W=down_W
+    )
 
 
 def refuse_overwriting(out: Path | None, inputs: Sequence[Path]) -> None:

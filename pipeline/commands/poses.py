@@ -149,7 +149,8 @@ def plan_poses(
         down_W=down_W,
     )
     load = replace(USUAL_LOAD, gravity_W=mass * STANDARD_GRAVITY * np.array(down_W))
-    task, noise = contact_task(tip, contact_force), PoseNoise(noise_force, noise_torque)
+    task = replace(contact_task(tip, contact_force), down_W=np.array(down_W))
+    noise = PoseNoise(noise_force, noise_torque)
     with Bar("planning", counted=True) as bar:
         planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
     _write(out, planned)

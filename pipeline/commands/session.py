@@ -134,7 +134,14 @@ def compute(
     chosen = dict(_choice(text) for text in inputs or [])
     with _writing(folder) as session:
         given = settings_of(session.state, kind) | dict(_setting(text) for text in settings or [])
-        record = run(session, kind, name, newest_inputs(session.state, kind, chosen), given)
+        record = run(
+            session,
+            kind,
+            name,
+            newest_inputs(session.state, kind, chosen),
+            given,
+            tell=lambda sentence: say(sentence, "yellow"),
+        )
         stale = session.stale()[kind, name]
     files = [ref.path for ref in files_of(record.action)]
     say(f"{kind} {name} is kept as {', '.join(files)}.")

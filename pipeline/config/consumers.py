@@ -1,6 +1,6 @@
 """Files for the programs that compensate gravity, each in the consumer's own convention.
 
-This is the project's convention, which the exports translate (S sensor, W world with z up, SI):
+This is the project's convention, which the exports translate (S sensor, W world, SI):
 
     F = R_SW g_W + F0,    M = L_S x (R_SW g_W) + M0
 
@@ -13,6 +13,10 @@ became of the sign of the imu reading in 2021.
 
 The text is YAML 1.1 in ASCII. Every number carries a decimal point, every string is quoted: ROS 2 refuses an
 int where it wants a double, and a list that mixes the two.
+
+ros2_control takes a weight along z of W, and nothing else. Of a robot that stands it is positive, of one that hangs
+negative; on a wall or a tilted base there is no such weight, and the admittance controller's part is left out.
+force_torque_tools is given the vector, whatever way is down.
 
 Facts that the model does not hold, such as frames, stand in lines of their own below the title, in a fixed order:
 `regenerate_ros2_yaml` and `regenerate_ft_calib_yaml` read them, and return the text that belongs to a model.
@@ -29,19 +33,20 @@ import numpy as np
 from pipeline import __version__
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
+    DOWN_W,
     FORCE_BIAS,
     GRAVITY,
     STANDARD_GRAVITY,
     TORQUE_BIAS,
     length,
 )
-from pipeline.config.vertical import residual_of, vertical_residual
+from pipeline.config.vertical import down_along_z, residual_of, vertical_residual
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from pipeline.calibration import GravityModel
     from pipeline.config.vertical import VerticalResidual
@@ -70,6 +75,7 @@ def ros2_yaml(
     broadcaster: str = "force_torque_sensor_broadcaster",
     admittance: str = "admittance_controller",
     tool: str = TOOL,
+    down_W: ArrayLike = DOWN_W,
 ) -> str:
     """Return parameters for ros2_control's force_torque_sensor_broadcaster and admittance_controller.
 
@@ -88,7 +94,8 @@ def ros2_yaml(
     ``fixed_world_frame`` has to be a link of the kinematics chain. It enters as the rotation that forward
     kinematics gives for it, R_BW, where R_WB is meant. Both are the identity when it is the base B of the
     chain itself, which is why the file recommends that; turned about the vertical or by half a turn, it
-    works too.
+    works too. Where W hangs upside down, its base stays the frame, and ``CoG.force`` is negative. Where down is
+    not along z of W, the part of the admittance controller is left out: no frame makes its formula right.
 
     Parameters
     ----------
@@ -96,7 +103,7 @@ def ros2_yaml(
     sensor_frame : str
         Frame S that the readings are in, as the robot description names it.
     world_frame : str
-        Frame W, z up, against which the calibration's orientations were given.
+        Frame W, against which the calibration's orientations were given.
     sensor_name : str, optional
         The sensor as the ros2_control tag of the robot description names it. The broadcaster reads it, and does
         not start without; the admittance controller reads what the broadcaster exports. None: the file has
@@ -105,6 +112,8 @@ def ros2_yaml(
         Names of the two controllers, with namespace if they have one.
     tool : str
         Who wrote it: ``contactbench`` and a version.
+    down_W : array_like (3,)
+        Unit vector: where down is in W.
 
     Returns
     -------
@@ -124,9 +133,13 @@ def ros2_yaml(
     _check_tool("ros2_yaml", tool)
     if broadcaster == admittance:
         raise InputError(f"ros2_yaml: broadcaster and admittance are both {admittance!r}: name two nodes")
-    vertical = vertical_residual(model)
+    vertical_residual(model, down_W)  # refuses gravity that points up
     # The exported interfaces carry the node's name without its namespace.
     source = f"{broadcaster.rsplit('/', 1)[-1]}/{sensor_name or _PLACEHOLDER}"
+    along_z, vertical = down_along_z(down_W), None
+    if along_z is not None:
+        weight = max(along_z * float(model.gravity_W[2]), 0.0)
+        vertical = residual_of(model, weight, (0.0, 0.0, along_z))
     return _document(
         *_head(
             "ros2_control",
@@ -139,7 +152,7 @@ def ros2_yaml(
             admittance=admittance,
         ),
         *_ROS2_NOTES,
-        *_warn("WARNING: ", vertical),
+        *([] if vertical is None else _warn("WARNING: ", vertical)),
         f"{_key(broadcaster)}:",
         "  ros__parameters:",
         *_sensor_lines(sensor_name),
@@ -152,34 +165,43 @@ def ros2_yaml(
         "    multiplier:",
         *_axes("force", np.ones(3)),
         *_axes("torque", np.ones(3)),
-        f"{_key(admittance)}:",
-        "  ros__parameters:",
-        "    ft_sensor:",
-        "      # This controller removes no bias. It has to read what the broadcaster exports (start that",
-        "      # one first), not the sensor itself. Mind the CAUTION above.",
-        f"      {'' if sensor_name else '# '}name: {_text(source)}",
-        "      frame:",
-        f"        id: {_text(sensor_frame)}",
-        "    # z up. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that",
-        "    # base, as on a wall, is used the wrong way round.",
-        "    fixed_world_frame:",
-        "      frame:",
-        f"        id: {_text(world_frame)}",
-        "    gravity_compensation:",
-        "      frame:",
-        f"        id: {_text(sensor_frame)}",
-        "      CoG:",
-        "        # From the sensor origin, in the frame above, m.",
-        *_sigma_comment("        ", _sigma(model, CENTRE_OF_MASS)),
-        f"        pos: {_list(model.centre_of_mass_S)}",
-        "        # Weight, N (not kg), taken along -z of fixed_world_frame.",
-        *_sigma_comment("        ", _sigma(model, GRAVITY)[2:]),
-        f"        force: {yaml_number(vertical.weight)}",
+        *_without_admittance(admittance, down_W)
+        if along_z is None or vertical is None
+        else (
+            f"{_key(admittance)}:",
+            "  ros__parameters:",
+            "    ft_sensor:",
+            "      # This controller removes no bias. It has to read what the broadcaster exports (start that",
+            "      # one first), not the sensor itself. Mind the CAUTION above.",
+            f"      {'' if sensor_name else '# '}name: {_text(source)}",
+            "      frame:",
+            f"        id: {_text(sensor_frame)}",
+            *_BASE[along_z > 0],
+            "    fixed_world_frame:",
+            "      frame:",
+            f"        id: {_text(world_frame)}",
+            "    gravity_compensation:",
+            "      frame:",
+            f"        id: {_text(sensor_frame)}",
+            "      CoG:",
+            "        # From the sensor origin, in the frame above, m.",
+            *_sigma_comment("        ", _sigma(model, CENTRE_OF_MASS)),
+            f"        pos: {_list(model.centre_of_mass_S)}",
+            "        # Weight, N (not kg), taken along -z of fixed_world_frame.",
+            *_HANGING[along_z < 0 :],
+            *_sigma_comment("        ", _sigma(model, GRAVITY)[2:]),
+            f"        force: {yaml_number(-along_z * vertical.weight)}",
+        ),
     )
 
 
 def ft_calib_yaml(
-    model: GravityModel, *, com_frame: str, child_frame: str = "gripper_com", tool: str = TOOL
+    model: GravityModel,
+    *,
+    com_frame: str,
+    child_frame: str = "gripper_com",
+    tool: str = TOOL,
+    down_W: ArrayLike = DOWN_W,
 ) -> str:
     """Return the calibration file of KTH's force_torque_tools, which its gravity_compensation node loads.
 
@@ -203,6 +225,8 @@ def ft_calib_yaml(
         What the node calls the centre of mass when it publishes it to tf; it does not start without.
     tool : str
         Who wrote it: ``contactbench`` and a version.
+    down_W : array_like (3,)
+        Unit vector: where down is in W.
 
     Returns
     -------
@@ -221,13 +245,18 @@ def ft_calib_yaml(
         raise InputError(
             f"ft_calib_yaml: com_frame and child_frame are both {com_frame!r}: tf needs two names"
         )
-    if vertical_residual(model).weight == 0:
+    if vertical_residual(model, down_W).weight == 0:
         raise InputError(
             "ft_calib_yaml: the load has no weight that points down, and gravity_compensation takes no mass of"
             " zero. Subtract the bias alone, or calibrate with the load mounted."
         )
     down = STANDARD_GRAVITY * model.gravity_W / length(model.gravity_W)
-    vertical = residual_of(model, model.mass * STANDARD_GRAVITY)
+    vertical = residual_of(model, model.mass * STANDARD_GRAVITY, down_W)
+    where = (
+        "z up"
+        if down_along_z(down_W) == -1
+        else f"down in it is {_list(np.asarray(down_W, dtype=np.float64))}"
+    )
     return _document(
         *_head(
             "KTH gravity_compensation (force_torque_tools)",
@@ -237,7 +266,7 @@ def ft_calib_yaml(
             child_frame=child_frame,
         ),
         "# The node takes gravity from linear_acceleration in its imu topic, m/s^2, turned by tf. To give it",
-        "# the gravity of this calibration, publish in the world frame of the calibration (z up):",
+        f"# the gravity of this calibration, publish in the world frame of the calibration ({where}):",
         f"#   {_list(down)}  release 1.2 and older: taken as it is, pointing down",
         f"#   {_list(-down)}  versions that negate the reading first",
         "# The wrong one of the two doubles the weight instead of removing it.",
@@ -259,7 +288,7 @@ def ft_calib_yaml(
 # ---- read again ----------------------------------------------------------------------------------
 
 
-def regenerate_ros2_yaml(text: str, model: GravityModel) -> str:
+def regenerate_ros2_yaml(text: str, model: GravityModel, down_W: ArrayLike = DOWN_W) -> str:
     """Return the text that `ros2_yaml` gives for a model and the facts in the head of a text that it once gave.
 
     A text is what it must be if the two are the same.
@@ -269,6 +298,8 @@ def regenerate_ros2_yaml(text: str, model: GravityModel) -> str:
     text : str
         Not to be trusted. Only the lines of its head are read.
     model : GravityModel
+    down_W : array_like (3,)
+        Unit vector: where down is in W.
 
     Raises
     ------
@@ -284,10 +315,11 @@ def regenerate_ros2_yaml(text: str, model: GravityModel) -> str:
         world_frame=world_frame,
         sensor_name=None if sensor_name == _NOT_GIVEN else sensor_name,
         tool=tool,
+        down_W=down_W,
     )
 
 
-def regenerate_ft_calib_yaml(text: str, model: GravityModel) -> str:
+def regenerate_ft_calib_yaml(text: str, model: GravityModel, down_W: ArrayLike = DOWN_W) -> str:
     """Return the text that `ft_calib_yaml` gives for a model and the facts in the head of a text, likewise.
 
     Raises
@@ -297,7 +329,7 @@ def regenerate_ft_calib_yaml(text: str, model: GravityModel) -> str:
     """
     names = "tool", "com_frame", "child_frame"
     tool, com_frame, child_frame = _facts("ft_calib.yaml", text, names)
-    return ft_calib_yaml(model, com_frame=com_frame, child_frame=child_frame, tool=tool)
+    return ft_calib_yaml(model, com_frame=com_frame, child_frame=child_frame, tool=tool, down_W=down_W)
 
 
 def _facts(file: str, text: str, names: Sequence[str]) -> list[str]:
@@ -405,6 +437,22 @@ _ROS2_NOTES = (
 )
 
 
+# Of a robot that stands, and of one that hangs.
+_BASE = (
+    (
+        "    # z up. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that",
+        "    # base, as on a wall, is used the wrong way round.",
+    ),
+    (
+        "    # z down. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that",
+        "    # base is used the wrong way round. A level frame with z up would need the weight above 0.",
+    ),
+)
+_HANGING = (
+    "        # Negative on purpose: this robot hangs from the ceiling, and its weight points along +z.",
+)
+
+
 def _sensor_lines(sensor_name: str | None) -> list[str]:
     if sensor_name is not None:
         return [f"    sensor_name: {_text(sensor_name)}"]
@@ -413,6 +461,15 @@ def _sensor_lines(sensor_name: str | None) -> list[str]:
         "    # ft_sensor.name below: the broadcaster does not start without it.",
         f"    # sensor_name: {_text(_PLACEHOLDER)}",
     ]
+
+
+def _without_admittance(admittance: str, down_W: ArrayLike) -> tuple[str, ...]:
+    return (
+        f"# NO {admittance}: it takes the weight along z of the base of its kinematics chain,",
+        "# and this robot is on a wall or a tilted base: down in the calibration's world frame is",
+        f"#   {_list(np.asarray(down_W, dtype=np.float64))}",
+        "# No fixed_world_frame makes that right. Compensate with contactbench's own runtime.",
+    )
 
 
 def _sigma(model: GravityModel, part: slice) -> NDArray[np.float64]:

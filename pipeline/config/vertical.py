@@ -1,29 +1,36 @@
-"""What is lost where gravity is taken as exactly vertical.
+"""Which way is down in W, and what is lost where gravity is taken as exactly vertical.
 
 The calibration leaves the gravity vector free, so that it absorbs a base that is not level. A consumer that
-knows only a weight, pointing along -z of its world frame, cannot express that.
+knows only a weight along one fixed direction cannot express that.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import length
+from pipeline.calibration.model import DOWN_W, length
 from pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from pipeline.calibration import GravityModel
+
+NO_ADMITTANCE: Final = (
+    "ros2.yaml holds only the broadcaster's offset: the admittance controller of ros2_control cannot take the weight of"
+    " a tool whose robot is on a wall or a tilted base."
+)
+# The cosine of some 5 degrees: further from z of W, a weight along z is the wrong weight.
+_ALONG_Z = 0.996
 
 # Less than this share of the weight is rounding, not a tilt: of a fit to exact data 1e-13 remains.
 _ROUNDING = 1e-9
 # Noise alone turns the weight of a bare sensor upwards every other time; this many sigma is no noise.
-_POINTS_UP = 2.0
+_NOISE = 2.0
 # The covariance of a compensated wrench is of second degree in the rotation. The mean over the 24 rotations
 # of a cube is then the mean over all rotations, exactly.
 _ORIENTATIONS = Rotation.create_group("O").as_matrix()
@@ -36,9 +43,9 @@ class VerticalResidual:
     Attributes
     ----------
     tilt : float
-        Angle between the model's gravity and the world's -z axis, degrees.
+        Angle between the model's gravity and the consumer's vertical, degrees.
     weight : float
-        What the consumer takes off along -z of W, N: the vertical part of gravity.
+        What the consumer takes off along its vertical, N: that part of gravity.
     force, torque : float
         Largest error over all orientations of the sensor, N and N·m about the sensor origin.
     force_sigma, torque_sigma : float
@@ -57,44 +64,75 @@ class VerticalResidual:
     warnings: tuple[str, ...]
 
 
-def vertical_residual(model: GravityModel) -> VerticalResidual:
-    """Return what a consumer that takes gravity as vertical leaves in the wrench.
+def points_away(model: GravityModel, down_W: ArrayLike, cosine: float = 0.0) -> bool:
+    """Tell whether gravity is further from ``down_W`` than an angle, by more than its noise.
 
-    With the horizontal part ``e`` of gravity, a still sensor keeps ``R_SW e`` in the force and
+    Parameters
+    ----------
+    model : GravityModel
+    down_W : array_like (3,)
+        Unit vector in W.
+    cosine : float
+        Of the angle; 0: gravity points up.
+    """
+    down = np.asarray(down_W, dtype=np.float64)
+    sigma = float(np.sqrt(max(float(down @ model.covariance[:3, :3] @ down), 0.0)))
+    return float(model.gravity_W @ down) + _NOISE * sigma < cosine * length(model.gravity_W)
+
+
+def down_along_z(down_W: ArrayLike) -> float | None:
+    """Return -1 where down is -z of W (the robot stands), 1 where it is +z (it hangs), else None.
+
+    Parameters
+    ----------
+    down_W : array_like (3,)
+        Unit vector in W.
+    """
+    z = float(np.asarray(down_W, dtype=np.float64)[2])
+    return float(np.sign(z)) if abs(z) >= _ALONG_Z else None
+
+
+def vertical_residual(model: GravityModel, down_W: ArrayLike = DOWN_W) -> VerticalResidual:
+    """Return what a consumer that takes gravity along one direction leaves in the wrench.
+
+    With the part ``e`` of gravity across that direction, a still sensor keeps ``R_SW e`` in the force and
     ``L_S x R_SW e`` in the torque: at most ``|e|`` and ``|L| |e|``, whatever the orientation.
 
     Parameters
     ----------
     model : GravityModel
-        Its world frame W has z up.
+    down_W : array_like (3,)
+        Unit vector in W: the consumer's vertical.
 
     Raises
     ------
     InputError
         Gravity points up.
     """
-    g = model.gravity_W
-    up = float(g[2])
-    if up > max(_POINTS_UP * float(np.sqrt(model.covariance[2, 2])), 0.0):
+    along = float(model.gravity_W @ np.asarray(down_W, dtype=np.float64))
+    if points_away(model, down_W):
         raise InputError(
-            f"gravity_W: gravity points up ({up:.3g} N along the world's z axis). The sensor reports the"
-            " opposite sign, or the orientations are turned over: mend that and calibrate again."
+            f"gravity_W: gravity points up (by {-along:.3g} N) against the direction that was given as down. The"
+            " sensor reports the opposite sign, or the orientations are turned over: mend that; or the robot"
+            " does not stand: give --down, and calibrate again."
         )
-    return residual_of(model, max(-up, 0.0))
+    return residual_of(model, max(along, 0.0), down_W)
 
 
-def residual_of(model: GravityModel, weight: float) -> VerticalResidual:
+def residual_of(model: GravityModel, weight: float, down_W: ArrayLike = DOWN_W) -> VerticalResidual:
     """Return the same for a consumer that was given another weight.
 
     Parameters
     ----------
     model : GravityModel
     weight : float
-        What the consumer subtracts along -z of W, N.
+        What the consumer subtracts along ``down_W``, N.
+    down_W : array_like (3,)
+        Unit vector in W.
     """
-    g = model.gravity_W
-    tilt = float(np.degrees(np.arctan2(np.hypot(g[0], g[1]), -g[2]))) if g.any() else 0.0
-    force = length(g + [0.0, 0.0, weight])
+    g, down = model.gravity_W, np.asarray(down_W, dtype=np.float64)
+    tilt = float(np.degrees(np.arctan2(length(np.cross(g, down)), float(g @ down)))) if g.any() else 0.0
+    force = length(g - weight * down)
     arm = length(model.centre_of_mass_S)
     torque = arm * force
     C = model.wrench_covariance(_ORIENTATIONS)

@@ -39,6 +39,8 @@ RuntimeContact = _module.RuntimeContact
 Scan = _module.Scan
 Solver = _module.Solver
 SurfaceIndex = _module.SurfaceIndex
+Zero = _module.Zero
+ZeroWatch = _module.ZeroWatch
 frozen = _module.frozen
 poses_at = _module.poses_at
 
@@ -57,6 +59,8 @@ __all__ = [
     "Scan",
     "Solver",
     "SurfaceIndex",
+    "Zero",
+    "ZeroWatch",
     "compiler",
     "frozen",
     "poses_at",

@@ -19,6 +19,8 @@ __all__ = [
     "Scan",
     "Solver",
     "SurfaceIndex",
+    "Zero",
+    "ZeroWatch",
     "compiler",
     "frozen",
     "poses_at",
@@ -270,6 +272,8 @@ class Runtime:
         silence: float,
         frozen_chance: float,
         motion: tuple[float, float] | None,
+        gravity_covariance: NDArray[np.float64] | None = None,
+        orientation_sigma: float = ...,
         min_force: float,
         cos_friction: float,
         implausible_misfit: float,
@@ -299,6 +303,7 @@ class Runtime:
     def time_each(
         self, wrenches: NDArray[np.float64], rotations: NDArray[np.float64], times: NDArray[np.float64]
     ) -> NDArray[np.float64]: ...
+    def zero(self) -> Zero: ...
     def reset(self) -> None: ...
 
 class Solver:
@@ -415,3 +420,36 @@ class Geodesic:
     ) -> NDArray[np.float64]: ...
     def begin(self, radius: float, geodesic: bool) -> None: ...
     def extend(self, face: int, point: NDArray[np.float64], joined: bool) -> NDArray[np.int32]: ...
+
+class Zero:
+    @property
+    def state(self) -> str: ...
+    @property
+    def age(self) -> float: ...
+    @property
+    def offset(self) -> NDArray[np.float64] | None: ...
+    @property
+    def sigma(self) -> NDArray[np.float64] | None: ...
+    @property
+    def shift(self) -> float: ...
+    @property
+    def shift_sigma(self) -> float: ...
+
+class ZeroWatch:
+    def __init__(
+        self,
+        gravity: NDArray[np.float64],
+        covariance: NDArray[np.float64] | None,
+        places: NDArray[np.float64],
+        *,
+        orientation_sigma: float,
+        min_force: float,
+    ) -> None: ...
+    def see(
+        self,
+        wrenches: NDArray[np.float64],
+        rotations: NDArray[np.float64],
+        times: NDArray[np.float64],
+        touched: bool = False,
+    ) -> None: ...
+    def at(self, now: float) -> Zero: ...

@@ -11,6 +11,7 @@ import scipy
 from pipeline import __version__
 from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
 from pipeline.calibration.wording import plain, signed, with_sigma
+from pipeline.verification.known import TOUCH, WEIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,6 +20,11 @@ if TYPE_CHECKING:
     from pipeline.mesh.sidecar import ProbeFile
     from pipeline.verification.figures import ForceAccuracy, Summary, TouchFigure, Verification
 
+# Kind, what it is called, and what it rests on.
+_CHECKS = (
+    (WEIGHT, "Known weight", ("calibration",)),
+    (TOUCH, "Known touch", ("calibration", "probe")),
+)
 MOST_TOUCHES = 400  # rows of the last table
 NOTHING = "\N{EN DASH}"
 # Of a verification's settings: how they are called on the page. What is not here is shown by its own name.
@@ -214,6 +220,35 @@ def calibration_facts(record: CalibrationRecord) -> dict[str, Any]:
         "tool": record.tool,
         "source": record.source,
     }
+
+
+def check_rows(
+    checks: Mapping[str, Mapping[str, Any]], sources: Mapping[str, str]
+) -> list[tuple[str, str, str]]:
+    """Return of each check that was made its name, a word and a paragraph; `sources`: what was verified, by role."""
+    rows = []
+    for kind, name, roles in _CHECKS:
+        if kind not in checks:
+            continue
+        content = checks[kind]
+        made_with = {role: content.get(f"{role}_sha256") for role in roles}
+        others = [
+            f"another {role}" for role in roles if made_with[role] != sources.get(role, made_with[role])
+        ]
+        outcome, words = content["outcome"], f"{content['sentence']} {_made_with(content)}".strip()
+        if others:
+            outcome = "not of this"
+            words = f"It was made with {' and '.join(others)}: check again. {words}"
+        rows.append((name, outcome, words))
+    return rows
+
+
+def _made_with(content: Mapping[str, Any]) -> str:
+    """Say what a check was made with, and when."""
+    said = [f"certificate {content['certificate']}"] if content.get("certificate") else []
+    if content.get("created"):
+        said.append(str(content["created"])[:16].replace("T", " ") + " UTC")
+    return f"({', '.join(said)})" if said else ""
 
 
 def mesh_steps(content: ProbeFile) -> list[dict[str, str]]:

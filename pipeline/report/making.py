@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from pipeline.report.errors import ReportError
+from pipeline.verification.known import TOUCH, WEIGHT, read_check
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-_ROLES = ("verification", "probe", "calibration")
+_ROLES = ("verification", "probe", "calibration", WEIGHT, TOUCH)
 
 
 class ReportParameters(BaseModel):
@@ -33,7 +34,7 @@ def report(
     inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """
-    Make the report of ``verification`` on ``probe``; ``calibration`` may be left out.
+    Make the report of ``verification`` on ``probe``; ``calibration`` and the two checks may be left out.
 
     Raises
     ------
@@ -49,7 +50,7 @@ def report(
     given = _parameters(parameters)
     if not {"verification", "probe"} <= set(inputs) <= set(_ROLES):
         raise ReportError(
-            f"inputs: verification and probe are needed, and perhaps calibration; there are"
+            f"inputs: verification and probe are needed, and perhaps {', '.join(_ROLES[2:])}; there are"
             f" {', '.join(inputs) or 'none'}."
         )
     verification = read_verification(inputs["verification"])
@@ -64,6 +65,7 @@ def report(
         given.session,
         given.serials,
         {f"{role} ({inputs[role].name})": sha256 for role, sha256 in hashes.items()},
+        {kind: read_check(kind, inputs[kind]) for kind in (WEIGHT, TOUCH) if kind in inputs},
     )
     page = report_html(content)
     return {given.name: report_pdf(page) if given.name.endswith(".pdf") else page.encode()}

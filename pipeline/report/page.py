@@ -16,6 +16,7 @@ from pipeline.mesh.regions.exchange import mesh_hash
 from pipeline.report.errors import ReportError
 from pipeline.report.facts import (
     calibration_facts,
+    check_rows,
     mesh_steps,
     settings_rows,
     summaries,
@@ -60,6 +61,8 @@ class ReportContent:
         Serial number by device: ``{"sensor M8128": "SN 7"}``.
     files : mapping of str to str
         SHA-256 by name, of further files.
+    checks : mapping of str to mapping
+        By kind, what a known weight and a known touch showed; see `verification.known.read_check`.
     """
 
     verification: Verification
@@ -70,6 +73,7 @@ class ReportContent:
     session: str = ""
     serials: Mapping[str, str] = field(default_factory=dict)
     files: Mapping[str, str] = field(default_factory=dict)
+    checks: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
 
 def report_html(content: ReportContent) -> str:
@@ -109,6 +113,7 @@ def _context(content: ReportContent) -> dict[str, Any]:
         "left": model_error_words(verification.model_error),
         "touches": touch_rows(verification),
         "calibration": None if content.calibration is None else calibration_facts(content.calibration),
+        "checks": check_rows(content.checks, verification.sources),
         "settings": settings_rows(verification.settings),
         "versions": versions(),
         "steps": mesh_steps(content.probe),

@@ -54,9 +54,10 @@ class Engine:
         reading = np.array((*sample.force, *sample.torque))
         arrival = sample.time if sample.arrival is None else sample.arrival
         contact = self._runtime.locate(reading, sample.time, arrival, int(sample.status))
-        return Answer(contact, contact.latency if self._clock is None else self._clock() - sample.time)
+        latency = contact.latency if self._clock is None else self._clock() - sample.time
+        return Answer(contact, latency, self._runtime.zero())
 
     def silent(self, now: float) -> Answer | None:
         """Return an answer that says that no sample comes, or None while they do; `now` in s of the samples' clock."""
         contact = self._runtime.silent(now)
-        return None if contact is None else Answer(contact, contact.latency)
+        return None if contact is None else Answer(contact, contact.latency, self._runtime.zero())

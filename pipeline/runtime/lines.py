@@ -33,10 +33,13 @@ class Answer:
     contact : kernel.RuntimeContact
     latency : float
         How old the reading was when this was known, s; NaN: not known.
+    zero : kernel.Zero
+        What is known of the sensor's zero at this sample.
 
     Attributes
     ----------
     contact : kernel.RuntimeContact or None
+    zero : kernel.Zero or None
         None after `let_go`.
     time : float
         Of the sample, s of its own clock.
@@ -48,10 +51,11 @@ class Answer:
         As given.
     """
 
-    __slots__ = ("_line", "contact", "health", "latency", "reason", "time")
+    __slots__ = ("_line", "contact", "health", "latency", "reason", "time", "zero")
 
-    def __init__(self, contact: kernel.RuntimeContact, latency: float) -> None:
+    def __init__(self, contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero) -> None:
         self.contact: kernel.RuntimeContact | None = contact
+        self.zero: kernel.Zero | None = zero
         self.time, self.reason, self.health, self.latency = (
             contact.time,
             contact.reason_name,
@@ -63,18 +67,19 @@ class Answer:
     def let_go(self) -> None:
         """Keep the line, not the contact: nothing of the kernel may outlive a program."""
         self._line = self.line
-        self.contact = None
+        self.contact = self.zero = None
 
     @property
     def line(self) -> bytes:
         """One line of JSON, its end included; made once, however many publish it."""
         # Two threads may both make it: it is the same.
-        if self._line is None and (contact := self.contact) is not None:
-            self._line = _line(contact, self.latency).encode("ascii")
+        contact, zero = self.contact, self.zero
+        if self._line is None and contact is not None and zero is not None:
+            self._line = _line(contact, self.latency, zero).encode("ascii")
         return self._line or b""
 
 
-def _line(contact: kernel.RuntimeContact, latency: float) -> str:
+def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero) -> str:
     wrench = contact.wrench
     covariance = contact.covariance
     health = ",".join(f'"{name}"' for name in health_names(contact.health))
@@ -91,7 +96,17 @@ def _line(contact: kernel.RuntimeContact, latency: float) -> str:
         f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'
         f',"misfit":{number(contact.misfit)},"left_over_Nm":{number(contact.left_over)}'
         f',"arm_m":{number(contact.arm)},"runner_up_S_m":{_array(contact.runner_up)}'
-        f',"second_S_m":{_array(contact.second)}}}\n'
+        f',"second_S_m":{_array(contact.second)},"zero":{_zero(zero)}}}\n'
+    )
+
+
+def _zero(zero: kernel.Zero) -> str:
+    offset = zero.offset
+    return (
+        f'{{"state":"{zero.state}","age_s":{number(zero.age)}'
+        f',"force_S_N":{_array(None if offset is None else offset[:3])}'
+        f',"torque_S_Nm":{_array(None if offset is None else offset[3:])}'
+        f',"shift_m":{number(zero.shift)},"shift_sigma_m":{number(zero.shift_sigma)}}}'
     )
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
+    from pipeline import kernel
     from pipeline.config.runtime import RuntimeConfig
     from pipeline.devices.sample import FlangeSample, WrenchSample
     from pipeline.devices.url import DeviceAddress
@@ -80,6 +81,8 @@ class Run:
     latencies : Latencies
     positions : bool or None
         Whether poses come with positions; None: none came yet.
+    zero : kernel.Zero or None
+        What is known of the sensor's zero at the last sample; None: none came yet.
     """
 
     def __init__(
@@ -97,6 +100,7 @@ class Run:
         self.unhealthy: Counter[str] = Counter()
         self.latencies = Latencies()
         self.positions: bool | None = None
+        self.zero: kernel.Zero | None = None
         self._beat = -math.inf
         self._begun, self._counted, self._lost = False, 0, 0
 
@@ -116,6 +120,7 @@ class Run:
         """Take wrenches, oldest first."""
         for sample in samples:
             answer = self._engine.locate(sample)
+            self.zero = answer.zero
             self.reasons[answer.reason] += 1
             usable = answer.reason not in _UNUSABLE
             self._begun |= usable
@@ -250,6 +255,27 @@ def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
         f"The sensor gives {rate:.0f} samples a second, the bundle is for {wanted:.0f}: its filters act at another"
         " frequency. Set the sensor's rate, or export for this one."
     )
+
+
+def zero_words(zero: kernel.Zero) -> str:
+    """Say how far the sensor's zero is off, what that does to a contact, and what to do."""
+    if (offset := zero.offset) is None or (sigma := zero.sigma) is None:
+        return "The sensor's zero is not known yet: hold the probe still for a second, clear of everything."
+    sizes = []
+    for part, scale, unit in ((slice(3), 1.0, "N"), (slice(3, 6), 1e3, "mN·m")):
+        size = float(np.linalg.norm(offset[part]))
+        spread = float(np.linalg.norm(offset[part] * sigma[part])) / size if size > 0 else 0.0
+        sizes.append(f"{scale * size:.2g} ± {scale * spread:.1g} {unit}")
+    off = " and ".join(sizes)
+    shift = f"a contact at 10 N moves by up to {1e3 * zero.shift:.2g} ± {1e3 * zero.shift_sigma:.1g} mm"
+    if zero.state == "off":
+        return f"The sensor's zero is off by {off}: {shift}. Calibrate again before you trust a contact."
+    if zero.state == "doubtful":
+        return (
+            f"The sensor reads {off} too much, or something touches the probe. If nothing does, {shift}. Lift the probe"
+            " clear and hold it still at three tilts, 20° apart."
+        )
+    return f"The sensor's zero is confirmed: off by {off}; {shift}."
 
 
 @contextmanager

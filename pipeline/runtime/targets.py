@@ -243,6 +243,23 @@ def contact_schema() -> bytes:
         "arm_m": _numbers("Torque along the force over the force, m.", array=False),
         "runner_up_S_m": _numbers("The likeliest other place, m; null: none."),
         "second_S_m": _numbers("Where a second touch has joined this one, m; null: none."),
+        "zero": {
+            "type": "object",
+            "description": "What is known of the sensor's zero; nothing of it is applied to the contact.",
+            "properties": {
+                "state": {
+                    **text,
+                    "description": "unknown, confirmed, doubtful (off, unless something touches the probe) or off.",
+                },
+                "age_s": _numbers(
+                    "Since the last moment without touch, s; null: there was none.", array=False
+                ),
+                "force_S_N": _numbers("What the readings have too much, N; null: not known."),
+                "torque_S_Nm": _numbers("The same, N·m."),
+                "shift_m": _numbers("By how much that moves a contact of 10 N at most, m.", array=False),
+                "shift_sigma_m": _numbers("One standard deviation of it, m.", array=False),
+            },
+        },
     }
     schema = {"title": CONTACT_SCHEMA, "type": "object", "properties": fields}
     return json.dumps(schema, ensure_ascii=False).encode()

@@ -30,6 +30,9 @@ from pipeline.session.make_calibration import (
 )
 from pipeline.session.make_probe import ProbeParameters, probe
 from pipeline.session.making import PREFIX
+from pipeline.verification.known import TOUCH_ROLES, WEIGHT_ROLES
+from pipeline.verification.known_touch import TouchParameters, known_touch
+from pipeline.verification.known_weight import WeightParameters, known_weight
 from pipeline.verification.result import REFERENCE, VerificationParameters, verification
 from pipeline.verification.result import ROLES as VERIFICATION_ROLES
 
@@ -40,21 +43,27 @@ if TYPE_CHECKING:
     from pipeline.session.state import State
     from pipeline.session.store import Session
 
-# Inputs by role, parameters, the time to write; those in _FOLLOWED also `progress`, `cancelled` and `remember`.
+# Inputs by role, parameters, the time to write; those in _FOLLOWED also `progress`, `cancelled` and
+# `remember`, those in _TELLING `tell`.
 Recompute = Callable[..., dict[str, bytes]]
 RECOMPUTE: dict[str, Recompute] = {
     "captures": captures,
     "calibration": calibration,
     "probe": probe,
+    "known_weight": known_weight,
+    "known_touch": known_touch,
     "verification": verification,
     "report": report,
 }
 # These take long: they tell how far they are, can be stopped, and may go on from what was computed before.
 _FOLLOWED = frozenset({"probe"})
+_TELLING = frozenset({"captures"})
 PARAMETERS: dict[str, type[BaseModel]] = {
     "captures": CapturesParameters,
     "calibration": CalibrationParameters,
     "probe": ProbeParameters,
+    "known_weight": WeightParameters,
+    "known_touch": TouchParameters,
     "verification": VerificationParameters,
     "report": ReportParameters,
 }
@@ -82,14 +91,17 @@ class Roles:
 
 ROLES: dict[str, Roles] = {
     # Poses of an interrupted run, which come first.
-    "captures": Roles(("recording",), on_request=("earlier",)),
+    "captures": Roles(("recording",), on_request=("earlier", "robot_poses")),
     "calibration": Roles(("poses",)),
     "probe": Roles(("mesh",), ("alignment", "regions")),
+    "known_weight": Roles(WEIGHT_ROLES),
+    "known_touch": Roles(TOUCH_ROLES),
     "verification": Roles(VERIFICATION_ROLES, (REFERENCE,)),
-    "report": Roles(("verification", "probe"), ("calibration",)),
+    "report": Roles(("verification", "probe"), ("calibration", "known_weight", "known_touch")),
 }
 # Nothing keeps a heatmap as a result; what one is made from is chosen in the same way.
 _CHOSEN = {**ROLES, "heatmap": Roles(("recording", "probe", "calibration"))}
+_READINGS = frozenset({"unloaded", "loaded", "touch"})
 # What of a role a result of another kind can be.
 _COMPUTED = {
     "poses": "captures",
@@ -97,6 +109,8 @@ _COMPUTED = {
     "probe": "probe",
     "calibration": "calibration",
     "verification": "verification",
+    "known_weight": "known_weight",
+    "known_touch": "known_touch",
 }
 
 
@@ -109,6 +123,7 @@ def compute(
     *,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> Record:
     """
     Compute a result from what the session holds, and record it.
@@ -125,6 +140,8 @@ def compute(
         See the kind.
     progress, cancelled : callable, optional
         The share that is done, 0 to 1, and whether to stop; of what takes long.
+    tell : callable, optional
+        Gets what was noticed on the way and left out, sentence by sentence.
 
     Raises
     ------
@@ -145,6 +162,7 @@ def compute(
         created,
         progress=progress,
         cancelled=cancelled,
+        tell=tell,
     )
     return session.add_result(kind, name, files, inputs, parameters, created=created)
 
@@ -201,7 +219,9 @@ def newest_inputs(state: State, kind: str, chosen: Mapping[str, str] | None = No
 
 
 def _newest(state: State, role: str, name: str | None) -> str:
-    inputs = [each for each in state.current_inputs.values() if each.kind == role]
+    # What the window records is a recording, whatever it is of: then it goes by its name.
+    kinds = {role, "recording"} if role in _READINGS and name else {role}
+    inputs = [each for each in state.current_inputs.values() if each.kind in kinds]
     results = [each for each in state.current_results.values() if each.action.kind == _COMPUTED.get(role, "")]
     known = {each.number: (each.name, each.content) for each in inputs}
     known |= {each.number: (each.action.name, each.content) for each in results}
@@ -220,12 +240,13 @@ def recomputed(
     *,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
+    tell: Callable[[str], None] | None = None,
 ) -> dict[str, bytes]:
     """
     Return the files that a computation gives; the parameter ``name`` says what the main one is called.
 
     `before` is the record up to which inputs are looked for: what was added later under the same hash may have
-    another name, and names are written into results. For `progress` and `cancelled` see `compute`.
+    another name, and names are written into results. For `progress`, `cancelled` and `tell` see `compute`.
     """
     if kind not in RECOMPUTE:
         raise SessionError(
@@ -244,6 +265,8 @@ def recomputed(
                     cancelled=cancelled,
                     remember=before is None,
                 )
+            if kind in _TELLING:
+                return RECOMPUTE[kind](files, parameters, created, tell=tell)
             return RECOMPUTE[kind](files, parameters, created)
         except InputError as error:
             raise SessionError(_without_places(str(error))) from error

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 import assets
 from pipeline.calibration import GravityModel, PoseNoise, calibrate
-from pipeline.calibration.calibrate import DOWN_W
+from pipeline.calibration.model import DOWN_W
 from pipeline.config.runtime import Filters, RuntimeConfig, build_config
 from pipeline.config.runtime.checks import NONE_DONE
 from pipeline.config.runtime.model import (

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
 from pipeline.config.runtime.bench import export_from_session
+from pipeline.config.runtime.checks import unchecked
 from pipeline.config.runtime.differ import differences
 from pipeline.config.runtime.options import ExportOptions
 from pipeline.config.runtime.pack import CONFIG
+from pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 from pipeline.errors import InputError
 from pipeline.workbench.export_checklist import CheckItem, checklist, refuse_without, results_of
 
@@ -42,6 +44,8 @@ class Preview:
         Of contactbench.json, which holds the hashes of the others.
     reasons : tuple of str
         Why it is not verified; empty: it is.
+    unchecked : str
+        What to do because neither a known weight nor a known touch told anything; empty: one did.
     changes : tuple of str or None
         What differs from the bundle that was exported before, in sentences; None: there is none, or it is gone.
     """
@@ -50,6 +54,7 @@ class Preview:
     figures: tuple[tuple[str, str], ...]
     sha256: str
     reasons: tuple[str, ...]
+    unchecked: str
     changes: tuple[str, ...] | None
 
 
@@ -174,7 +179,8 @@ def _sha256(config: RuntimeConfig) -> str:
 def _checked(config: RuntimeConfig, place: Path) -> str:
     count = len(config.encoded())
     if config.model.verified:
-        return f"{place}: {count} files are as they should be. A robot's runtime takes it: it is verified."
+        words = f"{place}: {count} files are as they should be. A robot's runtime takes it: it is verified."
+        return f"{words} {unchecked(config.model.checks)}".strip()
     return (
         f"{place}: {count} files are as they should be, but it is NOT verified: a robot's runtime takes it only when it"
         " is told to. For trials only."
@@ -185,7 +191,14 @@ def _preview(session: Session, config: RuntimeConfig) -> Preview:
     files = tuple((name, len(content)) for name, content in config.encoded().items())
     reasons = () if config.model.verified else config.model.provenance.stale
     changes = _changes(session.state.settings, config)
-    return Preview(files, _figures(config), _sha256(config), tuple(reasons), changes)
+    return Preview(
+        files,
+        _figures(config),
+        _sha256(config),
+        tuple(reasons),
+        unchecked(config.model.checks),
+        changes,
+    )
 
 
 def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
@@ -201,6 +214,8 @@ def _figures(config: RuntimeConfig) -> tuple[tuple[str, str], ...]:
             f"{model.limits.max_force_N:g} N, {model.limits.max_torque_Nm:g} N·m",
         ),
     ]
+    if down_along_z(model.world.down_W) is None:
+        found.append(("ROS 2", NO_ADMITTANCE))
     gains = model.controller
     if gains is not None:
         found.append(("Gains", f"{gains.desired_force_N:g} N, {gains.variant}"))

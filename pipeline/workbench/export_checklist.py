@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
+from pipeline.config.runtime.checks import CHECK_KINDS
 from pipeline.errors import InputError
 from pipeline.workbench.steps import Step
 
@@ -85,6 +86,7 @@ def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]
         _probe(state, stale),
         _regions(folder, state),
         _verification(folder, state, stale),
+        *_checks(folder, state, stale),
         _report(state, stale),
     )
 
@@ -178,6 +180,37 @@ def _verification(folder: Path, state: State, stale: Stale) -> CheckItem:
     return CheckItem(name, CheckState.DONE, words, Step.VERIFY)
 
 
+def _checks(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
+    """Return a line each of known weight and known touch: one of them is enough."""
+    items = [
+        _check(folder, state, stale, *names)
+        for names in (
+            ("Known weight", "known_weight", "Hang a known weight on the tool.", Step.GRAVITY),
+            ("Known touch", "known_touch", "Press a known point of the probe.", Step.VERIFY),
+        )
+    ]
+    enough = any(item.state is CheckState.DONE for item in items)
+    return tuple(
+        replace(item, state=CheckState.OPTIONAL) if enough and item.state is CheckState.MISSING else item
+        for item in items
+    )
+
+
+def _check(
+    folder: Path, state: State, stale: Stale, name: str, kind: str, remedy: str, step: Step
+) -> CheckItem:
+    found = newest(state, kind)
+    item = _standing(name, found, stale, step, remedy)
+    if item is not None or found is None:
+        unseen = f"Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. {remedy}"
+        return item or _missing(name, unseen, step)
+    content = _content(folder, found)
+    sentence, outcome = str(content.get("sentence", "")), content.get("outcome")
+    if outcome == "failed":
+        return CheckItem(name, CheckState.FAILED, sentence or f"It failed. {remedy}", step)
+    return CheckItem(name, CheckState.DONE if outcome == "passed" else CheckState.MISSING, sentence, step)
+
+
 def _report(state: State, stale: Stale) -> CheckItem:
     remedy = "Finish a verification: its report goes into the bundle."
     found = newest(state, "report")
@@ -224,7 +257,8 @@ def _day(found: Result | Input) -> str:
 
 def results_of(state: State) -> Mapping[str, str]:
     """Return kind -> content of the newest results that a bundle is made of: what an export is an export of."""
-    found = {kind: newest(state, kind) for kind in ("calibration", "probe", "verification", "report")}
+    kinds = ("calibration", "probe", "verification", *CHECK_KINDS, "report")
+    found = {kind: newest(state, kind) for kind in kinds}
     return {kind: each.content for kind, each in found.items() if each is not None}
 
 

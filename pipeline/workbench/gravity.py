@@ -344,4 +344,4 @@ class GravityWork:
     def stands(self) -> str:
         """Say how the sensor stands."""
         R_WE = self._R_WE
-        return "" if R_WE is None else describe(self.settings.sensor_orientations(R_WE))
+        return "" if R_WE is None else describe(self.settings.sensor_orientations(R_WE), self.settings.down_W)

@@ -62,7 +62,8 @@ class GravityCheck:
         self._lock = threading.Lock()
         self._detector = StillnessDetector()
         self.poses = tuple(before)
-        self._seen = np.array([pose.R_WS[2] for pose in (*calibration.poses, *before)])  # up, in S
+        down = settings.down_W
+        self._seen = np.array([down @ pose.R_WS for pose in (*calibration.poses, *before)])  # down, in S
         self._word = ""
         self.found: StillVerification | None = None
         self.proposal = self._farthest()
@@ -72,12 +73,14 @@ class GravityCheck:
         """What to do, or what is going on."""
         if self._word:
             return self._word
-        return f"Turn the tool to a pose that it was not in: {describe(self.proposal)}. Then keep still."
+        stands = describe(self.proposal, self._settings.down_W)
+        return f"Turn the tool to a pose that it was not in: {stands}. Then keep still."
 
     def _farthest(self) -> NDArray[np.float64]:
         """Return the orientation whose weight pulls least like that of any pose so far."""
-        candidates = by_hand(300, max_tilt=float(np.radians(self._settings.max_tilt))).R_WS
-        nearness = (candidates[:, 2] @ self._seen.T).max(axis=1)
+        tilt, down = float(np.radians(self._settings.max_tilt)), self._settings.down_W
+        candidates = by_hand(300, max_tilt=tilt, down_W=down).R_WS
+        nearness = (np.array(down) @ candidates @ self._seen.T).max(axis=1)
         farthest: NDArray[np.float64] = candidates[int(np.argmin(nearness))]
         return farthest
 
@@ -97,7 +100,10 @@ class GravityCheck:
                 self._word = now.sentence
             for capture in self._detector.captures[before:]:
                 pose = capture.to_pose(name=f"check {len(self.poses) + 1}")
-                if np.arccos(np.clip((self._seen @ pose.R_WS[2]).max(), -1, 1)) < _NEAREST:
+                if (
+                    np.arccos(np.clip((self._seen @ (self._settings.down_W @ pose.R_WS)).max(), -1, 1))
+                    < _NEAREST
+                ):
                     self._word = _NEAR
                     continue
                 self.poses = (*self.poses, pose)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from pipeline.session import State
 
 MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt"
+DOWN, ORIENTATION_NOISE = "calibration.down", "calibration.orientation_noise"
 CALIBRATION_FILE, POSES_FILE = "calibration.json", "poses.csv"
 _KIND = "calibration."
 
@@ -57,6 +58,17 @@ class GravitySettings:
         """Of a pose's mean; None: it is estimated from the poses."""
         force, torque = self.parameters.noise_force, self.parameters.noise_torque
         return None if force is None or torque is None else PoseNoise(force, torque)
+
+    @property
+    def orientation_sigma(self) -> float | None:
+        """Of the poses' orientations, rad; None: it is estimated."""
+        degrees = self.parameters.orientation_noise
+        return None if degrees is None else float(np.radians(degrees))
+
+    @property
+    def down_W(self) -> tuple[float, float, float]:
+        """Where gravity points in W."""
+        return self.parameters.down
 
     @property
     def task(self) -> ContactTask:

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from pipeline.calibration import Calibration, Level, PoseSample, calibrate
 from pipeline.calibration.diagnosis.diagnose import diagnose
 from pipeline.calibration.diagnosis.hypotheses import RawOrientations
+from pipeline.calibration.diagnosis.prior import Prior
 from pipeline.calibration.mounting import estimate_mount
 from pipeline.calibration.orientation import Convention
 from pipeline.calibration.reachable import by_hand, describe
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from pipeline.calibration.diagnosis.diagnose import Diagnosis
+    from pipeline.calibration.mounting import MountCalibration
     from pipeline.calibration.reachable import Reachable
     from pipeline.workbench.gravity_settings import GravitySettings
 
@@ -127,7 +130,7 @@ def solve(
     """
     read = read_poses(poses, settings)
     if len(read) < FEWEST:
-        return Solved(None, _planned(read, planned), ())
+        return Solved(None, _planned(read, planned, settings), ())
     calibration = _calibrated(poses, read, settings)
     try:
         suggestion = suggest_pose(calibration, _reach(settings, R_WS_now))
@@ -148,28 +151,50 @@ def _calibrated(
     poses: Sequence[PoseSample], read: tuple[PoseSample, ...], settings: GravitySettings
 ) -> Calibration:
     if settings.parameters.estimate_mount and len(poses) >= 4:
-        return estimate_mount(poses, settings.noise, task=settings.task).calibration
-    return calibrate(read, settings.noise, task=settings.task)
+        return _mount(poses, settings).calibration
+    return calibrate(
+        read,
+        settings.noise,
+        orientation_sigma=settings.orientation_sigma,
+        down_W=settings.down_W,
+        task=settings.task,
+    )
+
+
+def _mount(poses: Sequence[PoseSample], settings: GravitySettings) -> MountCalibration:
+    return estimate_mount(
+        poses,
+        settings.noise,
+        orientation_sigma=settings.orientation_sigma,
+        down_W=settings.down_W,
+        task=settings.task,
+    )
 
 
 def _reach(settings: GravitySettings, R_WS_now: NDArray[np.float64] | None) -> Reachable:
-    return by_hand(_CANDIDATES, max_tilt=float(np.radians(settings.max_tilt)), R_WS_now=R_WS_now)
+    return by_hand(
+        _CANDIDATES,
+        max_tilt=float(np.radians(settings.max_tilt)),
+        R_WS_now=R_WS_now,
+        down_W=settings.down_W,
+    )
 
 
-def _planned(read: Sequence[PoseSample], planned: Plan | None) -> Proposal | None:
+def _planned(read: Sequence[PoseSample], planned: Plan | None, settings: GravitySettings) -> Proposal | None:
     """Return the first planned pose that nobody has taken."""
     if planned is None:
         return None
-    taken = [pose.R_WS[2] for pose in read]  # where up is in S: all that a weight can tell
+    down = np.array(settings.down_W)
+    taken = [down @ pose.R_WS for pose in read]  # where down is in S: all that a weight can tell
     for number, (R_WS, error) in enumerate(zip(planned.R_WS, planned.errors.tolist(), strict=True), 1):
-        if all(float(R_WS[2] @ up) < np.cos(np.radians(20.0)) for up in taken):
+        if all(float(down @ R_WS @ there) < np.cos(np.radians(20.0)) for there in taken):
             gain = (
                 f" After all {len(planned.R_WS)} planned poses the calibration will add about"
                 f" {1e3 * planned.error:.2g} mm to a contact point."
                 if number == 1
                 else ""
             )
-            return Proposal(R_WS, f"{_capital(describe(R_WS))}.{gain}", error)
+            return Proposal(R_WS, f"{_capital(describe(R_WS, settings.down_W))}.{gain}", error)
     return None
 
 
@@ -206,19 +231,20 @@ def _convention(
     convention = Convention(inverse=settings.parameters.inverse)
     quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat()
     raw = RawOrientations(np.roll(quaternions, 1, axis=1), convention)
-    found = diagnose(calibration.poses, settings.noise, raw=raw)
+    found = diagnose(calibration.poses, settings.noise, prior=Prior(down_W=settings.down_W), raw=raw)
     if found.consistent:
         return None
-    if not found.explained or (found.best.hypothesis == "as_declared"):
+    if found.none_known or found.best.hypothesis == "as_declared":
         mounted = _mounted(poses, calibration, settings)
         if mounted is not None or calibration.verdict.level is not Level.REFUSE:
             return mounted
         return Finding("unexplained", found.sentence)
-    return _remedied(found.best.hypothesis, found.sentence, len(poses), settings)
+    return _remedied(found, len(poses), settings)
 
 
-def _remedied(key: str, sentence: str, count: int, settings: GravitySettings) -> Finding:
+def _remedied(found: Diagnosis, count: int, settings: GravitySettings) -> Finding:
     """Return a finding with what mends it, where a parameter can."""
+    key, sentence, turn = found.best.hypothesis, found.sentence, found.best.turn
     if key == "transposed":
         return Finding(
             key,
@@ -226,8 +252,7 @@ def _remedied(key: str, sentence: str, count: int, settings: GravitySettings) ->
             settings=((INVERSE, not settings.parameters.inverse),),
             remedy="Read the orientations the other way round",
         )
-    if key.startswith("yaw_"):
-        turn = Rotation.from_euler("z", float(key.removeprefix("yaw_")), degrees=True).as_matrix()
+    if turn is not None:
         return _turned(key, sentence, settings.R_ES @ turn)
     if key.startswith("rezero_before_"):
         change = int(key.removeprefix("rezero_before_")) - 1
@@ -259,7 +284,7 @@ def _mounted(
     read = tuple(
         replace(pose, R_WS=pose.R_WS.T if settings.parameters.inverse else pose.R_WS) for pose in poses
     )
-    mounted = estimate_mount(read, settings.noise, task=settings.task)
+    mounted = _mount(read, settings)
     if mounted.refused:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())

@@ -70,6 +70,7 @@ def window(qtbot, made, tmp_path, request):
 def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_path):
     page = window.page
     assert "ready" in page.standing.text()
+    assert "Neither a known weight nor a known touch was checked" in page.standing.text()
     assert page.zip.isEnabled()
     assert not page.unverified.isVisible()
     assert "probe.ply" in page.files.text()

@@ -108,7 +108,7 @@ def test_unplugged_while_verifying_and_closed(made, ready, tmp_path):
         page.panel_markers.count.setValue(2)
         click(made, page.panel_markers.spread)
         made.wait(lambda: len(page.markers) == 2 and not page._editing.pending)
-        page.tabs.setCurrentIndex(2)
+        page.tabs.setCurrentIndex(3)
         click(made, page.panel_touch.start)
         made.wait(lambda: page.work.going_on)
     made.wait_said("sensor", "goes on when it is back")

@@ -257,7 +257,7 @@ def test_closed_while_everything_runs(made, sessions, tmp_path):
     page = made.page(Step.VERIFY)
     spread(made)
     made.idle()
-    page.tabs.setCurrentIndex(2)
+    page.tabs.setCurrentIndex(3)
     click(made, page.panel_touch.start)
     made.wait(lambda: page.work.going_on)
     probe = made.page(Step.PROBE)

@@ -93,7 +93,7 @@ def test_the_whole_way_by_clicks(window):
     page, touch = window.page, window.page.panel_touch
     assert not touch.start.isEnabled()
     spread(window, 2)
-    page.tabs.setCurrentIndex(2)
+    page.tabs.setCurrentIndex(3)
     window.click(touch.start)
     window.wait(lambda: touch.finish.isEnabled())
     assert Step.VERIFY in window.bench.running
@@ -113,7 +113,7 @@ def test_the_whole_way_by_clicks(window):
         lambda: page.outcome is not None and not page.work.going_on and touch.start.isVisibleTo(touch)
     )
     assert page.outcome.passed
-    assert page.tabs.currentIndex() == 3
+    assert page.tabs.currentIndex() == 4
     assert page.panel_result.verdict.text() == "Passed"
     assert page.panel_result.number.text() == f"{page.outcome.mean_mm:.2f} mm"
     assert page.panel_result.open.isVisible()

@@ -233,7 +233,9 @@ def test_half_of_them_bumped_leaves_no_majority():
     )  # scatter cannot be told from noise without a figure
     calibration = calibrate(poses, NOISE)
     assert not calibration.rejected  # nobody can say who is right: all are shown
-    assert any("times what the noise given explains: check" in reason for reason in calibration.verdict.reasons)
+    assert any(
+        "times what the noise given explains: check" in reason for reason in calibration.verdict.reasons
+    )
 
 
 @pytest.mark.parametrize("noise", [NOISE, None], ids=["noise known", "noise estimated"])

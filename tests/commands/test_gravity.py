@@ -2,6 +2,7 @@
 
 import csv
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -76,6 +77,78 @@ def test_the_bumped_pose_is_named(tmp_path: Path) -> None:
     assert f"{name} is left out: " in said(result)
 
 
+def timed(file: Path, weighing: Any, offsets: np.ndarray) -> Path:
+    """Write poses 30 s apart, with offsets (n, 6) in the readings, N and N·m."""
+    moved = [
+        replace(pose, force=pose.force + offset[:3], torque=pose.torque + offset[3:])
+        for pose, offset in zip(weighing.poses, offsets, strict=True)
+    ]
+    return write_euler(file, replace(weighing, poses=tuple(moved)))
+
+
+def test_a_drift_is_told_with_its_rate_and_the_bias_at_the_end(tmp_path: Path) -> None:
+    weighing = weighed(12)
+    share = np.linspace(-1, 0, 12)[:, None]
+    drift = np.array([0.5, 0.0, 0.0, 0.0, 0.015, 0.0])
+    file = timed(tmp_path / "drift.csv", weighing, share * drift)
+    result = invoke("calibrate", file, *EULER, "--out", tmp_path / "d.json", "--json")
+    facts = json.loads(result.stdout)
+    assert facts["causes"][0]["key"] == "drift"
+    assert facts["causes"][0]["sentence"] in said(result)
+    assert 0.9 < facts["causes"][0]["odds"] <= 1
+    hours = 10.0 * 11 / 3600  # as the file has the times
+    rates, sigmas = np.array(facts["drift_per_hour"]), np.array(facts["drift_per_hour_sigma"])
+    assert (np.abs(rates - drift / hours) < 4 * sigmas).all()
+    assert sigmas[0] < 0.2 * rates[0]
+    offsets = np.array(facts["offsets"])
+    np.testing.assert_allclose(offsets[-1], 0, atol=1e-12)
+    assert offsets[0, 0] == pytest.approx(-0.5, abs=0.15)
+    assert facts["parameters"]["force_bias_x"] == pytest.approx(TRUTH.force_bias[0], abs=0.2)
+    assert "force bias at the end" in said(result)
+    assert "N/h" in said(result)
+
+
+def test_what_is_plain_needs_no_words(tmp_path: Path, poses: Path) -> None:
+    result = invoke("calibrate", poses, *EULER, "--out", tmp_path / "c.json", "--json")
+    facts = json.loads(result.stdout)
+    assert facts["causes"][0]["key"] == "plain"
+    assert facts["causes"][0]["sentence"] not in said(result)
+    assert facts["drift_per_hour"] is facts["drift_per_hour_sigma"] is None
+    assert not np.any(facts["offsets"])
+    assert facts["noise_factor"] == [1.0, 1.0]
+    assert facts["down_W"] == [0.0, 0.0, -1.0]
+    assert "force bias " in said(result)
+    assert "at the end" not in said(result)
+
+
+@pytest.mark.parametrize(
+    ("option", "degrees"), [("hand", 0.5), ("tracker", 0.2), ("robot", 0.05), ("0.3", 0.3), ("0", 0.0)]
+)
+def test_the_noise_of_the_orientations(tmp_path: Path, poses: Path, option: str, degrees: float) -> None:
+    options = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque, "--orientation-noise", option)
+    result = invoke("calibrate", poses, *EULER, *options, "--out", tmp_path / "c.json", "--json")
+    assert json.loads(result.stdout)["orientation_noise_deg"] == pytest.approx(degrees)
+    assert f"orientation noise {degrees:.2g} " in said(result)
+
+
+@pytest.mark.parametrize("down", [(0, 0, 1), (1, 0, 0), (0, -3, 4)])
+def test_a_robot_that_hangs(tmp_path: Path, down: tuple[int, int, int]) -> None:
+    turn = Rotation.align_vectors([down], [[0.0, 0.0, -1.0]])[0].as_matrix()
+    weighing = weighed()
+    turned = tuple(replace(pose, R_WS=turn @ pose.R_WS) for pose in weighing.poses)
+    file = write_quaternions(tmp_path / "ceiling.csv", replace(weighing, poses=turned))
+    said_down = ("--down", ",".join(map(str, down)))
+    out = tmp_path / "c.json"
+    assert invoke("calibrate", file, "--out", out).exit_code == 1
+    result = invoke("calibrate", file, *said_down, "--out", out, "--json")
+    assert result.exit_code == 0
+    facts = json.loads(result.stdout)
+    assert facts["verdict"] == "good"
+    np.testing.assert_allclose(facts["down_W"], down / np.linalg.norm(down), atol=1e-15)
+    noise = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque)
+    assert invoke("diagnose", file, *said_down, *noise).exit_code == 0
+
+
 def test_blind_poses_are_refused_in_words_and_numbers_withheld(tmp_path: Path) -> None:
     file = write_euler(tmp_path / "s.csv", spun())
     result = invoke("calibrate", file, *EULER, "--out", tmp_path / "s.json")
@@ -147,6 +220,14 @@ def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None
         ((*EULER, "--tip", "0,0"), "--tip needs 3 finite numbers"),
         ((*EULER, "--mount", "0,0,1", "--estimate-mount"), "contradict"),
         (("--robot", "kuka"), "known: elfin3"),
+        ((*EULER, "--orientation-noise", "much"), "give degrees, at least 0, or one of robot, tracker, hand"),
+        ((*EULER, "--orientation-noise", "-1"), "give degrees, at least 0"),
+        ((*EULER, "--orientation-noise", "nan"), "give degrees, at least 0"),
+        ((*EULER, "--down", "0,0,0"), "has no direction"),
+        ((*EULER, "--down", "0,0"), "--down needs 3 finite numbers"),
+        ((*EULER, "--down", "0,nan,1"), "--down needs 3 finite numbers"),
+        ((*EULER, "--delay", "auto"), "a table of still poses has no delay"),
+        ((*EULER, "--delay", "soon"), "give seconds, or auto"),
     ],
 )
 def test_wrong_options(tmp_path: Path, poses: Path, options: tuple[object, ...], message: str) -> None:
@@ -200,6 +281,12 @@ def test_transposed_orientations_are_recognised_and_the_remedy_works(tmp_path: P
     assert "Pass --inverse" in said(result)
     assert invoke("diagnose", file, *EULER, *noise, "--inverse").exit_code == 0
     assert invoke("calibrate", file, *EULER, "--inverse", "--out", tmp_path / "t.json").exit_code == 0
+
+
+def test_orientation_noise_goes_with_the_noise(poses: Path) -> None:
+    result = invoke("diagnose", poses, *EULER, "--orientation-noise", "tracker")
+    assert result.exit_code == 2
+    assert "give --noise-force and --noise-torque too" in said(result)
 
 
 # ---- verify-still --------------------------------------------------------------------------------

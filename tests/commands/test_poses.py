@@ -1,6 +1,7 @@
 """next-pose and plan-poses."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ from weighing_files import NOISE, TRUTH, spun, write_euler
 
 from pipeline import cli
 from pipeline.calibration import calibrate
+from pipeline.calibration.model import STANDARD_GRAVITY
 from pipeline.robot import Robot
 from pipeline.simulation.weighing import weigh
 
@@ -71,6 +73,23 @@ def test_a_plan_leads_to_the_error_that_it_predicts(tmp_path: Path) -> None:
     assert measured == pytest.approx(found["contact_error_mm"][-1], rel=0.15)
 
 
+@pytest.mark.parametrize("down", ["0,0,-1", "0,0,1", "3,0,0"])
+def test_plans_and_tilts_count_from_down(tmp_path: Path, down: str) -> None:
+    result = invoke(
+        "plan-poses", 6, "--max-tilt", 40, "--down", down, "--out", tmp_path / "plan.csv", "--json"
+    )
+    found = json.loads(result.stdout)
+    R_WS = Rotation.from_quat(np.roll(found["quaternions_WS"], -1, axis=1)).as_matrix()
+    direction = np.array(list(map(float, down.split(","))))
+    tilts = np.degrees(np.arccos(R_WS[:, :, 2] @ direction / np.linalg.norm(direction)))
+    assert tilts.max() < 40.1
+    assert tilts.max() > 20
+    hanging = replace(TRUTH, gravity_W=TRUTH.mass * STANDARD_GRAVITY * direction / np.linalg.norm(direction))
+    poses = weigh(hanging, R_WS, NOISE, np.random.default_rng(0)).poses
+    measured = 1e3 * calibrate(poses, NOISE, orientation_sigma=0.0, down_W=direction).contact_error
+    assert measured == pytest.approx(found["contact_error_mm"][-1], rel=0.25)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -81,6 +100,7 @@ def test_a_plan_leads_to_the_error_that_it_predicts(tmp_path: Path) -> None:
         ((6, "--robot", "elfin3", "--joints", "0,0"), "--joints needs 6"),
         ((6, "--max-tilt", 0), "largest tilt"),
         ((6, "--mass", 0), "no mass of a tool"),
+        ((6, "--down", "0,0,0"), "has no direction"),
     ],
 )
 def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message: str) -> None:

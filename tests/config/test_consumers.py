@@ -25,6 +25,7 @@ from pipeline.config.consumers import (
     yaml_number,
 )
 from pipeline.config.runtime.model import VERSION
+from pipeline.config.vertical import down_along_z
 from pipeline.errors import InputError
 
 ROS_PAGE = Path(__file__).parents[2] / "docs" / "ros.md"
@@ -39,6 +40,8 @@ TILTED = GravityModel(
 MOUNT = Rotation.from_euler("zyx", [50, -20, 35], degrees=True)  # R_ES: the sensor on its flange
 PUSH = np.array([1.5, -2.0, 8.0, 0.3, -0.1, 0.05])
 SIGMA = np.repeat([0.03, 0.001], 3)  # N, N·m
+
+CEILING, WALL = (0.0, 0.0, 1.0), (0.0, 1.0, 0.0)
 
 Parameters = dict[str, Any]
 
@@ -247,6 +250,76 @@ def test_ft_calib_with_a_vertical_imu_stays_within_the_warning():
     off = np.linalg.norm((np.array(theirs) - ours).reshape(-1, 2, 3), axis=2).max(axis=0)
     np.testing.assert_allclose(off[0], force, rtol=0.05)  # two digits are printed
     assert 0.85 * torque < off[1] < 1.05 * torque
+
+
+# ---- robots that do not stand --------------------------------------------------------------------
+
+
+def mounted(down: Any, model: GravityModel = TRUE) -> GravityModel:
+    """Return the same tool on a robot in whose W gravity points along `down`."""
+    turn, _ = Rotation.align_vectors([down], [[0, 0, -1]])
+    return GravityModel(
+        turn.as_matrix() @ model.gravity_W, model.force_bias, model.centre_of_mass_S, model.torque_bias
+    )
+
+
+def test_ros2_on_the_ceiling_leaves_what_the_tissue_does_and_nothing_else():
+    tool = mounted(CEILING)
+    text = ros2_yaml(tool, sensor_frame="s", world_frame="w", down_W=CEILING)
+    controller = node(read(text), "admittance_controller")
+    assert controller["gravity_compensation"]["CoG"]["force"] == pytest.approx(-9.4)
+    for R_WS in orientations(50):
+        unbiased = broadcaster(node(read(text), "force_torque_sensor_broadcaster"), tool.predict(R_WS) + PUSH)
+        world, _ = admittance(controller, unbiased, {"w": np.eye(3), "s": R_WS})
+        np.testing.assert_allclose((world.reshape(2, 3) @ R_WS).ravel(), PUSH, atol=1e-9)
+    assert "WARNING" not in text
+    assert "Negative on purpose" in text
+    assert "z up. Make it" not in text
+    leaning = ros2_yaml(mounted(CEILING, TILTED), sensor_frame="s", world_frame="w", down_W=CEILING)
+    assert f"tilted by {TILTED_BY} deg" in " ".join(leaning.replace("\n#", "").split())
+
+
+def test_ros2_on_a_wall_holds_the_offset_alone_and_says_why():
+    text = ros2_yaml(mounted(WALL), sensor_frame="s", world_frame="w", down_W=WALL)
+    parameters = read(text)
+    assert set(parameters) == {"force_torque_sensor_broadcaster"}
+    reading = np.array([*TRUE.force_bias, *TRUE.torque_bias]) + PUSH
+    np.testing.assert_allclose(
+        broadcaster(node(parameters, "force_torque_sensor_broadcaster"), reading), PUSH, atol=1e-12
+    )
+    assert "# NO admittance_controller: it takes the weight along z" in text
+    assert "#   [0.0, 1.0, 0.0]" in text
+
+
+@pytest.mark.parametrize("down", [CEILING, WALL, (0.6, 0.0, -0.8), (0.0, -1.0, 0.0)])
+def test_ft_calib_leaves_nothing_whatever_way_is_down(down):
+    tool = mounted(down, TILTED)
+    text = ft_calib_yaml(tool, com_frame="s", down_W=down)
+    imu = np.array(value(re.findall(r"# +(\[.*\])  release", text)[0]))
+    for R_WS in orientations(50):
+        tf = {"imu": R_WS.T, "s": np.eye(3)}
+        assert np.abs(gravity_compensation(read(text), tool.predict(R_WS), imu, tf, 1.0)).max() < 1e-9
+    assert "z up" not in text
+    assert f"down in it is [{', '.join(map(str, down))}]" in text
+    # An imu that reads the true vertical leaves what the warning says.
+    assert f"tilted by {TILTED_BY} deg" in " ".join(text.replace("\n#", "").split())
+
+
+@pytest.mark.parametrize("make", [ros2_yaml, ft_calib_yaml])
+@pytest.mark.parametrize("down", [(0.0, 0.0, -1.0), CEILING, WALL, (0.6, 0.0, 0.8)])
+def test_gravity_against_the_direction_that_was_given_is_refused(make, down):
+    names = {"com_frame": "s"} if make is ft_calib_yaml else {"sensor_frame": "s", "world_frame": "w"}
+    make(mounted(down), **names, down_W=down)
+    with pytest.raises(InputError, match=r"points up .*--down"):
+        make(mounted(-np.array(down)), **names, down_W=down)
+
+
+@pytest.mark.parametrize(
+    ("down", "along"),
+    [((0, 0, -1), -1), ((0, 0, 1), 1), ((0.08, 0, 0.9968), 1), ((0.1, 0, -0.995), None), (WALL, None)],
+)
+def test_down_is_along_z_within_some_degrees(down, along):
+    assert down_along_z(down) == along
 
 
 # ---- what is lost --------------------------------------------------------------------------------
@@ -471,8 +544,17 @@ def test_the_text_belongs_to_the_version_of_the_schema():
         [0.5, 0.25, -4.0], [1.0, -2.0, 0.5], [0.0, 0.125, 0.25], [0.5, 0.0, -0.25], np.eye(12) / 64
     )
     texts = [anew(text, load) for text, anew in made(load).values()]
-    digest = hashlib.sha256("".join(texts).replace(__version__, "").encode()).hexdigest()
-    assert (VERSION, digest[:16]) == (3, "0cd38edf532d10a5")
+    # As it has been since version 3, bundles of which are compared, too.
+    assert digest_of(texts) == "0cd38edf532d10a5"
+    others = []
+    for down, weight in ((CEILING, [0.5, 0.25, 4.0]), (WALL, [0.5, 4.0, 0.25])):
+        tool = GravityModel(weight, load.force_bias, load.centre_of_mass_S, load.torque_bias, load.covariance)
+        others += [anew(text, tool, down) for text, anew in made(load).values()]
+    assert (VERSION, digest_of(others)) == (4, "98ccf2c89f504e5b")
+
+
+def digest_of(texts: list[str]) -> str:
+    return hashlib.sha256("".join(texts).replace(__version__, "").encode()).hexdigest()[:16]
 
 
 @pytest.mark.parametrize("text", ["", "\n", "# tool: contactbench 1", 3 * "# tool: contactbench 1\n"])
@@ -493,7 +575,7 @@ def test_files_say_units_signs_and_version_but_no_date_and_no_path(exact):
         assert "N*m" in text
         assert "1 sigma:" in text
         assert not re.search(r"20\d\d-|(^|\s)/\w", text)  # no date, no path
-        assert max(map(len, text.splitlines())) < 120
+        assert max(map(len, text.splitlines())) < 140  # three numbers with all their digits, and a few words
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2
+from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
 from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake
 
 from pipeline.config.runtime import RuntimeConfig
@@ -79,14 +79,14 @@ def check(found: Controller, part: ControllerPart, limits: LimitsPart) -> None:
         assert getattr(found, name) == (math.inf if limit is None else limit)
 
 
-@pytest.mark.parametrize("version", [1, 2, 3])
+@pytest.mark.parametrize("version", [1, 2, 3, 4])
 def test_the_library_tells_the_controller_that_python_reads(
     library: Library,
     tmp_path: Path,
     version: int,
 ) -> None:
     files = example().encoded()
-    older = {1: of_version_1, 2: of_version_2}
+    older = {1: of_version_1, 2: of_version_2, 3: of_version_3}
     files = older[version](files) if version in older else files
     model = RuntimeConfig.from_files(files).model
     assert model.controller is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import hashlib
 import json
+import math
 import re
 import shutil
 import struct
@@ -15,7 +16,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from config.runtime.bundles import example, example_bundle, of_version_1, of_version_2
+from config.runtime.bundles import example, example_bundle, of_version_1, of_version_2, of_version_3
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
 from pipeline import kernel
@@ -68,6 +69,17 @@ class Error(ctypes.Structure):
     _fields_ = [("size", ctypes.c_uint32), ("code", ctypes.c_int32), ("message", ctypes.c_char * 512)]
 
 
+class Zero(ctypes.Structure):
+    _fields_ = [
+        ("size", ctypes.c_uint32),
+        ("state", ctypes.c_int32),
+        ("age", ctypes.c_double),
+        *((name, ctypes.c_double * 3) for name in ("force", "torque", "force_sigma", "torque_sigma")),
+        ("shift", ctypes.c_double),
+        ("shift_sigma", ctypes.c_double),
+    ]
+
+
 CONTACT = np.dtype(
     [(name, "<i4") for name in ("size", "reasons", "accepted", "faces", "vertices", "regions")]
     + [("candidates", "<i4"), ("healths", "<u4")]
@@ -92,6 +104,7 @@ class Library:
         self.c.cb_version.restype = ctypes.c_char_p
         pointer = ctypes.c_void_p
         self.c.cb_update.argtypes = [pointer, pointer, pointer, ctypes.c_double, pointer]
+        self.c.cb_check_zero.argtypes = [pointer, pointer]
         for name in ("cb_reset", "cb_close"):
             getattr(self.c, name).argtypes = [pointer]
 
@@ -133,7 +146,7 @@ def test_same_bits_as_the_python_runtime(library: Library, bundle: tuple[Path, R
     assert {0, 2, 3, 7, 8, 9, 10, 11, 12, 13} <= reasons
 
 
-@pytest.mark.parametrize("older", [of_version_1, of_version_2])
+@pytest.mark.parametrize("older", [of_version_1, of_version_2, of_version_3])
 def test_a_bundle_of_an_older_version_gives_the_same_bits(
     library: Library, tmp_path: Path, older: Any
 ) -> None:
@@ -158,13 +171,19 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_reset(None) == 1
     assert library.c.cb_sensor_rotation(None, None, None) == 1
     assert library.c.cb_describe(None, None) == 1
+    zero = Zero(size=ctypes.sizeof(Zero))
+    assert library.c.cb_check_zero(handle, ctypes.byref(zero)) == 0
+    assert (zero.state, math.isnan(zero.age), math.isnan(zero.force[0])) == (0, True, True)
+    assert library.c.cb_check_zero(handle, ctypes.byref(Zero(size=ctypes.sizeof(Zero) - 8))) == 1
+    assert library.c.cb_check_zero(None, ctypes.byref(zero)) == 1
+    assert library.c.cb_check_zero(handle, None) == 1
     assert not library.c.cb_open(None, None)
     library.c.cb_close(handle)
     library.c.cb_close(None)
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(15) == b"unknown"
     assert library.c.cb_reason_name(14) == b"unhealthy"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"2.0.0"
+    assert library.c.cb_version() == b"2.1.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(
@@ -211,8 +230,9 @@ def edited(folder: Path, path: str, value: Any) -> None:
 
 
 EDITS = [
-    ("version", 4, 5, "version"),
+    ("version", 5, 5, "version"),
     ("version", 0, 5, "version"),
+    ("version", 3, 4, "unknown"),
     ("version", 2, 4, "unknown"),
     ("version", 1, 4, "unknown"),
     ("touch.torsion_arm_m", 1.0, 6, "touch.torsion_arm_m"),
@@ -294,7 +314,7 @@ BYTES = [
     ("contactbench.json", lambda d: d.replace(b"0.1", b"1e999", 1), True, 3),
     ("contactbench.json", lambda d: d + b" ", False, 7),
     ("contactbench.json", lambda d: d + b"\n", True, 3),
-    ("contactbench.json", lambda d: d.replace(b"200.0", b"2e2", 1), True, 3),
+    ("contactbench.json", lambda d: d.replace(b"2.1.0", b"2e2", 1), True, 3),
     ("contactbench.json", lambda d: d.replace(b":", b": ", 1), True, 3),
     ("ros2.yaml", lambda d: d + b"\n", True, 6),
     ("ros2.yaml", lambda d: d.replace(b"    offset:", b"    offset:\n    offset:", 1), True, 6),

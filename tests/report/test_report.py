@@ -318,3 +318,49 @@ def test_how_it_was_verified_is_told(given):
 
 def test_a_name_that_the_font_lacks_is_kept_without_a_warning(given):
     assert "\u6807\u8bb0" in report_html(with_marker_named(given, "\u6807\u8bb0"))
+
+
+# ---- known weight and known touch ----------------------------------------------------------------
+
+
+def known(kind, outcome="passed", **more):
+    words = {"passed": "The sensor reads 1.001 kg.", "failed": "The check failed. Torques in N·mm."}[outcome]
+    return {
+        "schema": f"contactbench.{kind}", "version": 1, "sentence": words, "outcome": outcome,
+        "created": "2026-03-04T05:06:00Z", "calibration_sha256": "ab" * 32, "probe_sha256": "cd" * 32, **more,
+    }  # fmt: skip
+
+
+def test_a_report_says_when_nothing_known_was_checked(given):
+    assert "Neither was checked:" in "".join(parsed(report_html(given)).text)
+
+
+def test_a_report_shows_both_checks(given):
+    weight = known("known_weight", certificate="DKD-7")
+    checks = {"known_weight": weight, "known_touch": known("known_touch", "failed")}
+    text = "".join(parsed(report_html(replace(given, checks=checks))).text)
+    assert "Neither was checked" not in text
+    for words in ("Known weight", "passed", "certificate DKD-7, 2026-03-04 05:06 UTC", "failed", "N·mm"):
+        assert words in text
+
+
+def test_a_check_of_another_calibration_is_not_shown_as_one_of_this(given):
+    v = replace(given.verification, sources={"calibration": "0" * 64})
+    checks = {"known_weight": known("known_weight")}
+    text = "".join(parsed(report_html(replace(given, verification=v, checks=checks))).text)
+    assert "not of this" in text
+    assert "made with another calibration: check again" in text
+
+
+def test_the_command_takes_the_checks_and_refuses_other_files(files, tmp_path):
+    (tmp_path / "w.json").write_text(json.dumps(known("known_weight")))
+    arguments = ["report", "--verification", files / "v.json", "--probe", files / "p.ply", "--out"]
+    options = ["--known-weight", tmp_path / "w.json"]
+    result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
+    assert result.exit_code == 0, result.stderr
+    assert "The sensor reads 1.001 kg" in (tmp_path / "r.html").read_text("utf-8")
+    for wrong in ({"version": 2}, {"outcome": "perhaps"}, {"sentence": None}):
+        (tmp_path / "w.json").write_text(json.dumps(known("known_weight") | wrong))
+        result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
+        assert result.exit_code == 2
+        assert "this is no contactbench.known_weight of version 1" in " ".join(result.stderr.split())

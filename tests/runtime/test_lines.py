@@ -49,8 +49,9 @@ def test_numbers_read_back(value: float) -> None:
 
 
 def test_without_a_pose() -> None:
-    contact = make_runtime(example()).locate(np.zeros(6), 2.5, 2.625)
-    answer = Answer(contact, contact.latency)
+    runtime = make_runtime(example())
+    contact = runtime.locate(np.zeros(6), 2.5, 2.625)
+    answer = Answer(contact, contact.latency, runtime.zero())
     told = json.loads(answer.line)
     assert answer.reason == told["reason"] == "stale"
     assert (told["time"], told["latency_s"], told["pose_age_s"]) == (2.5, 0.125, None)
@@ -58,8 +59,10 @@ def test_without_a_pose() -> None:
     assert told["point_S_m"] is told["force_S_N"] is told["misfit"] is None
     assert told["accepted"] is False
     assert answer.line.endswith(b"}\n")
+    nothing = dict.fromkeys(("age_s", "force_S_N", "torque_S_Nm", "shift_m", "shift_sigma_m"))
+    assert told["zero"] == {"state": "unknown", **nothing}
     answer.let_go()
-    assert answer.contact is None
+    assert answer.contact is answer.zero is None
     assert json.loads(answer.line) == told
 
 

@@ -44,7 +44,7 @@ class Slow:
 def answers_at(times: Sequence[float]) -> list[Answer]:
     runtime = make_runtime(example())  # nothing of the kernel may outlive the test
     contacts = [runtime.locate(np.zeros(6), time) for time in times]
-    return [Answer(contact, contact.latency) for contact in contacts]
+    return [Answer(contact, contact.latency, runtime.zero()) for contact in contacts]
 
 
 def answers(count: int, begin: float = BEGIN) -> list[Answer]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 import shutil
 import struct
@@ -10,9 +11,11 @@ import sys
 from math import isfinite
 from pathlib import Path
 
+import numpy as np
 import pytest
 from config.runtime.bundles import example_bundle
-from runtime.runtime_recordings import input_lines, record, samples
+from runtime.runtime_recordings import BEGIN, flange, input_lines, record, samples, wrench
+from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from pipeline.cli import app
@@ -73,6 +76,38 @@ def test_a_recording_gives_the_same_bytes(
     text = "".join(expected)
     for reason in ("ok", "low_force", "not_finite", "saturated"):
         assert f'"reason":"{reason}"' in text
+
+
+def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig], tmp_path: Path) -> None:
+    folder, config = bundle
+    mixed, rng = [], np.random.default_rng(3)
+    for i in range(9_000):
+        t = BEGIN + 0.001 * i
+        # Three attitudes, three seconds each, and a zero that is off by 0.5 N.
+        R = Rotation.from_euler("xyz", [180, 12 * (i // 3_000 - 1), 15 * (i // 3_000 % 2)], degrees=True)
+        if i % 10 == 0:
+            mixed.append(flange(t, R.as_matrix()))
+        reading = config.gravity.predict(R.as_matrix()) + [0.5, 0, 0, 0, 0, 0]
+        mixed.append(wrench(t, reading + rng.normal(0, [0.02] * 3 + [0.001] * 3)))
+    file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
+    address = f"replay://{file}?speed=step"
+    arguments = ["run", str(folder), "--sensor", address, "--pose", address, "--out", str(told)]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 0, done.stderr
+    out = told.read_text().splitlines()
+    assert out == run(example, folder, given="\n".join(input_lines(mixed))).splitlines()
+    zeros = [json.loads(line)["zero"] for line in out]
+    states = [zero["state"] for zero in zeros]
+    assert list(dict.fromkeys(states)) == ["unknown", "doubtful", "off"]
+    assert 450 < states.index("doubtful") < 700
+    assert 6_400 < states.index("off") < 7_000
+    assert zeros[-1]["force_S_N"] == pytest.approx([0.5, 0, 0], abs=0.05)
+    assert zeros[-1]["age_s"] < 0.6
+    assert zeros[-1]["shift_m"] > 10 * zeros[-1]["shift_sigma_m"] > 0
+    said = " ".join(done.stderr.split())
+    assert "The sensor's zero is off by 0.5 ± " in said
+    assert "Calibrate again before you trust a contact." in said
+    assert "zero: last seen 0 s before the end." in said
 
 
 def test_numbers_are_written_alike(example: Path, bundle: tuple[Path, RuntimeConfig]) -> None:

@@ -1,9 +1,20 @@
+import json
+
+import numpy as np
 import pytest
+from calibration.streams import stream
+from scipy.spatial.transform import Rotation
+from typer.testing import CliRunner
+from weighing_files import weighed, write_euler
 from workbench.gravity_bench import batches, record
 
+from pipeline import cli
 from pipeline.calibration.files.pose_csv import read_poses
+from pipeline.demo.files import write_csv
+from pipeline.errors import InputError
 from pipeline.session import Session
 from pipeline.session.errors import SessionError
+from pipeline.session.make_calibration import calibration, captures
 from pipeline.session.recompute import compute
 
 
@@ -36,6 +47,52 @@ def test_moments_that_are_none_and_too_few_poses_are_refused(session):
         _poses(session, leave_out=["soon"])
     with pytest.raises(SessionError, match="2 still poses, 4 left out"):
         _poses(session, leave_out=[pose.time for pose in whole[:4]])
+
+
+def _tables(folder):
+    made = stream(5, poses=6, vertical=0.0)
+    angles = Rotation.from_matrix(made.R_WS[::4]).as_euler("xyz", degrees=True)
+    sensor, robot = folder / "wrenches.csv", folder / "robot.csv"
+    write_csv(
+        sensor, ("t", "fx", "fy", "fz", "mx", "my", "mz"), np.column_stack([made.t, made.wrenches]).tolist()
+    )
+    write_csv(robot, ("t", "rx", "ry", "rz"), np.column_stack([made.t[::4] - 0.03, angles]).tolist())
+    return sensor, robot
+
+
+def test_two_tables_are_joined_as_by_the_command(tmp_path):
+    sensor, robot = _tables(tmp_path)
+    given = {"name": "poses.csv", "euler": "xyz", "delay": 0.03}
+    told: list[str] = []
+    made = captures({"recording": sensor, "robot_poses": robot}, given, None, tell=told.append)
+    assert len(told) == 1
+    assert "no pose within 0.25 s beside them" in told[0]
+    options = ["--robot-poses", str(robot), "--euler", "xyz", "--delay", "0.03", "--out"]
+    written = tmp_path / "command.csv"
+    assert CliRunner().invoke(cli.app, ["captures", str(sensor), *options, str(written)]).exit_code == 0
+    assert made == {"poses.csv": written.read_bytes()}
+
+
+def test_a_recording_is_no_table_of_poses(tmp_path):
+    sensor, _ = _tables(tmp_path)
+    with pytest.raises(SessionError, match=r"wrenches\.csv is a recording, .* --kind recording"):
+        calibration({"poses": sensor}, {"name": "c.json"}, None)
+
+
+def test_orientation_noise_and_down_are_those_of_the_command(tmp_path):
+    file = write_euler(tmp_path / "poses.csv", weighed())
+    created = "2026-01-02T03:04:05Z"
+    given = {"name": "c.json", "euler": "xyz", "orientation_noise": 0.2, "down": [0.0, 0.0, -2.0]}
+    made = json.loads(calibration({"poses": file}, given, created)["c.json"])
+    options = ["--orientation-noise", "tracker", "--down", "0,0,-1", "--euler", "xyz", "--out"]
+    out = tmp_path / "c.json"
+    assert CliRunner().invoke(cli.app, ["calibrate", str(file), *options, str(out)]).exit_code == 0
+    command = json.loads(out.read_bytes())
+    assert {**made, "created": ""} == {**command, "created": ""}
+    with pytest.raises(InputError, match="down_W"):
+        calibration({"poses": file}, {**given, "down": [0, 0, 0]}, created)
+    with pytest.raises(InputError, match="orientation"):
+        calibration({"poses": file}, {**given, "orientation_noise": -1}, created)
 
 
 def test_part_of_a_set_may_be_small_and_comes_first_in_the_whole(session):

@@ -157,6 +157,40 @@ def test_every_cell_draws_what_it_says():
         assert session.bumped.any() == ("bumped" in each.name)
 
 
+def trial(**facts) -> study.Trial:
+    usual = {"cause": "plain", "odds": 0.99, "adopted": "", "steps": (), "rezeroed": (), "level": "good"}
+    usual |= {"covered": True, "scaled": np.ones(12), "wrongly_bumped": False, "missed": False}
+    return study.Trial(**(usual | {"error": 1e-4, "claimed": 1e-4, "seconds": 0.1} | facts))
+
+
+@pytest.mark.parametrize(
+    ("measure", "hits", "misses"),
+    [
+        ("told", [{"cause": "rezero"}], [{"cause": "drift"}, {}]),
+        (
+            "pose",
+            [{"steps": (3,), "rezeroed": (3,)}],
+            [{"steps": (4,), "rezeroed": (3,)}, {"rezeroed": (3,)}],
+        ),
+        ("alarmed", [{"cause": "cable"}, {"adopted": "drift"}], [{}, {"cause": "cable", "odds": 0.6}]),
+        (
+            "wrong",
+            [{"cause": "cable"}],
+            [{}, {"cause": "none"}, {"cause": "rezero"}, {"cause": "cable", "odds": 0.6}],
+        ),
+        (
+            "deceived",
+            [{"error": 0.0016, "claimed": 0.001}, {"error": 0.0004}],
+            [{}, {"error": 0.0016, "level": "usable"}, {"error": 0.0014, "claimed": 0.0005}],
+        ),
+    ],
+)
+def test_measures_count_what_they_say(measure, hits, misses):
+    _, of = study.MEASURES[measure]
+    for facts, share in [*((hit, 100) for hit in hits), *((miss, 0) for miss in misses)]:
+        assert of(cell("re-zero 0.3 N, 10 mN·m, noise given"), [trial(**facts)])[0] == share
+
+
 def test_drift_is_told_and_clean_sets_are_left_alone():
     told = study.figures_of(*tried("drift 0.3 N, 10 mN·m, 10 poses, noise given", 40))
     assert told[0].measured.startswith(("95", "97.5", "100"))

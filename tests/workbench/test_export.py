@@ -1,5 +1,6 @@
 """An export from a session: the checklist, the preview, and the same bytes as the command's."""
 
+import json
 import shutil
 from pathlib import Path
 
@@ -117,7 +118,9 @@ def test_a_setting_that_does_not_do_is_named(verified, tmp_path):
 
 def test_all_that_is_done_is_said_to_be_done(verified):
     with Session.open(verified, by="ada") as session:
-        assert set(states(session).values()) == {"done"}
+        found = states(session)
+        assert (found.pop("Known weight"), found.pop("Known touch")) == ("missing", "missing")
+        assert set(found.values()) == {"done"}
         view = survey(session)
         assert view.preview.reasons == ()
         assert view.preview.changes is None
@@ -126,6 +129,32 @@ def test_all_that_is_done_is_said_to_be_done(verified):
         session.rezeroed("VB-1", "bumped")
         assert states(session)["Verification"] == "stale"
         assert survey(session).preview.reasons
+
+
+def test_one_check_is_enough_and_one_that_failed_is_said(verified):
+    with Session.open(verified, by="ada") as session:
+        calibration = next(
+            each for each in session.state.current_results.values() if each.action.kind == "calibration"
+        )
+
+        def done(kind, outcome):
+            data = json.dumps({"outcome": outcome, "sentence": f"It {outcome}."}).encode()
+            given = {"calibration": calibration.content}
+            session.add_result(kind, "c.json", {"c.json": data}, given, {"outcome": outcome})
+            items = {item.name: item for item in checklist(session.folder, session.state, session.stale())}
+            return items["Known weight"], items["Known touch"]
+
+        weight, touch = done("known_weight", "undecided")
+        assert (weight.state.value, touch.state.value) == ("missing", "missing")
+        assert weight.sentence == "It undecided."
+        assert "Press a known point" in touch.sentence
+        weight, touch = done("known_touch", "passed")
+        assert (weight.state.value, touch.state.value) == ("left out", "done")
+        before = results_of(session.state)
+        weight, touch = done("known_weight", "failed")
+        assert (weight.state.value, weight.sentence, weight.step) == ("failed", "It failed.", Step.GRAVITY)
+        assert touch.state.value == "done"
+        assert results_of(session.state) != before
 
 
 def test_what_was_rejected_or_is_missing_is_said(calibrated, tmp_path):

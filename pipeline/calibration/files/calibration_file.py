@@ -335,7 +335,12 @@ def _task(content: Document, name: str) -> ContactTask:
     part = content.task
     with _at(f"{name}: task"):
         task = ContactTask(
-            np.array(part.point_S_m), np.array(part.normal_S), part.force_N, part.tilt_rad, part.friction_rad
+            np.array(part.point_S_m),
+            np.array(part.normal_S),
+            part.force_N,
+            part.tilt_rad,
+            part.friction_rad,
+            np.array(content.down_W),
         )
     _keep_digits(task, "normal", part.normal_S)
     return task

@@ -22,12 +22,12 @@ import numpy as np
 from scipy.special import chdtri, fdtri
 
 from pipeline.calibration.calibrate import (
-    DOWN_W,
     Calibration,
     assembled,
     between,
     checked_angle,
     direction,
+    facing,
     used,
     within_scatter,
 )
@@ -36,6 +36,7 @@ from pipeline.calibration.contact_error import ContactTask, usual_task, worst_si
 from pipeline.calibration.fit import turn_jacobian
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
+    DOWN_W,
     FORCE_BIAS,
     GRAVITY,
     TORQUE_BIAS,
@@ -158,7 +159,7 @@ class MountCalibration:
         R_EW = np.swapaxes(matrices(R_WE), -1, -2)
         R_SW, theta = (self.R_SE @ R_EW).reshape(-1, 3, 3), self.calibration.model.vector
         J = np.concatenate([prediction_jacobian(R_SW, theta), turn_jacobian(R_SW, theta)], axis=2)
-        C = J @ self.joint_covariance @ J.swapaxes(1, 2)
+        C: NDArray[np.float64] = J @ self.joint_covariance @ J.swapaxes(1, 2)
         return 0.5 * (C + C.swapaxes(1, 2)).reshape(*R_EW.shape[:-2], 6, 6)
 
 
@@ -222,7 +223,7 @@ def estimate_mount(
     R_SE = fit.mount @ R_start
     sight = see(flange, chosen.inside, fit, R_SE, chosen.noisy.noise)
     theta, joint = sight.fit.theta, sight.fit.covariance
-    task = task or usual_task()
+    task = facing(task or usual_task(), down)
     noisy = replace(chosen.noisy, fit=replace(chosen.noisy.fit, theta=theta))
     calibration = assembled(
         [replace(pose, R_WS=pose.R_WS @ R_SE.T) for pose in poses],

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from pipeline.calibration.fit import solve_with_offset
 from pipeline.calibration.model import (
@@ -14,6 +13,7 @@ from pipeline.calibration.model import (
     GRAVITY,
     TORQUE_BIAS,
     cross_matrix,
+    upright,
 )
 from pipeline.calibration.outliers import LARGEST_SHARE
 from pipeline.calibration.reml import LEAST
@@ -49,7 +49,7 @@ def start_rotation(
     From many sets of four poses, with gravity that points down; or, where that explains the poses far
     better, up or along a horizontal axis: a wrench of the opposite sign, or a base on a wall of which nobody spoke.
     """
-    downs = DOWNS @ _from_down(down_W).T
+    downs = DOWNS @ upright(down_W)
     n = len(flange)
     size = min(n, max(n - int(LARGEST_SHARE * n), _FEWEST))
     ways = np.repeat(np.arange(len(downs)), _SETS)
@@ -70,11 +70,6 @@ def start_rotation(
     inside = np.zeros(n, dtype=bool)
     inside[sets[way]] = True
     return R[order][way], inside
-
-
-def _from_down(down_W: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a rotation (3, 3) that turns -z into `down_W`."""
-    return Rotation.align_vectors(down_W[None], -np.eye(3)[2:])[0].as_matrix()
 
 
 def _start(

@@ -116,8 +116,7 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
     noise : str
         What noise that is, for the map's title.
     """
-    upright = Rotation.align_vectors([[0, 0, -1.0]], [calibration.down_W])[0].as_matrix()
-    R_WS, kept = upright @ np.array([pose.R_WS for pose in calibration.poses]), calibration.kept
+    R_WS, kept = upright(calibration), calibration.kept
     halves = ("sensor's +z half", "sensor's \N{MINUS SIGN}z half")
     ways = ("upper half: probe points up", "lower half: probe points down")
     with _style():
@@ -131,6 +130,12 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
             _svg(probe, "p", "Direction of the probe in the world in every pose"),
             "" if contact is None else _svg(contact, "c", "Predicted contact error by force direction"),
         )
+
+
+def upright(calibration: Calibration) -> NDArray[np.float64]:
+    """Return the orientations (n, 3, 3) of the poses in a world that is turned until gravity points along -z."""
+    turn = Rotation.align_vectors([[0, 0, -1.0]], [calibration.down_W])[0].as_matrix()
+    return np.asarray(turn @ np.array([pose.R_WS for pose in calibration.poses]), dtype=np.float64)
 
 
 # ---- residuals ---------------------------------------------------------------------------------

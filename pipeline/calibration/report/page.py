@@ -336,7 +336,7 @@ def _poses(calibration: Calibration) -> list[dict[str, Any]]:
         {
             "number": index + 1,
             "name": named(calibration.poses, index),
-            "stands": describe(pose.R_WS),
+            "stands": describe(pose.R_WS, calibration.down_W),
             "force": with_sigma(force[index], noise[0])[0],
             "torque": with_sigma(1e3 * torque[index], 1e3 * noise[3])[0],
             "deviates": [

@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import tempfile
 from dataclasses import dataclass, field, replace
-from datetime import datetime
+from datetime import UTC, datetime
 from math import hypot, inf
 from pathlib import Path
 from types import SimpleNamespace
@@ -19,8 +19,9 @@ import numpy as np
 
 from pipeline.calibration.files.calibration_file import load_record
 from pipeline.config.runtime.build import Filters, RobotNames, build_config
+from pipeline.config.runtime.checks import CHECK_KINDS, checks_of, made_with_others, read_check
 from pipeline.config.runtime.errors import ConfigError, RateUnknownError
-from pipeline.config.runtime.model import LimitsPart, SensorPart, SourcePart
+from pipeline.config.runtime.model import ChecksPart, LimitsPart, SensorPart, SourcePart
 from pipeline.config.runtime.mounts import (
     UNTURNED,
     Mounts,
@@ -43,6 +44,8 @@ if TYPE_CHECKING:
     from pipeline.mesh.sidecar import ProbeFile
 
 _LARGEST_FILE = 512 * 2**20
+# Seconds since 1970: times of poses from here on are a clock's, earlier ones count from some beginning.
+_CLOCK_BEGINS = datetime(2000, 1, 1, tzinfo=UTC).timestamp()
 
 
 @dataclass(frozen=True)
@@ -106,6 +109,8 @@ def export_from_files(
     settings: ExportSettings,
     *,
     created: datetime,
+    known_weight: Path | None = None,
+    known_touch: Path | None = None,
     unverified: bool = False,
 ) -> RuntimeConfig:
     """
@@ -119,6 +124,8 @@ def export_from_files(
         JSON of ``contactbench verify``, and the HTML report.
     settings : ExportSettings
     created : datetime
+    known_weight, known_touch : path, optional
+        JSON of ``contactbench check``.
     unverified : bool
         See `build_config`.
 
@@ -127,7 +134,15 @@ def export_from_files(
     UnverifiedError, InputError
         As `build_config`, or a file cannot be used.
     """
-    used = [("calibration", calibration), ("probe", probe), ("verification", verification)]
+    checked = dict(zip(CHECK_KINDS, (known_weight, known_touch), strict=True))
+    used = [("calibration", calibration), ("probe", probe), ("verification", verification), *checked.items()]
+    sources = [_source(role, file.name, _read(file)) for role, file in used if file is not None]
+    hashes = {source.role: {source.sha256} for source in sources}
+    checks, stale = {}, []
+    for kind, file in checked.items():
+        if file is not None:
+            checks[kind], made_with = read_check(kind, _read(file), str(file))
+            stale += made_with_others(kind, made_with, hashes)
     return _built(
         load_record(calibration),
         load_probe_file(probe),
@@ -136,8 +151,9 @@ def export_from_files(
         settings,
         session=None,
         created=created,
-        sources=[_source(role, file.name, _read(file)) for role, file in used if file is not None],
-        stale=[],
+        sources=sources,
+        checks=checks_of(checks),
+        stale=stale,
         mounts=Mounts(),
         unverified=unverified,
     )
@@ -153,6 +169,7 @@ def _built(
     session: str | None,
     created: datetime,
     sources: list[SourcePart],
+    checks: ChecksPart,
     stale: list[str],
     mounts: Mounts,
     unverified: bool,
@@ -192,10 +209,21 @@ def _built(
             mesh_deviation(probe_file),
         ),
         measured=error is not None,
+        zeroed=_zeroed(record),
+        checks=checks,
         stale=tuple(stale),
         names=settings.names,
         unverified=unverified,
     )
+
+
+def _zeroed(record: CalibrationRecord) -> datetime | None:
+    """Return when the bias was measured: the time of the last pose, where a clock gave it; else of the calibration."""
+    created = record.created
+    times = [pose.time for pose in record.calibration.poses if pose.time is not None]
+    if created is None or not times or not _CLOCK_BEGINS <= max(times) <= created.timestamp():
+        return created
+    return datetime.fromtimestamp(max(times), UTC)
 
 
 def _filters(settings: ExportSettings, rate: float) -> Filters:
@@ -321,6 +349,8 @@ def export_from_session(
     report = _newest(session, "report")
     used = [each for each in (calibration, probe, verification) if each is not None]
     stale = [reason for each in used for reason in _doubts(session, each)]
+    checks, checked = _checks_of(session, calibration, probe)
+    used += checked
     stale += _strangers(verification, (calibration, probe))
     if report is not None:
         stale += _doubts(session, report)
@@ -345,10 +375,31 @@ def export_from_session(
             # As the journal has them, not as they were added.
             for name, file in sorted(each.action.files.items())
         ],
+        checks=checks,
         stale=stale,
         mounts=_mounts(session, calibration, verification),
         unverified=unverified,
     )
+
+
+def _checks_of(session: SessionLike, calibration: Any, probe: Any) -> tuple[ChecksPart, list[Any]]:
+    """
+    Return a session's checks, and the results that they are.
+
+    One that is stale, was rejected or belongs to another calibration or probe says nothing of these: it counts as not
+    done, whether it passed or failed.
+    """
+    hashes = {"calibration": calibration.known_as, "probe": probe.known_as}
+    parts, used = {}, []
+    for kind in CHECK_KINDS:
+        found = _newest(session, kind)
+        if found is None or _doubts(session, found):
+            continue
+        part, made_with = read_check(kind, _read(session.folder / found.file.path), found.title, found.at)
+        if not made_with_others(kind, made_with, hashes):
+            parts[kind] = part
+            used.append(found)
+    return checks_of(parts), used
 
 
 def _mounts(session: SessionLike, calibration: Any, verification: Any) -> Mounts:

@@ -16,15 +16,20 @@ from pipeline import __version__
 from pipeline.config.consumers import ft_calib_yaml, ros2_yaml
 from pipeline.config.runtime.canonical import fault_of
 from pipeline.config.runtime.check import check_config
+from pipeline.config.runtime.checks import NONE_DONE, failed_checks
 from pipeline.config.runtime.config import RuntimeConfig
 from pipeline.config.runtime.errors import ConfigError, UnverifiedError
 from pipeline.config.runtime.model import (
     SCHEMA,
     VERSION,
+    ChecksPart,
+    DriftPart,
     MotionPart,
     RuntimeModel,
     SensorPart,
     StreamsPart,
+    WorldPart,
+    ZeroPart,
 )
 from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
 from pipeline.config.runtime.planes import encode_planes
@@ -55,7 +60,7 @@ _MOST_ORDER = 8
 _UNITS = {"force": "N", "torque": "N*m", "length": "m", "time": "s", "angle": "rad"}
 _FRAMES = {
     "sensor": "S",
-    "world": "W, z up",
+    "world": "W",
     "rotation": "R_WS: v_W = R_WS v_S",
     "wrench": "what the tissue does to the probe, about the origin of S",
 }
@@ -97,6 +102,8 @@ def build_config(
     sources: Sequence[SourcePart],
     model: TouchModel | None = None,
     measured: bool = False,
+    zeroed: datetime | None = None,
+    checks: ChecksPart = NONE_DONE,
     stale: Sequence[str] = (),
     names: RobotNames | None = None,
     unverified: bool = False,
@@ -131,6 +138,10 @@ def build_config(
         Torsion, mesh, and what the wrench's model leaves out.
     measured : bool
         Whether a verification has measured the model error.
+    zeroed : datetime, optional
+        When the bias was measured, with a time zone; None: nobody knows.
+    checks : ChecksPart
+        Of a known weight and a known touch, made with this calibration and probe.
     stale : sequence of str
         Why what this rests on no longer holds, in sentences.
     names : RobotNames, optional
@@ -145,20 +156,20 @@ def build_config(
     ConfigError, InputError
         A value is out of its range.
     """
-    reasons = (*stale, *reasons_against(calibration, probe_file, verification))
+    reasons = (*stale, *reasons_against(calibration, probe_file, verification, checks))
     if reasons and not unverified:
         raise UnverifiedError(reasons)
-    if created.tzinfo is None:
-        raise ConfigError("created: the time has no zone: use datetime.now(UTC).")
-    files = _files(calibration.model, probe_file, names or RobotNames(), report)
+    files = _files(calibration, probe_file, names or RobotNames(), report)
     content = {
         "schema": SCHEMA,
         "version": VERSION,
         "sensor": sensor,
         "frames": {**_FRAMES, "quaternion_ES": None if mount is None else _floats(mount)},
+        "world": WorldPart(down_W=_floats(calibration.down_W)),
         "units": _UNITS,
         "gravity": _gravity(calibration.model),
-        "noise": _noise(noise, filters.wrench, calibration.model),
+        "zero": _zero(calibration, zeroed),
+        "noise": _noise(noise, filters.wrench, calibration),
         "touch": _touch(model or TouchModel(), measured=measured),
         "streams": StreamsPart(
             pose_gap_s=LONGEST_GAP_S,
@@ -172,11 +183,12 @@ def build_config(
         "controller": controller,
         "limits": limits,
         "verification": verification,
+        "checks": checks,
         "self_test": None,  # needs the config; see below
         "verified": not reasons,
         **_surface(probe_file, gates),
         "provenance": {
-            "created": created.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ"),
+            "created": _seconds("created", created),
             "tool": f"contactbench {__version__}",
             "operator": operator,
             "session": session,
@@ -195,7 +207,10 @@ def build_config(
 
 
 def reasons_against(
-    calibration: Calibration, probe_file: ProbeFile, verification: VerificationPart | None
+    calibration: Calibration,
+    probe_file: ProbeFile,
+    verification: VerificationPart | None,
+    checks: ChecksPart = NONE_DONE,
 ) -> tuple[str, ...]:
     """Say why a config of these would not be verified; empty if it would."""
     reasons = []
@@ -210,6 +225,7 @@ def reasons_against(
         reasons.append("Nobody has verified contacts on markers.")
     elif not verification.passed:
         reasons.append(f"The verification failed: {verification.diagnosis}"[:1000])
+    reasons += failed_checks(checks).values()
     return tuple(reasons)
 
 
@@ -222,19 +238,23 @@ def _painted(probe_file: ProbeFile) -> Probe:
 
 
 def _files(
-    gravity: GravityModel, probe_file: ProbeFile, names: RobotNames, report: bytes | None
+    calibration: Calibration, probe_file: ProbeFile, names: RobotNames, report: bytes | None
 ) -> dict[str, bytes]:
-    probe = _painted(probe_file)
+    probe, gravity, down = _painted(probe_file), calibration.model, calibration.down_W
     colours = [region.colour for region in probe_file.regions.regions]
     files = {
         PROBE: encode_probe(probe, colours),
         PLANES: encode_planes(probe),
         ROS2: ros2_yaml(
-            gravity, sensor_frame=names.sensor, world_frame=names.world, sensor_name=names.sensor_name
+            gravity,
+            sensor_frame=names.sensor,
+            world_frame=names.world,
+            sensor_name=names.sensor_name,
+            down_W=down,
         ).encode("ascii"),
     }
-    if vertical_residual(gravity).weight > 0:  # force_torque_tools takes no mass of zero
-        files[FT_CALIB] = ft_calib_yaml(gravity, com_frame=names.sensor).encode("ascii")
+    if vertical_residual(gravity, down).weight > 0:  # force_torque_tools takes no mass of zero
+        files[FT_CALIB] = ft_calib_yaml(gravity, com_frame=names.sensor, down_W=down).encode("ascii")
     if report is not None:
         files[REPORT] = report
     return dict(sorted(files.items()))
@@ -276,12 +296,31 @@ def _gravity(model: GravityModel) -> dict[str, Any]:
     }
 
 
-def _noise(noise: WrenchNoise, wrench_filter: KalmanFilter | None, gravity: GravityModel) -> dict[str, Any]:
+def _zero(calibration: Calibration, zeroed: datetime | None) -> ZeroPart:
+    drift, rate, sigma = None, calibration.drift_rate, calibration.drift_rate_sigma
+    if rate is not None and sigma is not None:
+        drift = DriftPart(
+            force_Nps=_floats(rate[:3]),
+            torque_Nmps=_floats(rate[3:]),
+            force_sigma_Nps=_floats(sigma[:3]),
+            torque_sigma_Nmps=_floats(sigma[3:]),
+        )
+    return ZeroPart(measured=None if zeroed is None else _seconds("zeroed", zeroed), drift=drift)
+
+
+def _noise(
+    noise: WrenchNoise, wrench_filter: KalmanFilter | None, calibration: Calibration
+) -> dict[str, Any]:
     if noise.extra is not None:
         raise ConfigError("noise.extra: the calibration's share is added by itself: leave it out.")
     force, torque = _floats(np.broadcast_to(noise.force, 3)), _floats(np.broadcast_to(noise.torque, 3))
-    covariance = wrench_covariance(force, torque, wrench_filter, gravity)
-    return {"force_N": force, "torque_Nm": torque, "wrench_covariance": covariance.tolist()}
+    covariance = wrench_covariance(force, torque, wrench_filter, calibration.model)
+    return {
+        "force_N": force,
+        "torque_Nm": torque,
+        "orientation_rad": float(calibration.noise.orientation),
+        "wrench_covariance": covariance.tolist(),
+    }
 
 
 def _touch(model: TouchModel, *, measured: bool) -> dict[str, Any]:
@@ -351,6 +390,12 @@ def gates_content(gates: Gates) -> dict[str, Any]:
 def _floats(values: ArrayLike) -> list[float]:
     listed: list[float] = np.asarray(values, dtype=np.float64).tolist()
     return listed
+
+
+def _seconds(field: str, time: datetime) -> str:
+    if time.tzinfo is None:
+        raise ConfigError(f"{field}: the time has no zone: use datetime.now(UTC).")
+    return time.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 def hashes_of(files: Mapping[str, bytes]) -> dict[str, str]:

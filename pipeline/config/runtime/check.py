@@ -8,6 +8,7 @@ import numpy as np
 
 from pipeline.config.consumers import regenerate_ft_calib_yaml, regenerate_ros2_yaml
 from pipeline.config.runtime.canonical import first_difference
+from pipeline.config.runtime.checks import failed_checks
 from pipeline.config.runtime.errors import ConfigError
 from pipeline.config.runtime.model import VERSION
 from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
@@ -21,6 +22,7 @@ from pipeline.config.runtime.values import (
     wrench_covariance,
 )
 from pipeline.config.runtime.verified import RATE_OFF
+from pipeline.config.vertical import points_away
 from pipeline.errors import InputError
 from pipeline.mesh.load import MeshFile, settle
 from pipeline.mesh.ply import read_ply
@@ -41,7 +43,9 @@ _FARTHEST_M = 2.0
 _LARGEST_BIAS_N, _LARGEST_BIAS_NM = 2_000.0, 200.0
 _LARGEST_NOISE_N, _LARGEST_NOISE_NM = 100.0, 10.0
 _SURE = 3.0  # sigma: what is lighter than this many weighs nothing that anybody could tell
-_UP = 2.0  # sigma, as in vertical_residual: less may be noise
+_DOWN_SINCE = 4  # the version from which on somebody has said where down is
+_MOST_LEAN = 0.5  # cosine of 60 degrees: bases are mounted in multiples of 90
+_TEXTS_SINCE = 3  # the version from which on the files for other programs read as they do today
 _SLOWEST = 1e-6  # of the rate: a filter that is slower has no sections that doubles can hold
 _UNIT, _SECTIONS, _ROUNDING = 1e-9, 1e-12, 1e-9
 _FARTHEST_VERTEX_M = 1_000.0
@@ -110,11 +114,12 @@ def check_config(
     """
     try:
         _check_frames(model)
-        _check_gravity(model)
+        _check_gravity(model, version)
         _check_noise(model)
         _check_filters(model)
         _check_controller(model)
         _check_files(model, probe, files, version)
+        _check_touch(model)
         _check_verified(model, probe)
     except ConfigError as error:
         raise ConfigError(f"{name}: {error}") from None
@@ -163,18 +168,29 @@ def _check_frames(model: RuntimeModel) -> None:
     if quaternion is not None and abs(float(np.linalg.norm(quaternion)) - 1) > _UNIT:
         _refuse("frames.quaternion_ES", f"has the length {np.linalg.norm(quaternion):.9g}, not 1.")
 
+    down = model.world.down_W
+    if abs(float(np.linalg.norm(down)) - 1) > _UNIT:
+        _refuse("world.down_W", f"has the length {np.linalg.norm(down):.9g}, not 1.")
 
-def _check_gravity(model: RuntimeModel) -> None:
+
+def _check_gravity(model: RuntimeModel, version: int) -> None:
     gravity, part = gravity_of(model), model.gravity
     _check_covariance("gravity.covariance", gravity.covariance)
     weight = float(np.linalg.norm(gravity.gravity_W))
     mass = gravity.mass
     if weight > _HEAVIEST_N or mass > _HEAVIEST_KG:
         _refuse("gravity.gravity_W_N", f"is {mass:.4g} kg, more than {_HEAVIEST_KG:g}: were they grams?")
-    if 0 < mass < _LIGHTEST_KG and mass > _SURE * gravity.mass_sigma:
+    weighs = mass > 0 and mass > _SURE * gravity.mass_sigma
+    if weighs and mass < _LIGHTEST_KG:
         _refuse("gravity.gravity_W_N", f"is {mass:.4g} kg, less than {_LIGHTEST_KG:g}: were they kN?")
-    if gravity.gravity_W[2] > _UP * float(np.sqrt(max(gravity.covariance[2, 2], 0.0))):
-        _refuse("gravity.gravity_W_N", f"points up ({gravity.gravity_W[2]:.4g} N along z of W).")
+    down = model.world.down_W
+    if points_away(gravity, down):
+        _refuse(
+            "gravity.gravity_W_N",
+            f"points up ({-float(gravity.gravity_W @ down):.4g} N against world.down_W).",
+        )
+    if weighs and version >= _DOWN_SINCE and points_away(gravity, down, _MOST_LEAN):
+        _refuse("gravity.gravity_W_N", "is more than 60 degrees from world.down_W: how is the robot mounted?")
     for field, values, most, unit in (
         ("force_bias_N", part.force_bias_N, _LARGEST_BIAS_N, "N"),
         ("torque_bias_Nm", part.torque_bias_Nm, _LARGEST_BIAS_NM, "N*m: were they N*mm?"),
@@ -269,19 +285,19 @@ def _check_files(model: RuntimeModel, probe: Probe, files: Mapping[str, bytes], 
     if model.planes.count != len(probe.faces):
         _refuse("planes.count", f"is {model.planes.count}, but {PLANES} has {len(probe.faces)}.")
     # The text of these files belongs to a version of the schema; those of older ones are read by nobody here.
-    if version < VERSION:
+    if version < _TEXTS_SINCE:
         return
     for name, regenerate in ((ROS2, regenerate_ros2_yaml), (FT_CALIB, regenerate_ft_calib_yaml)):
         if name in files:
-            _check_yaml(files[name], regenerate, gravity_of(model), name)
+            _check_yaml(files[name], regenerate, model, name)
 
 
 def _check_yaml(
-    data: bytes, regenerate: Callable[[str, GravityModel], str], gravity: GravityModel, name: str
+    data: bytes, regenerate: Callable[[str, GravityModel, list[float]], str], model: RuntimeModel, name: str
 ) -> None:
     try:
         with np.errstate(all="ignore"):  # what overflows is refused
-            wanted = regenerate(data.decode("ascii"), gravity).encode("ascii")
+            wanted = regenerate(data.decode("ascii"), gravity_of(model), model.world.down_W).encode("ascii")
     except UnicodeDecodeError:
         raise ConfigError(f"{name}: this is not ASCII. {_AGAIN}") from None
     except InputError as error:
@@ -291,11 +307,19 @@ def _check_yaml(
         _refuse(f"{name}: line {line}", "is not what contactbench.json says.")
 
 
+def _check_touch(model: RuntimeModel) -> None:
+    touch = model.checks.known_touch
+    if touch is not None and touch.outcome == "passed" and None in (touch.located_S_m, touch.error_m):
+        _refuse("checks.known_touch.outcome", "is 'passed', but nothing was located.")
+
+
 def _check_verified(model: RuntimeModel, probe: Probe) -> None:
     if not model.verified:
         return
     if model.verification is None or not model.verification.passed:
         _refuse("verified", "is true, but verification is not there or not passed.")
+    for kind in failed_checks(model.checks):
+        _refuse("verified", f"is true, but checks.{kind} failed.")
     if model.provenance.stale:
         _refuse("verified", f"is true, but provenance.stale says: {model.provenance.stale[0]:.200}")
     if not (probe.health.watertight and probe.health.outward):

@@ -115,8 +115,25 @@ def _from_2(content: dict[str, Any]) -> dict[str, Any]:
     return {**content, **new_parts, "gates": {**gates, **_GATES}, "regions": regions}
 
 
+def _from_3(content: dict[str, Any]) -> dict[str, Any]:
+    """Version 3 took -z of W for down, and held neither the age of the zero nor checks."""
+    frames, noise = content["frames"], content["noise"]
+    if frames["world"] != "W, z up":
+        raise ValueError(f"frames.world is {frames['world']!r:.40}, not 'W, z up'")
+    if {"world", "zero", "checks"} & content.keys() or "orientation_rad" in noise:
+        raise ValueError("world, zero, checks or noise.orientation_rad: fields of version 4")
+    return {
+        **content,
+        "frames": {**frames, "world": "W"},
+        "world": {"down_W": [0.0, 0.0, -1.0]},
+        "noise": {**noise, "orientation_rad": None},
+        "zero": {"measured": None, "drift": None},
+        "checks": {"known_weight": None, "known_touch": None},
+    }
+
+
 # Version -> what turns its JSON object into one of the next version. Version 1 is the first.
-STEPS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _from_1, 2: _from_2}
+STEPS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _from_1, 2: _from_2, 3: _from_3}
 
 
 def migrated(content: dict[str, Any], name: str) -> dict[str, Any]:

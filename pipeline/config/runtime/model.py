@@ -12,7 +12,7 @@ from typing import Annotated, Any, Final, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 SCHEMA: Final = "contactbench.runtime"
-VERSION: Final = 3
+VERSION: Final = 4
 
 # Wide enough for every device there is, narrow enough that no square overflows and no unit is mistaken unnoticed.
 _Number = Annotated[float, Field(ge=-1e9, le=1e9)]
@@ -60,7 +60,7 @@ class FramesPart(Part):
     The frames, in words.
 
     W is the frame that the calibration's orientations were given in, normally the robot's base: not a levelled world.
-    The direction of gravity in it was measured (``gravity_W_N``); its z axis only points more up than down. A
+    The direction of gravity in it was measured (``gravity_W_N``), and ``world.down_W`` says where it has to be. A
     controller must give its orientations in the same frame.
 
     ``quaternion_ES`` (w, x, y, z) turns S into the flange E, so that R_WS = R_WE R_ES; null: the calibration's
@@ -68,10 +68,20 @@ class FramesPart(Part):
     """
 
     sensor: Literal["S"]
-    world: Literal["W, z up"]
+    world: Literal["W"]
     rotation: Literal["R_WS: v_W = R_WS v_S"]
     wrench: Literal["what the tissue does to the probe, about the origin of S"]
     quaternion_ES: _Four | None
+
+
+class WorldPart(Part):
+    """
+    Where down is in W, as somebody said: a unit vector.
+
+    (0, 0, -1) for a robot that stands, (0, 0, 1) for one that hangs from the ceiling.
+    """
+
+    down_W: _Three
 
 
 class SensorPart(Part):
@@ -100,17 +110,44 @@ class GravityPart(Part):
     covariance: _Matrix12
 
 
+class DriftPart(Part):
+    """
+    How fast the bias changed at the end of the calibration, N/s and N·m/s, each with its standard deviation.
+
+    A reading so many seconds later has that much more bias than ``gravity`` says, if the drift went on.
+    """
+
+    force_Nps: _Three
+    torque_Nmps: _Three
+    force_sigma_Nps: _ThreeSigmas
+    torque_sigma_Nmps: _ThreeSigmas
+
+
+class ZeroPart(Part):
+    """
+    How old the bias is.
+
+    ``measured``: the end of the calibration's poses, as near as its file tells; null: nobody knows. ``drift`` is null
+    where the poses showed none.
+    """
+
+    measured: _Time | None
+    drift: DriftPart | None
+
+
 class NoisePart(Part):
     """
     How uncertain a wrench is.
 
-    ``force_N`` and ``torque_Nm`` are of one reading. ``wrench_covariance`` is of a compensated, filtered wrench (N²,
-    N²·m, N²·m²), the calibration's share included, on average over all orientations. The runtime adds the squares of
+    ``force_N`` and ``torque_Nm`` are of one reading. ``orientation_rad``: of one pose of the calibration, about each
+    axis; null: it did not say. ``wrench_covariance`` is of a compensated, filtered wrench (N², N²·m, N²·m²), the
+    calibration's share included, on average over all orientations. The runtime adds the squares of
     ``touch.model_error`` to its diagonal.
     """
 
     force_N: _ThreeSigmas
     torque_Nm: _ThreeSigmas
+    orientation_rad: Annotated[float, Field(ge=0, le=0.5)] | None
     wrench_covariance: _Matrix6
 
 
@@ -394,6 +431,44 @@ class VerificationPart(Part):
     diagnosis: Annotated[str, Field(max_length=10_000)]
 
 
+class KnownWeightPart(Part):
+    """
+    A known weight that was hung on the tool, and what the compensated sensor made of it.
+
+    ``outcome``: ``undecided`` where the uncertainty was too large to tell.
+    """
+
+    mass_kg: _Positive
+    mass_sigma_kg: _NotNegative
+    certificate: _Text | None
+    measured_kg: _Number
+    measured_sigma_kg: _NotNegative
+    outcome: Literal["passed", "failed", "undecided"]
+    created: _Time | None
+
+
+class KnownTouchPart(Part):
+    """
+    A known point that was pressed, and where the contact was located; null: it was not.
+
+    ``outcome``: as of the known weight.
+    """
+
+    point_S_m: _Three
+    located_S_m: _Three | None
+    error_m: _NotNegative | None
+    sigma_m: _NotNegative | None
+    outcome: Literal["passed", "failed", "undecided"]
+    created: _Time | None
+
+
+class ChecksPart(Part):
+    """What no residual of a calibration shows - sign, units, scale - and a check does; null: it was not done."""
+
+    known_weight: KnownWeightPart | None
+    known_touch: KnownTouchPart | None
+
+
 class SelfTestPart(Part):
     """Samples with the answers that a runtime must give; see docs/bundle.md."""
 
@@ -425,15 +500,18 @@ class RuntimeModel(Part):
     """
     A whole config.
 
-    ``verified`` is true only if ``verification`` passed and nothing it rests on was stale at the export.
+    ``verified`` is true only if ``verification`` passed, no check in ``checks`` failed, and nothing it rests on was
+    stale at the export.
     """
 
     schema_: Literal["contactbench.runtime"] = Field(alias="schema")
-    version: Literal[3]
+    version: Literal[4]
     units: UnitsPart
     frames: FramesPart
+    world: WorldPart
     sensor: SensorPart
     gravity: GravityPart
+    zero: ZeroPart
     noise: NoisePart
     touch: TouchModelPart
     streams: StreamsPart
@@ -445,6 +523,7 @@ class RuntimeModel(Part):
     controller: ControllerPart | None
     limits: LimitsPart
     verification: VerificationPart | None
+    checks: ChecksPart
     self_test: SelfTestPart | None
     verified: bool
     provenance: ProvenancePart

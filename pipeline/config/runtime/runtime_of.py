@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import log
+from math import log, radians
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pipeline.config.runtime.config import RuntimeConfig
+
+_LEAST_ORIENTATION_RAD = radians(0.1)
 
 
 def make_runtime(config: RuntimeConfig, *, hold: float | None = None) -> kernel.Runtime:
@@ -64,6 +66,9 @@ def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
         "region": probe.region,
         "noise": np.array(model.noise.wrench_covariance) + touch.model_error.covariance,
         "gravity": config.gravity.vector,
+        "gravity_covariance": config.gravity.covariance,
+        # Poses of a moving robot are no better than this, whatever the still ones of a calibration were.
+        "orientation_sigma": max(model.noise.orientation_rad or 0.0, _LEAST_ORIENTATION_RAD),
         "kalman": kalman,
         "sections": np.zeros((0, 6)) if location is None else np.array(location.sections),
         "bonus": bonus[probe.region],

@@ -19,6 +19,8 @@ using Matrix3 = nb::ndarray<const double, nb::shape<3, 3>, nb::c_contig, nb::dev
 using Rotations = nb::ndarray<const double, nb::shape<-1, 3, 3>, nb::c_contig, nb::device::cpu>;
 using Doubles = nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 using Vector12 = nb::ndarray<const double, nb::shape<12>, nb::c_contig, nb::device::cpu>;
+using Matrix12 = nb::ndarray<const double, nb::shape<12, 12>, nb::c_contig, nb::device::cpu>;
+using Places = nb::ndarray<const double, nb::shape<6, 3>, nb::c_contig, nb::device::cpu>;
 using Vector5 = nb::ndarray<const double, nb::shape<5>, nb::c_contig, nb::device::cpu>;
 
 struct PyRuntime {
@@ -131,6 +133,26 @@ void set_kalman(RuntimeSettings& s, nb::object kalman) {
         if (!(k[i] > 0.0)) throw std::invalid_argument("kalman: rate, q, r and tuned rate must be positive");
     s.filter_wrench = true;
     s.kalman = {k[0], k[1], k[2], k[3], k[4] != 0.0};
+}
+
+GravityLoad to_load(const Vector12& gravity) {
+    double g[12];
+    copy_finite(gravity, g, "the gravity model");
+    return {three(g), three(g + 3), three(g + 6), three(g + 9)};
+}
+
+// `covariance`: of the gravity model, or None: it is known.
+ZeroSettings to_zero_settings(nb::object covariance, double orientation_sigma) {
+    ZeroSettings s;
+    if (!(orientation_sigma >= 0.0 && orientation_sigma < 1.0))
+        throw std::invalid_argument("orientation_sigma is no small angle, rad");
+    s.orientation = orientation_sigma;
+    if (covariance.is_none()) return s;
+    Matrix12 m;
+    if (!nb::try_cast(covariance, m))
+        throw nb::type_error("the covariance of the gravity model must be a float64 matrix (12, 12) or None");
+    copy_finite(m, &s.covariance[0][0], "the covariance of the gravity model");
+    return s;
 }
 
 struct Samples {
@@ -275,17 +297,52 @@ void bind_batch_class(nb::module_& m) {
         .def_prop_ro("seconds", [](const B& b) { return column<double>(b, &C::second, {3}); }, "(n, 3) S, m.");
 }
 
+void bind_zero(nb::module_& m) {
+    nb::class_<Zero>(m, "Zero", "How old the sensor's zero is, and how far it is off.")
+        .def_prop_ro("state", [](const Zero& z) { return std::string(zero_state_name(z.state)); },
+                     "unknown, confirmed, doubtful or off.")
+        .def_prop_ro("age", [](const Zero& z) { return z.age; },
+                     "s since the last moment without touch; NaN: there was none.")
+        .def_prop_ro("offset", [](const Zero& z) { return point_or_none(z.offset).is_none() ? nb::none()
+            : make_array(std::vector<double>(z.offset, z.offset + 6), {6}); },
+            "(6,) S, N and N·m: what the reading has too much; None where that is not known.")
+        .def_prop_ro("sigma", [](const Zero& z) { return point_or_none(z.sigma).is_none() ? nb::none()
+            : make_array(std::vector<double>(z.sigma, z.sigma + 6), {6}); },
+            "(6,) standard deviations of `offset`, the calibration's share included, or None.")
+        .def_prop_ro("shift", [](const Zero& z) { return z.shift; },
+                     "m: by how much that moves a contact of 10 N, where it does so most; NaN: not known.")
+        .def_prop_ro("shift_sigma", [](const Zero& z) { return z.shift_sigma; }, "m, one standard deviation.");
+    nb::class_<ZeroWatch>(m, "ZeroWatch", "Watches the sensor's zero, from moments in which nothing touches the probe.")
+        .def("__init__", [](ZeroWatch* self, Vector12 gravity, nb::object covariance, Places places,
+                            double orientation_sigma, double min_force) {
+            ZeroWatch::Places far;
+            for (std::size_t i = 0; i < far.size(); ++i) far[i] = three(places.data() + 3 * i);
+            new (self) ZeroWatch(to_load(gravity), to_zero_settings(std::move(covariance), orientation_sigma), min_force,
+                                 far);
+        }, nb::arg("gravity"), nb::arg("covariance").none(), nb::arg("places"), nb::kw_only(),
+           nb::arg("orientation_sigma"), nb::arg("min_force"))
+        .def("see", [](ZeroWatch& self, Rows6 wrenches, Rotations rotations, Doubles times, bool touched) {
+            const Samples samples{wrenches, rotations, times};
+            samples.check();
+            for (std::size_t i = 0; i < samples.size(); ++i)
+                self.see(to_wrench(wrenches.data() + 6 * i), rotations.data() + 9 * i, times.data()[i], touched);
+        }, nb::arg("wrenches"), nb::arg("rotations"), nb::arg("times"), nb::arg("touched") = false,
+           "The next samples: (n, 6) compensated but not filtered, (n, 3, 3) R_WS, (n,) s; whether a touch was located.")
+        .def("at", &ZeroWatch::at, nb::arg("now"), "What is known of the zero; `now` in s of the samples' clock.");
+}
+
 }  // namespace
 
 void bind_runtime(nb::module_& m) {
     bind_contact_class(m);
     bind_batch_class(m);
+    bind_zero(m);
     auto runtime = nb::class_<PyRuntime>(m, "Runtime", "What a controller runs at every sample; one stream.");
     runtime.def("__init__", [](PyRuntime* self, Rows3 vertices, Faces faces, Ints region, Matrix6 noise, Vector12 gravity,
                                nb::object kalman, Rows6 sections, Bonus bonus, double torsion_arm,
                                double mesh_deviation, bool mesh_curved, nb::object R_ES, double pose_gap,
                                double pose_ahead, double silence, double frozen_chance, nb::object motion,
-                               CONTACTBENCH_GATES) {
+                               nb::object gravity_covariance, double orientation_sigma, CONTACTBENCH_GATES) {
         RuntimeSettings s;
         set_mount(s, std::move(R_ES));
         set_motion(s, std::move(motion));
@@ -296,9 +353,8 @@ void bind_runtime(nb::module_& m) {
         s.gates = CONTACTBENCH_GIVEN_GATES;
         s.torsion_arm = torsion_arm;
         copy_finite(noise, &s.noise.s[0][0], "the wrench covariance");
-        double g[12];
-        copy_finite(gravity, g, "the gravity model");
-        s.gravity = {three(g), three(g + 3), three(g + 6), three(g + 9)};
+        s.gravity = to_load(gravity);
+        s.zero = to_zero_settings(std::move(gravity_covariance), orientation_sigma);
         set_kalman(s, std::move(kalman));
         s.sections = to_sections(sections);
         new (self) PyRuntime{Runtime(to_model(vertices, faces, region, bonus, mesh_deviation, mesh_curved), s), {}};
@@ -306,8 +362,8 @@ void bind_runtime(nb::module_& m) {
        nb::arg("gravity"), nb::kw_only(), nb::arg("kalman").none(), nb::arg("sections"), nb::arg("bonus"),
        nb::arg("torsion_arm"), nb::arg("mesh_deviation"), nb::arg("mesh_curved"),
        nb::arg("R_ES").none(), nb::arg("pose_gap"), nb::arg("pose_ahead"), nb::arg("silence"), nb::arg("frozen_chance"),
-       nb::arg("motion").none(),
-       CONTACTBENCH_GATE_NAMES);
+       nb::arg("motion").none(), nb::arg("gravity_covariance").none() = nb::none(),
+       nb::arg("orientation_sigma") = ZeroSettings().orientation, CONTACTBENCH_GATE_NAMES);
     runtime.def("pose", [](PyRuntime& s, Matrix3 R, Vector3 p, double time) {
         const std::lock_guard lock(s.busy);
         return s.runtime.pose(R.data(), p.data(), time);
@@ -345,6 +401,10 @@ void bind_runtime(nb::module_& m) {
                 "The next samples (n, 6), (n, 3, 3), (n,), in order, without the interpreter's lock.");
     runtime.def("time_each", &time_each, nb::arg("wrenches"), nb::arg("rotations"), nb::arg("times"),
                 "Nanoseconds of each update (n,).");
+    runtime.def("zero", [](PyRuntime& s) {
+        const std::lock_guard lock(s.busy);
+        return s.runtime.zero();
+    }, "How old the sensor's zero is at the last sample, and how far it is off; nothing of it is applied to a contact.");
     runtime.def("reset", [](PyRuntime& s) {
         const std::lock_guard lock(s.busy);
         s.runtime.reset();

@@ -6,6 +6,7 @@ import json
 from functools import cache
 from typing import TYPE_CHECKING
 
+from pipeline.calibration.calibrate import DOWN_W
 from pipeline.study.bundle_example import example_config
 from pipeline.study.bundle_mutations import seal
 
@@ -17,10 +18,15 @@ if TYPE_CHECKING:
 
 @cache
 def example(
-    facets: int = 1_000, *, rate: float = 1_000.0, verified: bool = True, clamped: bool = False
+    facets: int = 1_000,
+    *,
+    rate: float = 1_000.0,
+    verified: bool = True,
+    clamped: bool = False,
+    down_W: tuple[float, float, float] = DOWN_W,
 ) -> RuntimeConfig:
     """Return the example; made once."""
-    return example_config(facets, rate=rate, verified=verified, clamped=clamped)
+    return example_config(facets, rate=rate, verified=verified, clamped=clamped, down_W=down_W)
 
 
 def example_bundle(
@@ -48,9 +54,20 @@ OLD_GAINS = {
 }
 
 
+def of_version_3(files: dict[str, bytes], **changes: object) -> dict[str, bytes]:
+    """Return a bundle as contactbench wrote it before version 4: down was -z of W."""
+    content = json.loads(files["contactbench.json"])
+    for name in ("world", "zero", "checks"):
+        del content[name]
+    del content["noise"]["orientation_rad"]
+    content["frames"]["world"] = "W, z up"
+    content |= {"version": 3, **changes}
+    return seal({**files, "contactbench.json": json.dumps(content).encode()})
+
+
 def of_version_2(files: dict[str, bytes], **changes: object) -> dict[str, bytes]:
     """Return a bundle as contactbench wrote it before version 3: touches were ranked by rules."""
-    content = json.loads(files["contactbench.json"])
+    content = json.loads(of_version_3(files)["contactbench.json"])
     for name in ("touch", "streams", "self_test"):
         del content[name]
     new = ("implausible_misfit", "rival_odds", "first_odds", "follow_odds", "accept_by_region")

@@ -1,8 +1,10 @@
 """``contactbench config``: export from files and from a session, check, diff, schema; exit codes."""
 
+import dataclasses
 import hashlib
 import json
 import shutil
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -54,6 +56,49 @@ def verification(folder, *, passed=True, mean=0.4, model_error=None, **settings)
         },
     }
     file.write_text(json.dumps(content))
+    return file
+
+
+def known_weight(folder, outcome="passed", **changes):
+    file = folder / "weight.json"
+    content = {
+        "schema": "contactbench.known_weight",
+        "version": 1,
+        "mass_kg": 1.0,
+        "mass_sigma_kg": 0.001,
+        "certificate": "W-17",
+        "measured_kg": 1.002,
+        "measured_sigma_kg": 0.004,
+        "direction_error_deg": 0.2,
+        "outcome": outcome,
+        "passed": outcome == "passed",
+        "sentence": f"The check says {outcome}.",
+        "created": "2026-01-01T13:00:00+01:00",
+        "calibration_sha256": sha256(folder / "calibration.json"),
+        "sources": {},
+    }
+    file.write_text(json.dumps(content | changes))
+    return file
+
+
+def known_touch(folder, outcome="passed", **changes):
+    file = folder / "touch.json"
+    content = {
+        "schema": "contactbench.known_touch",
+        "version": 1,
+        "point_S_m": [0.0, 0.01, 0.1],
+        "located_S_m": [0.0, 0.011, 0.1],
+        "error_m": 0.001,
+        "sigma_m": 0.002,
+        "outcome": outcome,
+        "passed": outcome == "passed",
+        "sentence": f"The check says {outcome}.",
+        "created": None,
+        "calibration_sha256": sha256(folder / "calibration.json"),
+        "probe_sha256": sha256(folder / "probe.ply"),
+        "sources": {},
+    }
+    file.write_text(json.dumps(content | changes))
     return file
 
 
@@ -110,6 +155,188 @@ def test_export_check_and_the_same_bytes_again(bench):
     assert checked.exit_code == 0
     assert json.loads(checked.stdout)["probe"]["facets"] == len(config.probe.faces)
     assert "verified on 10 markers: 0.40 mm mean" in checked.stderr
+
+
+def words(result):
+    return " ".join(result.stderr.split())
+
+
+def test_checks_reach_the_bundle_and_a_missing_one_is_said(bench):
+    bare = invoke("export", *files_of(bench), "--out", bench / "b")
+    assert bare.exit_code == 0
+    assert "Neither a known weight nor a known touch was checked" in words(bare)
+    assert "Neither a known weight" in words(invoke("check", bench / "b"))
+    options = ("--known-weight", known_weight(bench), "--known-touch", known_touch(bench))
+    made = invoke("export", *files_of(bench), *options, "--out", bench / "b", "--json")
+    assert made.exit_code == 0, made.stderr
+    assert "Neither" not in words(made)
+    model = RuntimeConfig.load(bench / "b").model
+    assert json.loads(made.stdout)["checks"] == model.checks.model_dump()
+    assert model.checks.known_weight.model_dump() == {
+        "mass_kg": 1.0, "mass_sigma_kg": 0.001, "certificate": "W-17", "measured_kg": 1.002,
+        "measured_sigma_kg": 0.004, "outcome": "passed", "created": "2026-01-01T12:00:00Z",
+    }  # fmt: skip
+    assert model.checks.known_touch.error_m == 0.001
+    roles = {each.role: each.sha256 for each in model.provenance.sources}
+    assert roles["known_weight"] == sha256(bench / "weight.json")
+    assert "Neither" not in words(invoke("check", bench / "b"))
+    assert invoke("export", *files_of(bench), *options[2:], "--out", bench / "b").exit_code == 0
+    assert RuntimeConfig.load(bench / "b").model.checks.known_weight is None
+    wavering = known_weight(bench, "undecided")
+    made = invoke("export", *files_of(bench), "--known-weight", wavering, "--out", bench / "b")
+    assert made.exit_code == 0
+    assert "could not tell" in words(made)
+
+
+@pytest.mark.parametrize(
+    ("option", "write", "changes", "reason"),
+    [
+        (
+            "--known-weight",
+            known_weight,
+            {"outcome": "failed"},
+            "known weight of 1 kg was measured as 1.002 kg",
+        ),
+        ("--known-touch", known_touch, {"outcome": "failed"}, "known touch was located 1 mm off"),
+        (
+            "--known-touch",
+            known_touch,
+            {"outcome": "failed", "located_S_m": None, "error_m": None},
+            "known touch was not located",
+        ),
+        (
+            "--known-weight",
+            known_weight,
+            {"calibration_sha256": "0" * 64},
+            "The known weight was checked with another calibration",
+        ),
+        (
+            "--known-touch",
+            known_touch,
+            {"probe_sha256": "0" * 64},
+            "known touch was checked with another probe",
+        ),
+    ],
+)
+def test_a_check_that_failed_or_is_of_others_refuses_the_export(bench, option, write, changes, reason):
+    given = (*files_of(bench), option, write(bench, **changes), "--out", bench / "b")
+    refused = invoke("export", *given)
+    assert refused.exit_code == 1
+    assert reason in words(refused)
+    assert not (bench / "b").exists()
+    assert invoke("export", *given, "--unverified").exit_code == 0
+    model = RuntimeConfig.load(bench / "b").model
+    assert not model.verified
+    assert len(model.provenance.stale) == 1
+    assert reason in words(invoke("check", bench / "b"))
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"schema": "contactbench.known_touch"}, "this is no contactbench.known_weight of version 1"),
+        ({"version": 2}, "this is no contactbench.known_weight of version 1"),
+        ({"mass_kg": 0.0}, "mass_kg is 0.0"),
+        ({"created": "today"}, "lacks a figure"),
+        ({"created": "2026-01-01T13:00:00"}, "no time zone"),
+        ({"outcome": "good"}, "outcome is 'good'"),
+    ],
+)
+def test_what_is_no_check_is_wrong_input(bench, changes, reason):
+    file = known_weight(bench, **changes)
+    refused = invoke("export", *files_of(bench), "--known-weight", file, "--out", bench / "b")
+    assert refused.exit_code == 2
+    assert reason in words(refused)
+    assert "weight.json" in words(refused).replace(" ", "")
+    file.write_text("{")
+    assert invoke("export", *files_of(bench), "--known-weight", file, "--out", bench / "b").exit_code == 2
+
+
+def test_a_session_gives_its_checks_unless_they_are_of_another_calibration(bench):
+    with Session.create(bench / "s", by="ada") as session:
+        fill(session, bench)
+        known = {kind: each.content for (kind, _), each in session.state.current_results.items()}
+        known.pop("verification")
+        weight, touch = known_weight(bench).read_bytes(), known_touch(bench).read_bytes()
+        session.add_result(
+            "known_weight", "w.json", {"w.json": weight}, {"calibration": known["calibration"]}, {}
+        )
+        session.add_result("known_touch", "t.json", {"t.json": touch}, known, {})
+    assert invoke("export", bench / "s", *RATE, "--out", bench / "b").exit_code == 0
+    model = RuntimeConfig.load(bench / "b").model
+    assert model.checks.known_weight.created == "2026-01-01T12:00:00Z"
+    assert model.checks.known_touch.created[:4] >= "2023"  # when it was kept, as its file does not tell
+    assert {"known_weight", "known_touch"} < {each.role for each in model.provenance.sources}
+
+    with Session.open(bench / "s", by="ada") as session:
+        failed = known_weight(bench, "failed").read_bytes()
+        session.add_result(
+            "known_weight", "w.json", {"w.json": failed}, {"calibration": known["calibration"]}, {"again": 1}
+        )
+    refused = invoke("export", bench / "s", *RATE, "--out", bench / "b")
+    assert refused.exit_code == 1
+    assert "known weight of 1 kg was measured" in words(refused)
+    with Session.open(bench / "s", by="ada") as session:
+        session.mark("known_weight", "w.json", "rejected", "the wrong weight")
+    assert invoke("export", bench / "s", *RATE, "--out", bench / "b").exit_code == 0
+    assert RuntimeConfig.load(bench / "b").model.checks.known_weight is None
+
+    with Session.open(bench / "s", by="ada") as session:
+        save_calibration(calibrate(weighed(seed=6).poses), bench / "calibration.json")
+        data = (bench / "calibration.json").read_bytes()
+        session.add_result("calibration", "d.json", {"d.json": data}, {}, {})
+    assert invoke("export", bench / "s", *RATE, "--unverified", "--out", bench / "b").exit_code == 0
+    assert RuntimeConfig.load(bench / "b").model.checks.known_touch is None
+
+
+@pytest.mark.parametrize(
+    ("down", "lines"),
+    [((0.0, 0.0, 1.0), []), ((0.0, -1.0, 0.0), ["ros2.yaml holds only the broadcaster's offset"])],
+)
+def test_ceiling_and_wall_are_exported_checked_and_told(bench, down, lines):
+    turn, _ = Rotation.align_vectors([down], [[0, 0, -1]])
+    poses = [dataclasses.replace(pose, R_WS=turn.as_matrix() @ pose.R_WS) for pose in weighed().poses]
+    save_calibration(calibrate(poses, down_W=down), bench / "calibration.json")
+    verification(bench)
+    made = invoke("export", *files_of(bench), "--out", bench / "b", "--json")
+    assert made.exit_code == 0, made.stderr
+    assert json.loads(made.stdout)["world"]["down_W"] == pytest.approx(list(down), abs=1e-12)
+    checked = invoke("check", bench / "b")
+    assert checked.exit_code == 0, checked.stderr
+    for result in (made, checked):
+        assert all(line in words(result) for line in lines)
+        assert ("ros2.yaml" in words(result)) == bool(lines)
+
+
+def test_the_zero_is_as_old_as_the_last_pose_where_a_clock_says_so(bench):
+    created = datetime(2026, 1, 2, 3, 4, 5, tzinfo=UTC)
+    poses = list(weighed().poses)
+
+    def measured(first):
+        timed = [
+            dataclasses.replace(pose, time=None if first is None else first + 10.0 * i)
+            for i, pose in enumerate(poses)
+        ]
+        save_calibration(calibrate(timed), bench / "calibration.json", created=created)
+        verification(bench)
+        made = invoke("export", *files_of(bench), "--out", bench / "b")
+        assert "The sensor's zero was measured on 202" in words(invoke("check", bench / "b"))
+        assert made.exit_code == 0, made.stderr
+        return RuntimeConfig.load(bench / "b").model.zero.measured
+
+    first = datetime(2026, 1, 1, 12, tzinfo=UTC).timestamp()
+    end = datetime.fromtimestamp(first + 10 * (len(poses) - 1), UTC)
+    assert measured(first) == end.strftime("%Y-%m-%dT%H:%M:%SZ")
+    for unknown in (None, 0.0, 1e12):
+        assert measured(unknown) == "2026-01-02T03:04:05Z"
+
+
+def test_a_drift_is_told_by_the_hour(tmp_path):
+    example_bundle(tmp_path / "b", 300, clamped=True)
+    checked = invoke("check", tmp_path / "b", "--json")
+    assert checked.exit_code == 0
+    assert "drifted by up to 0.11 N and 0.72 mN·m an hour" in words(checked)
+    assert json.loads(checked.stdout)["zero"]["measured"] == "2026-01-01T12:00:00Z"
 
 
 def test_what_is_not_verified_is_refused_or_marked(bench):

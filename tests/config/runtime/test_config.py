@@ -34,9 +34,9 @@ from pipeline.study.bundle_mutations import seal
 HERE = Path(__file__).parents[3]
 
 
-def edited(**changes):
+def edited(clamped=False, **changes):
     """Return the example's files with parts of the JSON replaced, sealed again: path with __ -> value."""
-    files = example().encoded()
+    files = example(clamped=clamped).encoded()
     content = json.loads(files["contactbench.json"])
     for path, value in changes.items():
         *above, last = path.split("__")
@@ -45,6 +45,24 @@ def edited(**changes):
             part = part[int(name)] if isinstance(part, list) else part[name]
         part[int(last) if isinstance(part, list) else last] = value
     return seal({**files, "contactbench.json": json.dumps(content).encode()})
+
+
+def test_the_zero_its_drift_and_the_checks_are_written_down():
+    model = example(clamped=True).model
+    assert model.zero.model_dump() == {
+        "measured": "2026-01-01T12:00:00Z",
+        "drift": {
+            "force_Nps": [1e-5, -2e-5, 3e-5],
+            "torque_Nmps": [1e-7, 0.0, -2e-7],
+            "force_sigma_Nps": pytest.approx([1e-6, 2e-6, 3e-6]),
+            "torque_sigma_Nmps": pytest.approx([1e-8, 0.0, 2e-8]),
+        },
+    }
+    assert 0 < model.noise.orientation_rad < 0.01
+    assert model.checks.known_weight.outcome == model.checks.known_touch.outcome == "passed"
+    plain = example().model
+    assert plain.zero.model_dump() == {"measured": None, "drift": None}
+    assert plain.checks.model_dump() == {"known_weight": None, "known_touch": None}
 
 
 @pytest.mark.parametrize("name", ["bundle", "bundle.zip"])
@@ -121,7 +139,8 @@ def test_planes_come_in_the_order_of_priority():
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"version": 4}, "version is 4"),
+        ({"version": 5}, "version is 5"),
+        ({"version": 3}, "version 3 cannot be carried over"),
         ({"version": 2}, "version 2 cannot be carried over"),
         ({"version": 1}, "version 1 cannot be carried over"),
         ({"version": 0}, "no version 0"),
@@ -199,6 +218,37 @@ def test_planes_come_in_the_order_of_priority():
 def test_what_cannot_be_true_is_refused_and_named(changes, words):
     with pytest.raises(ConfigError, match=words):
         RuntimeConfig.from_files(edited(**changes))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"frames__world": "W, z up"}, "frames.world is 'W, z up'"),
+        ({"world__down_W": [0.0, 0.0, 1.0]}, "points up .* against world.down_W"),
+        ({"world__down_W": [0.0, -0.6, -0.8]}, "ros2.yaml: line [0-9]+ is not what"),
+        ({"world__down_W": [0.0, -1.0, 0.0]}, "gravity_W_N is more than 60 degrees from world.down_W"),
+        ({"world__down_W": [0.0, 0.0, -1.0001]}, "world.down_W has the length 1.0001"),
+        ({"world__down_W": None}, "world.down_W"),
+        ({"noise__orientation_rad": 2.9}, "noise.orientation_rad is 2.9"),
+        ({"zero__measured": "today"}, "zero.measured is 'today'"),
+        ({"zero__drift__force_sigma_Nps__0": -1e-6}, "zero.drift.force_sigma_Nps.0"),
+        ({"zero__drift__torque_Nmps": None}, "zero.drift.torque_Nmps"),
+        ({"checks__known_weight__outcome": "failed"}, "verified is true, but checks.known_weight failed"),
+        ({"checks__known_touch__outcome": "failed"}, "verified is true, but checks.known_touch failed"),
+        ({"checks__known_touch__outcome": True}, "checks.known_touch.outcome"),
+        (
+            {"checks__known_touch__located_S_m": None},
+            "checks.known_touch.outcome is 'passed', but nothing was",
+        ),
+        ({"checks__known_touch__error_m": None}, "checks.known_touch.outcome is 'passed', but nothing was"),
+        ({"checks__known_weight__mass_kg": 0.0}, "checks.known_weight.mass_kg is 0.0"),
+        ({"checks__known_weight__created": "2026-01-01"}, "checks.known_weight.created"),
+    ],
+)
+def test_what_cannot_be_true_of_down_zero_and_checks_is_refused(changes, words):
+    assert RuntimeConfig.from_files(edited(clamped=True)).model.verified
+    with pytest.raises(ConfigError, match=words):
+        RuntimeConfig.from_files(edited(clamped=True, **changes))
 
 
 @pytest.mark.parametrize(
@@ -399,9 +449,32 @@ def test_reasons_refuse_an_export(rebuild):
         assert words in whole
 
 
+def test_a_check_that_failed_refuses_an_export_and_one_that_cannot_tell_does_not(rebuild):
+    done = example(clamped=True).model.checks
+    for kind, words in (
+        ("known_weight", "The known weight of 1 kg was measured as 1.002 kg"),
+        ("known_touch", "The known touch was located 0.5 mm off"),
+    ):
+        for outcome in ("failed", "undecided"):
+            part = getattr(done, kind).model_copy(update={"outcome": outcome})
+            checks = done.model_copy(update={kind: part})
+
+            def change(calibration, probe_file, named, checks=checks):
+                named["checks"] = checks
+                return calibration, probe_file
+
+            if outcome == "undecided":
+                assert rebuild(change).model.checks == checks
+                continue
+            with pytest.raises(UnverifiedError, match=words) as caught:
+                rebuild(change)
+            assert len(caught.value.reasons) == 1
+
+
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
+        ("zeroed", datetime(2026, 1, 1, tzinfo=UTC).replace(tzinfo=None), "zeroed: the time has no zone"),
         ("created", datetime(2026, 1, 1, tzinfo=UTC).replace(tzinfo=None), "no zone"),
         ("noise", WrenchNoise(0.05, 0.002, np.eye(6)), "noise.extra"),
         ("filters", Filters(None, LowPass(20.0, 1000.0, 9)), "order is 9"),

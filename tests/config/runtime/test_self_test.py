@@ -8,8 +8,9 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
-from config.runtime.bundles import example, of_version_2
+from config.runtime.bundles import example, of_version_2, of_version_3
 from runtime.test_same_as_cpp import BUILD, CMAKE, SOURCE, run
 from typer.testing import CliRunner
 
@@ -266,6 +267,45 @@ def test_c_replays_them(
             replay(RuntimeConfig.from_files(mutant), "")
         # The same line and cell; Python's number may end otherwise.
         assert message.split(" is ")[0] in str(refused.value), (message, refused.value)
+
+
+def random_downs(count: int) -> list[tuple[float, ...]]:
+    rng = np.random.default_rng(3)
+    some = [(0, 0, 1), (0, 1, 0), (-1, 0, 0), (0.05, 0, 1), (0.2, 0, -1), *rng.normal(size=(count, 3))]
+    return [tuple((np.array(down) / np.linalg.norm(down)).tolist()) for down in some]
+
+
+@pytest.mark.parametrize("down", random_downs(5), ids=lambda down: ",".join(f"{each:.2f}" for each in down))
+def test_a_robot_that_does_not_stand_is_as_good_as_one_that_does(
+    down: tuple[float, float, float], selftest: Callable[[dict[str, bytes]], tuple[int, str]]
+) -> None:
+    content = example(300, clamped=True, down_W=down).encoded()
+    found = RuntimeConfig.from_files(content)
+    assert found.model.verified
+    assert found.model.world.down_W == pytest.approx(down, abs=1e-15)
+    assert replay(found, "bundle") == 300
+    assert selftest(content) == (OK, "")
+    # With the sign of the sensor turned over, neither loader takes it.
+    over = with_field(content, "world.down_W", [-each for each in found.model.world.down_W])
+    with pytest.raises(ConfigError, match="points up"):
+        RuntimeConfig.from_files(over)
+    code, message = selftest(over)
+    assert (code, "points up" in message) == (6, True), message
+
+
+def test_c_reads_version_3_and_compares_its_texts(
+    files: dict[str, bytes], selftest: Callable[[dict[str, bytes]], tuple[int, str]]
+) -> None:
+    old = of_version_3(files)
+    assert selftest(old) == (OK, "")
+    assert replay(RuntimeConfig.from_files(old), "bundle") == 300
+    text = old["ros2.yaml"].replace(b"# z up", b"# z down")
+    code, message = selftest(seal({**old, "ros2.yaml": text}))
+    assert code == 6
+    assert message.startswith("ros2.yaml: line")
+    tilted = [5.8, 0.0, -2.1]  # 70 degrees from down
+    assert "more than 60 degrees" in selftest(with_field(files, "gravity.gravity_W_N", tilted))[1]
+    assert "noise.wrench_covariance" in selftest(with_field(old, "gravity.gravity_W_N", tilted))[1]
 
 
 def test_c_refuses_what_python_refuses(

@@ -4,11 +4,12 @@ import json
 
 import numpy as np
 import pytest
-from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2
+from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
 
 from pipeline.config.runtime import ConfigError, RuntimeConfig
 from pipeline.config.runtime import migrate as migrations
 from pipeline.config.runtime.canonical import decode_json, encode_json
+from pipeline.study.bundle_mutations import seal
 
 
 def test_an_older_version_is_carried_over(monkeypatch):
@@ -26,7 +27,7 @@ def test_an_older_version_is_carried_over(monkeypatch):
     del content["gates"]["region_only"]
     old = encode_json({**content, "version": 0})
     model, _ = decode_json(old, "old")
-    assert model.version == 3
+    assert model.version == 4
     assert model.controller.force.damping_Nspm == 80.0
     assert np.allclose(model.gravity.gravity_W_N, weight, rtol=1e-15, atol=0)
     del content["gravity"]["mass_W_kg"]
@@ -34,7 +35,7 @@ def test_an_older_version_is_carried_over(monkeypatch):
         decode_json(encode_json({**content, "version": 0}), "old")
 
 
-def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_3():
+def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_4():
     found = RuntimeConfig.from_files(of_version_1(example().encoded()))
     # What was left open then, as it was taken then: it stays, whatever the defaults become.
     assert found.model.controller.model_dump() == {
@@ -72,7 +73,7 @@ def test_a_bundle_of_version_1_keeps_its_gains_and_is_written_as_version_3():
     }
     again = RuntimeConfig.from_files(found.encoded())
     assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 3
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
     bare = RuntimeConfig.from_files(of_version_1(example().encoded(), None))
     assert bare.model.controller is None
 
@@ -97,7 +98,7 @@ def test_a_wrong_controller_of_version_1_is_refused(controller, words):
         RuntimeConfig.from_files(of_version_1(example().encoded(), controller))
 
 
-def test_a_bundle_of_version_2_gets_the_model_of_a_touch_and_is_written_as_version_3():
+def test_a_bundle_of_version_2_gets_the_model_of_a_touch_and_is_written_as_version_4():
     part = example().model.regions[0].model_dump(exclude={"odds", "untouchable"})
     empty = [{**part, "rank": rank, "name": f"empty {rank}", "facets": 0} for rank in (2, 3, 4)]
     found = RuntimeConfig.from_files(of_version_2(example().encoded(), regions=[part, *empty]))
@@ -125,11 +126,11 @@ def test_a_bundle_of_version_2_gets_the_model_of_a_touch_and_is_written_as_versi
         (10.0, False),
         (10.0, False),
     ]
-    assert found.model.noise == example().model.noise
+    assert found.model.noise == example().model.noise.model_copy(update={"orientation_rad": None})
     assert found.model.controller == example().model.controller
     again = RuntimeConfig.from_files(found.encoded())
     assert again.model == found.model
-    assert json.loads(found.encoded()["contactbench.json"])["version"] == 3
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
 
 
 def old_gates(**changes):
@@ -150,3 +151,53 @@ def old_gates(**changes):
 def test_what_version_2_never_was_is_refused(changes):
     with pytest.raises(ConfigError, match="version 2 cannot be carried over"):
         RuntimeConfig.from_files(of_version_2(example().encoded(), **changes))
+
+
+def test_a_bundle_of_version_3_stands_upright_and_is_written_as_version_4():
+    files = of_version_3(example().encoded())
+    found = RuntimeConfig.from_files(files)
+    assert found.model.world.down_W == [0.0, 0.0, -1.0]
+    assert found.model.zero.model_dump() == {"measured": None, "drift": None}
+    assert found.model.noise.orientation_rad is None
+    assert found.model.checks.model_dump() == {"known_weight": None, "known_touch": None}
+    assert found.model.verified
+    assert found.files == {
+        name: data for name, data in files.items() if name not in ("contactbench.json", "contactbench.sha256")
+    }
+    again = RuntimeConfig.from_files(found.encoded())
+    assert again.model == found.model
+    assert json.loads(found.encoded()["contactbench.json"])["version"] == 4
+    # Its files for other programs are still those that it makes.
+    changed = files["ros2.yaml"].replace(b"force: -", b"force: ").replace(b"z up", b"z down")
+    with pytest.raises(ConfigError, match=r"ros2\.yaml: line"):
+        RuntimeConfig.from_files(seal({**files, "ros2.yaml": changed}))
+
+
+def test_only_since_version_4_gravity_has_to_be_near_down():
+    gravity = example().model.gravity.model_dump() | {"gravity_W_N": [5.8, 0.0, -2.1]}  # 70 degrees from down
+    new = json.loads(example().encoded()["contactbench.json"]) | {"gravity": gravity}
+    with pytest.raises(ConfigError, match="more than 60 degrees"):
+        RuntimeConfig.from_files(seal({**example().encoded(), "contactbench.json": json.dumps(new).encode()}))
+    with pytest.raises(ConfigError, match=r"noise\.wrench_covariance"):  # which comes after gravity
+        RuntimeConfig.from_files(of_version_3(example().encoded(), gravity=gravity))
+
+
+def frames(**changes):
+    return json.loads(of_version_3(example().encoded())["contactbench.json"])["frames"] | changes
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"world": {"down_W": [0.0, 0.0, -1.0]}},
+        {"zero": None},
+        {"checks": None},
+        {"frames": frames(world="W")},
+        {"frames": []},
+        {"noise": example().model.noise.model_dump()},
+        {"noise": 3},
+    ],
+)
+def test_what_version_3_never_was_is_refused(changes):
+    with pytest.raises(ConfigError, match="version 3 cannot be carried over"):
+        RuntimeConfig.from_files(of_version_3(example().encoded(), **changes))

@@ -14,6 +14,7 @@
 //              raw reading; a saturated sample is a lost one: the filters hold. Every other gate and the
 //              location take the compensated and filtered wrench.
 //   gaps       a sample more than `gates.max_age` after the last one starts anew, as after reset.
+//   zero       watched beside all this, on the compensated readings before the filter; see zero.hpp.
 //   location   filtered over accepted contacts only; held while contact is lost for at most
 //              `gates.recent_samples` samples, and started anew after that.
 #pragma once
@@ -22,15 +23,9 @@
 #include "motion.hpp"
 #include "runtime_filters.hpp"
 #include "solver.hpp"
+#include "zero.hpp"
 
 namespace contactbench {
-
-inline constexpr double standard_gravity = 9.80665;  // m/s^2
-
-// A still sensor reads F = R_SW g + F0, M = L x (R_SW g) + M0.
-struct GravityLoad {
-    Vec3 gravity_W, force_bias, centre_of_mass_S, torque_bias;  // N, N, m, N*m
-};
 
 struct RuntimeSettings {
     GravityLoad gravity;
@@ -46,6 +41,7 @@ struct RuntimeSettings {
     MotionSettings motion;
     double silence = 0.12;         // s without a sample
     double frozen_chance = 1e-10;  // of one run of repeats
+    ZeroSettings zero;
 };
 
 // A raw reading, and what is known of it.
@@ -105,24 +101,31 @@ inline bool is_rotation(const double R[9]) {
     return off <= 1e-3 && dot(cross(x, y), z) > 0.0;
 }
 
-inline Vec3 to_sensor(const double R_WS[9], Vec3 v) {
-    return {v.x * R_WS[0] + v.y * R_WS[3] + v.z * R_WS[6], v.x * R_WS[1] + v.y * R_WS[4] + v.z * R_WS[7],
-            v.x * R_WS[2] + v.y * R_WS[5] + v.z * R_WS[8]};
-}
-
-// What the tissue does to the probe: the reading without bias and weight. `gravity_W`: the weight, or, of a tool that is
-// accelerated, its weight less mass times acceleration.
-inline Wrench compensate(const GravityLoad& load, Vec3 gravity_W, const double wrench[6], const double R_WS[9]) {
-    const Vec3 weight_S = to_sensor(R_WS, gravity_W);
-    const Vec3 F{wrench[0], wrench[1], wrench[2]}, M{wrench[3], wrench[4], wrench[5]};
-    return {F - (weight_S + load.force_bias), M - (cross(load.centre_of_mass_S, weight_S) + load.torque_bias)};
+// Where the zero's offset moves a contact most: the farthest points, in S, of the facets that somebody has declared likely
+// to be touched, or of all.
+inline ZeroWatch::Places zero_places(const Model& m) {
+    ZeroWatch::Places places;
+    double far[6];
+    std::fill_n(far, 6, -HUGE_VAL);
+    const double least = m.most_bonus > 0.0 ? 0.0 : -HUGE_VAL;
+    for (std::size_t s = 0; s < m.tree.face.size(); ++s) {
+        if (m.tree.face[s] < 0 || !(m.tree.facets[s].bonus > least)) continue;
+        for (const std::int32_t v : m.tree.triangle[s]) {
+            const Vec3 p = m.vertices[std::size_t(v)];
+            const double along[6] = {p.x, -p.x, p.y, -p.y, p.z, -p.z};
+            for (std::size_t i = 0; i < 6; ++i)
+                if (along[i] > far[i]) far[i] = along[i], places[i] = p;
+        }
+    }
+    return places;
 }
 
 class Runtime {
 public:
     Runtime(std::shared_ptr<const Model> model, const RuntimeSettings& settings)
         : settings_(settings), kalman_(settings.kalman), low_pass_(settings.sections),
-          solver_(model, settings.noise, settings.torsion_arm, unsaturated(settings.gates)) {}
+          solver_(model, settings.noise, settings.torsion_arm, unsaturated(settings.gates)),
+          zero_(settings.gravity, settings.zero, settings.gates.min_force, zero_places(*model)) {}
 
     // The next pose, of the flange or of the sensor itself (`has_mount`). `p`: of its origin in W, m, or null. Returns
     // false for one that is not used.
@@ -185,6 +188,9 @@ public:
         return true;
     }
 
+    // How old the zero is at the last sample, and how far it is off. Nothing of it is applied to a contact.
+    Zero zero() const noexcept { return zero_.at(last_time_); }
+
     // Forget the stream: the next sample is a first one, whatever its time.
     void reset() noexcept {
         begin_anew();
@@ -192,6 +198,7 @@ public:
         track_.clear();
         fit_.reset();
         frozen_.reset();
+        zero_.reset();
     }
 
     const Model& model() const noexcept { return solver_.model(); }
@@ -201,6 +208,7 @@ private:
         kalman_.reset();
         low_pass_.reset();
         solver_.reset();
+        zero_.lose();
         running_ = holding_ = has_wrench_ = false;
         stale_ = 0;
         filtered_ = {};
@@ -227,13 +235,17 @@ private:
         const bool saturated = gate(raw, settings_.gates) == Reason::saturated;
         const bool unhealthy = (out.health & (Health::frozen | Health::clock)) != 0;
         const bool lost = saturated || unhealthy;
-        const bool known = lost ? skip(dt) : filter(compensate(settings_.gravity, load_at(R_WS, time), wrench, R_WS), dt);
+        Wrench touch;
+        if (!lost) touch = compensate(settings_.gravity, load_at(R_WS, time), wrench, R_WS);
+        const bool known = lost ? skip(dt) : filter(touch, dt);
         if (known) put(out.wrench, filtered_.F), put(out.wrench + 3, filtered_.M);
         // An age of NaN is never recent enough: the solver counts a miss.
         solver_.track(filtered_, lost ? detail::unknown : 0.0, answer_);
         out.reason = std::int32_t(saturated ? Reason::saturated : unhealthy ? Reason::unhealthy : answer_.reason);
         describe(out);
         follow_point(out);
+        if (lost) zero_.lose();
+        else zero_.see(touch, R_WS, time, answer_.contact() != nullptr);
     }
 
     std::uint32_t health_of(const RuntimeSample& sample) noexcept {
@@ -374,6 +386,7 @@ private:
     WrenchKalman kalman_;
     PointLowPass low_pass_;
     Solver solver_;
+    ZeroWatch zero_;
     Answer answer_;
     Wrench filtered_;
     Vec3 held_;

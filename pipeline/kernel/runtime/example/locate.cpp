@@ -105,7 +105,7 @@ const char* take(cb_runtime* runtime, std::string_view line, cb_contact& contact
     return cb_update(runtime, v + 1, v + 7, v[0], &contact) == CB_OK ? nullptr : "the runtime did not take it";
 }
 
-void print(const cb_contact& c) {
+void print(const cb_contact& c, const cb_zero& zero) {
     std::fputs("{\"time\":", stdout);
     print_number(c.time);
     std::printf(",\"reason\":\"%s\",\"accepted\":%s", cb_reason_name(c.reason), c.accepted ? "true" : "false");
@@ -127,7 +127,14 @@ void print(const cb_contact& c) {
     print_one("arm_m", c.arm);
     print_array("runner_up_S_m", c.runner_up, 3);
     print_array("second_S_m", c.second, 3);
-    std::fputs("}\n", stdout);
+    constexpr const char* states[] = {"unknown", "confirmed", "doubtful", "off"};
+    std::printf(",\"zero\":{\"state\":\"%s\"", states[zero.state]);
+    print_one("age_s", zero.age);
+    print_array("force_S_N", zero.force, 3);
+    print_array("torque_S_Nm", zero.torque, 3);
+    print_one("shift_m", zero.shift);
+    print_one("shift_sigma_m", zero.shift_sigma);
+    std::fputs("}}\n", stdout);
 }
 
 }  // namespace
@@ -153,7 +160,9 @@ int main(int argc, char** argv) {
             return 1;
         }
         if (!told) continue;
-        print(contact);
+        cb_zero zero = CB_ZERO_INIT;
+        cb_check_zero(runtime.get(), &zero);
+        print(contact, zero);
     }
     return std::fflush(stdout) == 0 ? 0 : 1;
 }

@@ -29,8 +29,8 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.0.0"
-#define CB_BUNDLE_VERSION 3 /* of contactbench.json; older ones are read, too */
+#define CB_RUNTIME_VERSION "2.1.0"
+#define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
 
@@ -90,6 +90,14 @@ enum {
     CB_FLAG_CLOCK = 32     /* the sensor's clock or count has just leapt */
 };
 
+/* What is known of the sensor's zero: cb_zero.state. Only CB_ZERO_OFF is an alarm. */
+enum {
+    CB_ZERO_UNKNOWN = 0,   /* no moment without touch so far: count from the calibration */
+    CB_ZERO_CONFIRMED = 1, /* right, `age` seconds ago */
+    CB_ZERO_DOUBTFUL = 2,  /* off, unless something touches the probe: lift it clear and tilt it */
+    CB_ZERO_OFF = 3        /* off by more than noise and calibration explain: calibrate again */
+};
+
 /* Start as CB_ERROR_INIT, or give NULL. `message` names the file, the field and the remedy. Where `size` is too
  * small, cb_open returns NULL and writes nothing: not a word of why. */
 typedef struct {
@@ -132,6 +140,16 @@ typedef struct {
     double arrival; /* when it came, on the same clock; NaN: not known */
 } cb_sample;
 
+/* Start as CB_ZERO_INIT. NaN stands for what is not known. */
+typedef struct {
+    uint32_t size;
+    int32_t state;                     /* CB_ZERO_* */
+    double age;                        /* s, at the last sample: since the last moment without touch */
+    double force[3], torque[3];        /* what the readings have too much, N and N*m in S */
+    double force_sigma[3], torque_sigma[3]; /* one standard deviation, the calibration's share included */
+    double shift, shift_sigma;         /* m: by how much that moves a contact of 10 N, where it does so most */
+} cb_zero;
+
 #define CB_ERROR_INIT {sizeof(cb_error), CB_OK, ""}
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
@@ -139,6 +157,8 @@ typedef struct {
             0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0                                                              \
     }
 #define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
+
+#define CB_ZERO_INIT {sizeof(cb_zero), CB_ZERO_UNKNOWN, 0.0, {0.0}, {0.0}, {0.0}, {0.0}, 0.0, 0.0}
 
 /* Set `size` to sizeof(cb_info). */
 typedef struct {
@@ -197,6 +217,10 @@ CB_API int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_con
 /* To be called while nothing comes: `now` on the samples' clock, s. Returns CB_OK and a contact with CB_STALE and
  * CB_HEALTH_SILENT where samples have stopped, or never came; CB_OK and CB_NO_ANSWER while they come. One thread. */
 CB_API int cb_check(const cb_runtime* runtime, double now, cb_contact* contact);
+
+/* How old the sensor's zero is, and how far it is off: watched in the moments in which nothing touches the probe, at most
+ * twice a second. Nothing of it is applied to a contact. One thread. */
+CB_API int cb_check_zero(const cb_runtime* runtime, cb_zero* zero);
 
 /* R_WS from the flange's orientation R_WE, by the mounting that the bundle holds; CB_ERROR_VALUE where it holds
  * none and R_WS has to come from elsewhere. Any thread. */

@@ -37,11 +37,16 @@ static_assert(CB_HEALTH_FROZEN == Health::frozen && CB_HEALTH_SILENT == Health::
               CB_HEALTH_FLAGGED == Health::flagged && CB_HEALTH_NO_POSE == Health::no_pose &&
               CB_HEALTH_CLOCK == Health::clock && CB_FLAG_OVERRANGE == Flag::overrange &&
               CB_FLAG_LATE == Flag::late && CB_FLAG_CLOCK == Flag::clock_leapt);
+using contactbench::Zero;
+using contactbench::ZeroState;
+static_assert(CB_ZERO_UNKNOWN == int(ZeroState::unknown) && CB_ZERO_CONFIRMED == int(ZeroState::confirmed) &&
+              CB_ZERO_DOUBTFUL == int(ZeroState::doubtful) && CB_ZERO_OFF == int(ZeroState::off));
 
-// As they were in version 2.0: what a caller has room for at least. They only grow, at the end.
+// As they were when they first came: what a caller has room for at least. They only grow, at the end.
 constexpr std::size_t error_2_0 = 520, contact_2_0 = 336, sample_2_0 = 72, info_2_0 = 432, controller_2_0 = 352;
+constexpr std::size_t zero_2_1 = 128;
 static_assert(sizeof(cb_error) >= error_2_0 && sizeof(cb_contact) >= contact_2_0 && sizeof(cb_sample) >= sample_2_0 &&
-              sizeof(cb_info) >= info_2_0 && sizeof(cb_controller) >= controller_2_0);
+              sizeof(cb_info) >= info_2_0 && sizeof(cb_controller) >= controller_2_0 && sizeof(cb_zero) >= zero_2_1);
 
 // As many members as both sides know; `size` stays the caller's.
 template <class Struct>
@@ -183,6 +188,18 @@ int cb_check(const cb_runtime* runtime, double now, cb_contact* contact) {
     RuntimeContact found;
     if (!runtime->runtime.silent(now, found)) found.reason = CB_NO_ANSWER;
     fill(contact, found);
+    return CB_OK;
+}
+
+int cb_check_zero(const cb_runtime* runtime, cb_zero* zero) {
+    if (!runtime || !zero || zero->size < zero_2_1) return CB_ERROR_ARGUMENT;
+    const Zero found = runtime->runtime.zero();
+    cb_zero out = CB_ZERO_INIT;
+    out.state = found.state, out.age = found.age;
+    copy(out.force, found.offset, 3), copy(out.torque, found.offset + 3, 3);
+    copy(out.force_sigma, found.sigma, 3), copy(out.torque_sigma, found.sigma + 3, 3);
+    out.shift = found.shift, out.shift_sigma = found.shift_sigma;
+    hand_over(out, zero);
     return CB_OK;
 }
 

@@ -15,6 +15,7 @@ namespace contactbench::runtime {
 
 namespace {
 
+constexpr std::int64_t texts_since = 3;  // the version from which on the files for other programs read as they do today
 constexpr double flat = 1e-12;  // of the cube about a probe: less volume is rounding
 
 void check_hashes(const Files& files, const Config& c) {
@@ -112,8 +113,8 @@ Bundle load_bundle(const std::string& folder) {
     check_probe(mesh, bundle.config);
     check_planes(files.at(planes_name), mesh, bundle.config);
     // The text of those files belongs to a version of the schema; those of older ones are read by nobody here.
-    if (bundle.config.version == CB_BUNDLE_VERSION)
-        check_gravity_files(files, bundle.config.settings.gravity, covariance_of(root["gravity"]));
+    if (bundle.config.version >= texts_since)
+        check_gravity_files(files, bundle.config.settings.gravity, covariance_of(root["gravity"]), bundle.config.down_W);
     const double size = largest_extent(bundle.config);
     const bool outward = signed_volume(mesh, bundle.config) > flat * size * size * size;
     const std::vector<double> bonus = bonus_of(mesh, bundle.config);

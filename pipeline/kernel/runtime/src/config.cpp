@@ -35,7 +35,7 @@ void read_units(const Json& json) {
 
 void read_frames(const Json& json, Config& c) {
     const Fields f(json, "frames", {"sensor", "world", "rotation", "wrench", "quaternion_ES"});
-    f.literal("sensor", "S"), f.literal("world", "W, z up");
+    f.literal("sensor", "S"), f.literal("world", "W");
     f.literal("rotation", "R_WS: v_W = R_WS v_S");
     f.literal("wrench", "what the tissue does to the probe, about the origin of S");
     if (f.is_null("quaternion_ES")) return;
@@ -48,6 +48,12 @@ void read_frames(const Json& json, Config& c) {
               2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
     c.settings.has_mount = true;
     std::copy(c.R_ES->begin(), c.R_ES->end(), c.settings.R_ES);
+}
+
+void read_world(const Json& json, Config& c) {
+    const Fields f(json, "world", {"down_W"});
+    c.down_W = three(f.numbers("down_W", 3));
+    if (!(std::fabs(norm(c.down_W) - 1.0) <= 1e-9)) fail(CB_ERROR_VALUE, f.path("down_W"), "its length is not 1");
 }
 
 void read_sensor(const Json& json, Config& c) {
@@ -63,8 +69,32 @@ std::vector<double> read_gravity(const Json& json, Config& c) {
                           three(f.numbers("centre_of_mass_S_m", 3)), three(f.numbers("torque_bias_Nm", 3))};
     auto covariance = f.matrix("covariance", 12, 12);
     check_covariance("gravity.covariance", covariance, 12);
-    check_gravity(c.settings.gravity, covariance);
+    check_gravity(c.settings.gravity, covariance, c.down_W, c.version);
+    std::copy(covariance.begin(), covariance.end(), &c.settings.zero.covariance[0][0]);
     return covariance;
+}
+
+bool is_time(std::string_view text) {
+    constexpr std::string_view shape = "0000-00-00T00:00:00Z";
+    if (text.size() != shape.size()) return false;
+    for (std::size_t i = 0; i < shape.size(); ++i)
+        if (shape[i] == '0' ? text[i] < '0' || text[i] > '9' : text[i] != shape[i]) return false;
+    return true;
+}
+
+void read_time(const Fields& f, const char* name) {
+    if (!is_time(f.text(name))) fail(CB_ERROR_VALUE, f.path(name), "not like 2026-01-02T03:04:05Z");
+}
+
+// Nothing here changes an answer: it is for people.
+void read_zero(const Json& json) {
+    const Fields f(json, "zero", {"measured", "drift"});
+    if (!f.is_null("measured")) read_time(f, "measured");
+    if (f.is_null("drift")) return;
+    const Fields drift(f.at("drift"), "zero.drift",
+                       {"force_Nps", "torque_Nmps", "force_sigma_Nps", "torque_sigma_Nmps"});
+    for (const char* name : {"force_Nps", "torque_Nmps"}) drift.numbers(name, 3);
+    for (const char* name : {"force_sigma_Nps", "torque_sigma_Nmps"}) drift.numbers(name, 3, not_negative);
 }
 
 void read_wrench_filter(const Json& json, Config& c) {
@@ -90,7 +120,10 @@ void read_low_pass(const Json& json, Config& c) {
 }
 
 void read_noise(const Json& json, Config& c, const std::vector<double>& calibration) {
-    const Fields f(json, "noise", {"force_N", "torque_Nm", "wrench_covariance"});
+    const Fields f(json, "noise", {"force_N", "torque_Nm", "orientation_rad", "wrench_covariance"});
+    // Poses of a moving robot are no better than what is there, whatever the still ones of a calibration were.
+    double& orientation = c.settings.zero.orientation;
+    if (!f.is_null("orientation_rad")) orientation = std::max(orientation, f.number("orientation_rad", {0.0, 0.5}));
     const auto force = f.numbers("force_N", 3, not_negative), torque = f.numbers("torque_Nm", 3, not_negative);
     const auto s = f.matrix("wrench_covariance", 6, 6);
     check_covariance("noise.wrench_covariance", s, 6);
@@ -303,19 +336,51 @@ bool read_verification(const Json& json) {
     return passed && within;
 }
 
-bool is_time(std::string_view text) {
-    constexpr std::string_view shape = "0000-00-00T00:00:00Z";
-    if (text.size() != shape.size()) return false;
-    for (std::size_t i = 0; i < shape.size(); ++i)
-        if (shape[i] == '0' ? text[i] < '0' || text[i] > '9' : text[i] != shape[i]) return false;
-    return true;
+// Returns whether it did not fail.
+bool read_check(const Fields& f) {
+    const std::string outcome = f.text("outcome");
+    if (outcome != "passed" && outcome != "failed" && outcome != "undecided")
+        fail(CB_ERROR_SCHEMA, f.path("outcome"), "neither 'passed', 'failed' nor 'undecided'");
+    if (!f.is_null("created")) read_time(f, "created");
+    return outcome != "failed";
+}
+
+bool read_known_weight(const Json& json) {
+    if (json.type == Json::Type::null) return true;
+    const Fields f(json, "checks.known_weight",
+                   {"mass_kg", "mass_sigma_kg", "certificate", "measured_kg", "measured_sigma_kg", "outcome",
+                    "created"});
+    f.number("mass_kg", positive), f.number("measured_kg");
+    f.number("mass_sigma_kg", not_negative), f.number("measured_sigma_kg", not_negative);
+    if (!f.is_null("certificate")) f.text("certificate");
+    return read_check(f);
+}
+
+bool read_known_touch(const Json& json) {
+    if (json.type == Json::Type::null) return true;
+    const Fields f(json, "checks.known_touch",
+                   {"point_S_m", "located_S_m", "error_m", "sigma_m", "outcome", "created"});
+    f.numbers("point_S_m", 3);
+    if (!f.is_null("located_S_m")) f.numbers("located_S_m", 3);
+    for (const char* name : {"error_m", "sigma_m"})
+        if (!f.is_null(name)) f.number(name, not_negative);
+    if (f.text("outcome") == "passed" && (f.is_null("located_S_m") || f.is_null("error_m")))
+        fail(CB_ERROR_VALUE, f.path("outcome"), "'passed', but nothing was located");
+    return read_check(f);
+}
+
+// Returns whether none failed.
+bool read_checks(const Json& json) {
+    const Fields f(json, "checks", {"known_weight", "known_touch"});
+    const bool weight = read_known_weight(f.at("known_weight")), touch = read_known_touch(f.at("known_touch"));
+    return weight && touch;
 }
 
 // Returns whether nothing was stale.
 bool read_provenance(const Json& json, Config& c) {
     const Fields f(json, "provenance",
                    {"created", "tool", "operator", "session", "files", "sources", "stale"});
-    if (!is_time(f.text("created"))) fail(CB_ERROR_VALUE, f.path("created"), "not like 2026-01-02T03:04:05Z");
+    read_time(f, "created");
     f.text("tool"), f.text("operator");
     if (!f.is_null("session")) f.text("session");
     const Json& files = f.at("files");
@@ -354,7 +419,7 @@ void add(Json& object, std::string_view members) {
 }
 
 // From version 2 to 3; Fields sees to it that nothing of version 3 was there. It ranked touches by rules.
-void carry_over(Json& root) {
+void from_2(Json& root) {
     Fields(root, "",
            {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "filters", "gates", "probe",
             "regions", "planes", "controller", "limits", "verification", "verified", "provenance"})
@@ -380,23 +445,51 @@ void carry_over(Json& root) {
     root.members.emplace_back("self_test", Json{});
 }
 
+// What version 3 left open.
+constexpr std::string_view parts_of_old =
+    R"({"world":{"down_W":[0.0,0.0,-1.0]},"zero":{"measured":null,"drift":null},)"
+    R"("checks":{"known_weight":null,"known_touch":null}})";
+
+// From version 3 to 4; Fields sees to it that nothing of version 4 was there. It took -z of W for down.
+void from_3(Json& root) {
+    Fields(root, "",
+           {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "streams", "filters", "gates",
+            "probe", "regions", "planes", "controller", "limits", "verification", "self_test", "verified",
+            "provenance"});
+    for (auto& [name, value] : root.members) {
+        if (name == "frames") {
+            Fields(value, "frames", {"sensor", "world", "rotation", "wrench", "quaternion_ES"})
+                .literal("world", "W, z up");
+            for (auto& [field, text] : value.members)
+                if (field == "world") text.text.assign(1, 'W');
+        }
+        if (name != "noise") continue;
+        Fields(value, "noise", {"force_N", "torque_Nm", "wrench_covariance"});
+        value.members.emplace_back("orientation_rad", Json{});
+    }
+    add(root, parts_of_old);
+}
+
 }  // namespace
 
 Config read_config(std::string_view text) {
     Json root = parse_json(text);
     if (root.type != Json::Type::object) fail(CB_ERROR_JSON, "the file", "not an object");
     const std::int64_t version = read_kind(root);
-    if (version < 3) carry_over(root);
+    if (version < 3) from_2(root);
+    if (version < 4) from_3(root);
     const Fields f(root, "",
-                   {"schema", "version", "units", "frames", "sensor", "gravity", "noise", "touch", "streams", "filters",
-                    "gates", "probe", "regions", "planes", "controller", "limits", "verification", "self_test",
-                    "verified", "provenance"});
+                   {"schema", "version", "units", "frames", "world", "sensor", "gravity", "zero", "noise", "touch",
+                    "streams", "filters", "gates", "probe", "regions", "planes", "controller", "limits", "verification",
+                    "checks", "self_test", "verified", "provenance"});
     Config c;
     c.version = version;
     read_units(f.at("units"));
     read_frames(f.at("frames"), c);
+    read_world(f.at("world"), c);
     read_sensor(f.at("sensor"), c);
     const auto calibration = read_gravity(f.at("gravity"), c);
+    read_zero(f.at("zero"));
     const Fields filters(f.at("filters"), "filters", {"wrench", "location"});
     read_wrench_filter(filters.at("wrench"), c);
     read_low_pass(filters.at("location"), c);
@@ -410,11 +503,11 @@ Config read_config(std::string_view text) {
     read_controller(f.at("controller"), version, c);
     read_limits(f.at("limits"), c);
     read_self_test(f.at("self_test"), c);
-    const bool passed = read_verification(f.at("verification"));
+    const bool passed = read_verification(f.at("verification")), sound = read_checks(f.at("checks"));
     const bool fresh = read_provenance(f.at("provenance"), c);
     c.verified = f.flag("verified");
-    if (c.verified && !(passed && fresh))
-        fail(CB_ERROR_VALUE, "verified", "true, but the verification is missing, did not pass, or is stale");
+    if (c.verified && !(passed && fresh && sound))
+        fail(CB_ERROR_VALUE, "verified", "true, but the verification is missing, did not pass, or is stale, or a check failed");
     return c;
 }
 

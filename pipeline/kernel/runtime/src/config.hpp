@@ -46,6 +46,7 @@ struct Config {
     MeshTerms mesh;
     Vec3 low, high;  // bounds of the probe, S, m
     std::vector<RegionRow> regions;
+    Vec3 down_W{0.0, 0.0, -1.0};  // a unit vector
     double rate = 0.0, max_force = 0.0, max_torque = 0.0;
     double max_speed = HUGE_VAL, max_turn = HUGE_VAL;  // tip, m/s and rad/s
     std::optional<Controller> controller;

@@ -12,7 +12,9 @@ namespace contactbench::runtime {
 namespace {
 
 constexpr double rounding = 1e-9;
-constexpr double sure = 3.0, up = 2.0;  // sigma
+constexpr double sure = 3.0, noise = 2.0;  // sigma
+constexpr std::int64_t down_since = 4;     // the version from which on somebody has said where down is
+constexpr double most_lean = 0.5;          // cosine of 60 degrees: bases are mounted in multiples of 90
 constexpr double largest_error = 0.05;  // m, of what was verified
 constexpr double rate_off = 0.05;       // share by which rates may differ and count as the same
 
@@ -154,12 +156,17 @@ void check_covariance(const std::string& field, const std::vector<double>& C, st
     if (!nonnegative_definite(R, n)) refuse(field, "a negative eigenvalue: no noise is like that");
 }
 
-void check_gravity(const GravityLoad& load, const std::vector<double>& C) {
+void check_gravity(const GravityLoad& load, const std::vector<double>& C, Vec3 down, std::int64_t version) {
     const double weight = norm(load.gravity_W), mass = weight / standard_gravity;
     const double sigma = weight_sigma(load.gravity_W, C) / standard_gravity;
     if (weight > 1000.0 || mass > 50.0) refuse("gravity.gravity_W_N", "heavier than 50 kg: were they grams?");
     if (mass < 0.02 && mass > sure * sigma) refuse("gravity.gravity_W_N", "lighter than 20 g: were they kN?");
-    if (load.gravity_W.z > up * std::sqrt(C[26])) refuse("gravity.gravity_W_N", "points up");
+    const Vec3 Cd{C[0] * down.x + C[1] * down.y + C[2] * down.z, C[12] * down.x + C[13] * down.y + C[14] * down.z,
+                  C[24] * down.x + C[25] * down.y + C[26] * down.z};
+    const double along = dot(load.gravity_W, down) + noise * std::sqrt(std::max(dot(down, Cd), 0.0));
+    if (along < 0.0) refuse("gravity.gravity_W_N", "points up, against world.down_W");
+    if (version >= down_since && mass > sure * sigma && along < most_lean * weight)
+        refuse("gravity.gravity_W_N", "more than 60 degrees from world.down_W: how is the robot mounted?");
     check_size("gravity.force_bias_N", load.force_bias, 2000.0);
     check_size("gravity.torque_bias_Nm", load.torque_bias, 200.0);
     check_size("gravity.centre_of_mass_S_m", load.centre_of_mass_S, 2.0);

@@ -13,7 +13,8 @@ namespace contactbench::runtime {
 
 // All throw LoadError (CB_ERROR_VALUE). Matrices are row major.
 void check_covariance(const std::string& field, const std::vector<double>& C, std::size_t size);
-void check_gravity(const GravityLoad& load, const std::vector<double>& covariance);
+// `version`: of the schema, as the config was written.
+void check_gravity(const GravityLoad& load, const std::vector<double>& covariance, Vec3 down_W, std::int64_t version);
 // The sections against the Butterworth filter that they are said to be, coefficient by coefficient.
 void check_low_pass(const std::vector<Section>& sections, double rate, double cutoff, int order);
 // The wrench covariance against the noise of a reading, the filter, and the calibration's covariance (12, 12).

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t longest_name = 200, width = 98;
 constexpr double rounding = 1e-9;  // of the weight: less is no tilt
+constexpr double along_z = 0.996;  // the cosine of some 5 degrees: further from z of W, a weight along z is the wrong one
 constexpr std::string_view not_given = "(not given)";
 
 [[noreturn]] void refuse_text(const std::string& file, const std::string& what) {
@@ -76,8 +77,8 @@ std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
 class Document {
 public:
-    Document(std::string file, const GravityLoad& load, const std::vector<double>& covariance)
-        : file_(std::move(file)), load_(load), C_(covariance) {}
+    Document(std::string file, const GravityLoad& load, const std::vector<double>& covariance, Vec3 down)
+        : file_(std::move(file)), load_(load), C_(covariance), down_(down) {}
 
     std::string ros2(std::string_view told) {
         const auto facts = facts_of(
@@ -105,8 +106,9 @@ public:
         line("# with offset and multiplier, but what they export to other controllers stays as it was when they were");
         line("# configured. Do not chain admittance_controller to them: it would take a constant for the reading,");
         line("# and move the robot. Earlier ones export what they publish.");
-        const double weight = std::max(-load_.gravity_W.z, 0.0);
-        warn("WARNING: ", weight);
+        const bool tilted = std::fabs(down_.z) < along_z, hangs = down_.z > 0.0;
+        const double sign = hangs ? 1.0 : -1.0, weight = std::max(sign * load_.gravity_W.z, 0.0);
+        if (!tilted) warn("WARNING: ", weight, {0.0, 0.0, sign});
         line(broadcaster + ":");
         line("  ros__parameters:");
         if (given) {
@@ -125,6 +127,13 @@ public:
         line("    multiplier:");
         axes("force", {1, 1, 1}, {});
         axes("torque", {1, 1, 1}, {});
+        if (tilted) {
+            line("# NO " + admittance + ": it takes the weight along z of the base of its kinematics chain,");
+            line("# and this robot is on a wall or a tilted base: down in the calibration's world frame is");
+            line("#   " + list({down_.x, down_.y, down_.z}));
+            line("# No fixed_world_frame makes that right. Compensate with contactbench's own runtime.");
+            return out_;
+        }
         line(admittance + ":");
         line("  ros__parameters:");
         line("    ft_sensor:");
@@ -134,8 +143,10 @@ public:
         line(std::string("      ") + (given ? "" : "# ") + "name: " + quoted(source));
         line("      frame:");
         line("        id: " + quoted(frame));
-        line("    # z up. Make it the base of the kinematics chain (kinematics.base): a frame tilted against that");
-        line("    # base, as on a wall, is used the wrong way round.");
+        line(std::string("    # z ") + (hangs ? "down" : "up") +
+             ". Make it the base of the kinematics chain (kinematics.base): a frame tilted against that");
+        line(hangs ? "    # base is used the wrong way round. A level frame with z up would need the weight above 0."
+                   : "    # base, as on a wall, is used the wrong way round.");
         line("    fixed_world_frame:");
         line("      frame:");
         line("        id: " + quoted(world));
@@ -147,8 +158,10 @@ public:
         sigma_comment("        ", sigmas(6, 3));
         line("        pos: " + list({load_.centre_of_mass_S.x, load_.centre_of_mass_S.y, load_.centre_of_mass_S.z}));
         line("        # Weight, N (not kg), taken along -z of fixed_world_frame.");
+        if (hangs)
+            line("        # Negative on purpose: this robot hangs from the ceiling, and its weight points along +z.");
         sigma_comment("        ", sigmas(2, 1));
-        line("        force: " + number(file_, weight));
+        line("        force: " + number(file_, -sign * weight));
         return out_;
     }
 
@@ -156,7 +169,7 @@ public:
         const auto facts = facts_of(file_, told, {"tool", "com_frame", "child_frame"});
         if (!is_tool(facts[0]) || !is_frame(facts[1]) || !is_frame(facts[2]) || facts[1] == facts[2])
             refuse_text(file_, "a name in the head is not one that contactbench writes");
-        if (!(load_.gravity_W.z < 0.0)) refuse_text(file_, "the load has no weight that points down");
+        if (!(dot(load_.gravity_W, down_) > 0.0)) refuse_text(file_, "the load has no weight that points down");
         const Vec3 g = load_.gravity_W, p = load_.centre_of_mass_S, F = load_.force_bias, M = load_.torque_bias;
         const double size = norm(g), mass = size / standard_gravity;
         const Vec3 down{standard_gravity * g.x / size, standard_gravity * g.y / size, standard_gravity * g.z / size};
@@ -166,11 +179,14 @@ public:
         line("# child_frame: " + facts[2]);
         units(facts[1]);
         line("# The node takes gravity from linear_acceleration in its imu topic, m/s^2, turned by tf. To give it");
-        line("# the gravity of this calibration, publish in the world frame of the calibration (z up):");
+        std::string where = "z up";
+        if (down_.z > -along_z) (where = "down in it is ") += list({down_.x, down_.y, down_.z});
+        line("# the gravity of this calibration, publish in the world frame of the calibration (" + where + "):");
         line("#   " + list({down.x, down.y, down.z}) + "  release 1.2 and older: taken as it is, pointing down");
         line("#   " + list({-down.x, -down.y, -down.z}) + "  versions that negate the reading first");
         line("# The wrong one of the two doubles the weight instead of removing it.");
-        warn("WARNING, should the topic carry the vertical of that frame instead: ", mass * standard_gravity);
+        warn("WARNING, should the topic carry the vertical of that frame instead: ", mass * standard_gravity,
+             down_);
         line("# SUBTRACTED from the reading: the bias itself. Force, N, then torque, N*m.");
         auto both = sigmas(3, 3);
         for (const double sigma : sigmas(9, 3)) both.push_back(sigma);
@@ -222,17 +238,17 @@ private:
         return text + "]";
     }
 
-    // What is left where gravity is taken as vertical, if it is more than the calibration itself leaves.
-    void warn(const std::string& before, double weight) {
+    // What is left where gravity is taken along `down`, if it is more than the calibration itself leaves.
+    void warn(const std::string& before, double weight, Vec3 down) {
         const Vec3 g = load_.gravity_W;
-        const double force = norm(g + Vec3{0.0, 0.0, weight});
+        const double force = norm(g - weight * down);
         const double arm = norm(load_.centre_of_mass_S), torque = arm * force, least = rounding * norm(g);
         double share[6][6] = {};
         mean_share(load_, C_, share);
         const double force_sigma = std::sqrt(std::max(share[0][0] + share[1][1] + share[2][2], 0.0));
         const double torque_sigma = std::sqrt(std::max(share[3][3] + share[4][4] + share[5][5], 0.0));
         if (!(force > std::max(force_sigma, least) || torque > std::max(torque_sigma, arm * least))) return;
-        const double tilt = std::atan2(std::hypot(g.x, g.y), -g.z) * (180.0 / M_PI);
+        const double tilt = std::atan2(norm(cross(g, down)), dot(g, down)) * (180.0 / M_PI);
         comment(before + "Gravity in the calibration is tilted by " + shown("%.3g", tilt) +
                 " deg from the vertical of its world frame. Taken as vertical, it leaves up to " + shown("%.2g", force) +
                 " N and " + shown("%.2g", torque) + " N*m in a compensated wrench, where the calibration itself leaves " +
@@ -252,6 +268,7 @@ private:
     std::string file_, out_;
     const GravityLoad& load_;
     const std::vector<double>& C_;
+    Vec3 down_;
 };
 
 void expect(const std::string& file, std::string_view told, std::string_view wanted) {
@@ -263,12 +280,14 @@ void expect(const std::string& file, std::string_view told, std::string_view wan
 
 }  // namespace
 
-void check_gravity_files(const Files& files, const GravityLoad& gravity, const std::vector<double>& covariance) {
+void check_gravity_files(const Files& files, const GravityLoad& gravity, const std::vector<double>& covariance,
+                         Vec3 down_W) {
     const std::string& ros2 = files.at(ros2_name);
-    expect(ros2_name, ros2, Document(ros2_name, gravity, covariance).ros2(ros2));
+    expect(ros2_name, ros2, Document(ros2_name, gravity, covariance, down_W).ros2(ros2));
     const auto ft_calib = files.find(ft_calib_name);
     if (ft_calib != files.end())
-        expect(ft_calib_name, ft_calib->second, Document(ft_calib_name, gravity, covariance).ft_calib(ft_calib->second));
+        expect(ft_calib_name, ft_calib->second,
+               Document(ft_calib_name, gravity, covariance, down_W).ft_calib(ft_calib->second));
 }
 
 }  // namespace contactbench::runtime

@@ -1,0 +1,127 @@
+"""The known weight of the gravity page: mass, a reading without it, a reading with it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QLineEdit, QWidget
+
+from app.pages.known_check import TALL, KnownCheckPanel
+from pipeline.calibration.model import STANDARD_GRAVITY
+from pipeline.verification.known import WEIGHT
+from pipeline.workbench.known_checks import StillReading
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from app.bench import Bench
+
+_HUNG_S, _OFF_S = 30.0, 0.01  # on the virtual bench
+
+
+class WeightPanel(KnownCheckPanel):
+    """Hang a known weight on the tool: mass, a reading without it, a reading with it."""
+
+    kind = WEIGHT
+
+    def __init__(self, bench: Bench, parent: QWidget | None = None) -> None:
+        super().__init__(bench, "", parent)
+        self.setTitle(self.tr("Known weight"))
+        self.unloaded = ""
+        intro = self.label()
+        intro.setText(
+            self.tr(
+                "Hang a weight of known mass on the tool. It shows a wrong unit, sign or scale of the sensor, which"
+                " poses cannot show."
+            )
+        )
+        self.mass = self._number(self.tr("Mass"), 3, 1.0, 0.001, 500.0, " kg")
+        self.sigma = self._number(self.tr("Uncertainty (1 sigma)"), 2, 0.5, 0.0, 10_000.0, " g")
+        self.certificate = QLineEdit()
+        self.certificate.setMaxLength(200)
+        self.certificate.setPlaceholderText(self.tr("Number, if there is one"))
+        grid = QGridLayout()
+        for row, (text, field) in enumerate(
+            (
+                (self.tr("Mass"), self.mass),
+                (self.tr("Uncertainty (1 sigma)"), self.sigma),
+                (self.tr("Certificate"), self.certificate),
+            )
+        ):
+            label = QLabel(text)
+            label.setBuddy(field)
+            field.setAccessibleName(text)
+            field.setMinimumHeight(TALL)
+            grid.addWidget(label, row, 0)
+            grid.addWidget(field, row, 1)
+        grid.setColumnStretch(1, 1)
+        self.first = self.button(self.tr("1. Read without weight"), "play", self._read_unloaded)
+        self.second = self.button(self.tr("2. Read with weight"), "play", self._read_loaded)
+        self.finish(intro, grid, self.first, self.second, self.cancel)
+
+    def _number(
+        self, name: str, places: int, value: float, least: float, most: float, unit: str
+    ) -> QDoubleSpinBox:
+        field = QDoubleSpinBox()
+        field.setDecimals(places)
+        field.setRange(least, most)
+        field.setValue(value)
+        field.setSuffix(unit)
+        field.setAccessibleName(name)
+        field.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        return field
+
+    def _read_unloaded(self) -> None:
+        self.unloaded = ""
+        self.hint.setText(self.tr("Take everything off the tool, and hold it still."))
+
+        def read(name: str) -> None:
+            self.unloaded = name
+            self.hint.setText(
+                self.tr("Read. Now hang the weight on the tool, wait until it is at rest, then press 2.")
+            )
+
+        self.take(StillReading(), read)
+
+    def _read_loaded(self) -> None:
+        bench, reading = self.virtual, self.bench.live.reading()
+        if bench is not None and reading is not None and np.isfinite(reading.R_WS).all():
+            down = (
+                STANDARD_GRAVITY * self.mass.value() * (reading.R_WS.T @ [0.0, 0.0, -1.0])
+            )  # the virtual bench is upright
+            bench.bump(down.tolist(), _HUNG_S)
+        self.hint.setText(self.tr("Wait until the weight is at rest."))
+        given = {
+            "mass": self.mass.value(),
+            "mass_sigma": self.sigma.value() / 1000,
+            "certificate": self.certificate.text().strip(),
+        }
+
+        def read(name: str) -> None:
+            unloaded, self.unloaded = self.unloaded, ""
+            if bench is not None:
+                bench.bump([0.0, 0.0, 0.0], _OFF_S)
+            self.hint.setText("")
+            self.judge({"unloaded": unloaded, "loaded": name}, given)
+
+        self.take(StillReading(), read)
+
+    def show_parameters(self, parameters: Mapping[str, Any]) -> None:
+        """Show mass and certificate of the check that there is."""
+        if self.unloaded or self.busy:  # another weight is just being typed in
+            return
+        self.mass.setValue(float(parameters.get("mass", self.mass.value())))
+        self.sigma.setValue(1000 * float(parameters.get("mass_sigma", 0.0)))
+        self.certificate.setText(str(parameters.get("certificate", "")))
+
+    def allow(self) -> None:
+        """Say which buttons do something now."""
+        super().allow()
+        free = not self.busy
+        self.first.setEnabled(free)
+        self.second.setEnabled(free and bool(self.unloaded))
+        for field in (self.mass, self.sigma, self.certificate):
+            field.setEnabled(free)
+        self.accent(self.second, on=free and bool(self.unloaded), picture="play")

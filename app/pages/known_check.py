@@ -1,0 +1,241 @@
+"""What the panels of a known weight and a known point have in common."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QGridLayout,
+    QGroupBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from app.bench import Weight
+from pipeline.errors import InputError
+from pipeline.verification.known import Outcome
+from pipeline.workbench.known_checks import (
+    KnownChecks,
+    KnownOutcome,
+    PressReading,
+    StillReading,
+    known_outcome,
+)
+from widgets.icons import icon
+from widgets.phrases import said
+from widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from app.bench import Bench
+    from pipeline.simulation.virtual.bench import VirtualBench
+
+TALL = 36  # px
+_LEVELS = {Outcome.PASSED: GOOD, Outcome.UNDECIDED: USABLE, Outcome.FAILED: REFUSE}
+
+
+class KnownCheckPanel(QGroupBox):
+    """
+    What both have in common: one reading at a time, its recording, and the verdict.
+
+    Attributes
+    ----------
+    outcome : KnownOutcome or None
+        That the session has.
+    """
+
+    kind = ""
+    changed = Signal()
+
+    def __init__(self, bench: Bench, title: str, parent: QWidget | None = None) -> None:
+        super().__init__(title, parent)
+        self.bench = bench
+        self.work = KnownChecks(bench.desk, bench.live)
+        self.outcome: KnownOutcome | None = None
+        self._busy = self._closed = False
+        self._read_at = -1
+        self._then: Callable[[str], None] | None = None
+        self.column = QVBoxLayout(self)
+        self.column.setSpacing(8)
+        self.hint = self.label("muted")
+        self.verdict = VerdictBox()
+        self.cancel = self.button(self.tr("Cancel"), "cross", self.discard)
+
+    def finish(self, *rows: QWidget | QHBoxLayout | QGridLayout) -> None:
+        """Put the parts into the column."""
+        for row in rows:
+            if isinstance(row, QWidget):
+                self.column.addWidget(row)
+            else:
+                self.column.addLayout(row)
+        self.column.addWidget(self.hint)
+        self.column.addWidget(self.verdict)
+        self.allow()
+
+    def label(self, role: str = "") -> QLabel:
+        """Return a label for sentences."""
+        label = QLabel()
+        label.setWordWrap(True)
+        label.setTextFormat(Qt.TextFormat.PlainText)
+        if role:
+            label.setProperty("role", role)
+        return label
+
+    def button(self, text: str, picture: str, do: Callable[[], None]) -> QPushButton:
+        """Return a button that a glove can press."""
+        button = QPushButton(icon(picture), text)
+        button.setMinimumHeight(TALL)
+        button.clicked.connect(lambda _=False: do())
+        return button
+
+    # ---- what the page calls -----------------------------------------------------------------------
+
+    @property
+    def busy(self) -> bool:
+        """Whether a reading or a computation goes on."""
+        return self._busy or self.work.reading is not None
+
+    def read(self) -> None:
+        """Read the session's check, if the session changed."""
+        desk = self.bench.desk
+        state, stale = desk.state, desk.stale
+        if state.count == self._read_at or self._closed:
+            return
+        self._read_at = state.count
+
+        def came(found: KnownOutcome | None) -> None:
+            if self._read_at == state.count and not self._closed:
+                self.have(found)
+
+        self.bench.jobs.start(
+            self.tr("Reading the check"),
+            lambda *_: known_outcome(desk.folder, state, stale, self.kind),
+            came,
+            self._wrong,
+        )
+
+    def poll(self) -> None:
+        """Look at the reading that goes on; called with every tick."""
+        reading = self.work.reading
+        if reading is None or self._busy:
+            return
+        if reading.done:
+            self._keep()
+        elif reading.sentence:
+            self.hint.setText(said(reading.sentence))
+
+    def close_panel(self) -> None:
+        """End it: a reading that is not complete is thrown away."""
+        self._closed = True
+        if self.work.reading is not None:
+            self.bench.jobs.start(self.tr("Ending the recording"), lambda *_: self.work.discard())
+
+    # ---- readings ----------------------------------------------------------------------------------
+
+    def take(self, reading: StillReading | PressReading, then: Callable[[str], None]) -> None:
+        """Begin a reading; `then` gets the name of its recording once it is kept."""
+        if self.busy:
+            return
+        self._then = then
+        self._do(self.tr("Beginning to record"), lambda: self.work.start(reading), lambda _: self.began())
+
+    def began(self) -> None:
+        """Be told that a reading has begun."""
+
+    def _keep(self) -> None:
+        then, self._then = self._then, None
+        self._do(self.tr("Keeping the recording"), self.work.keep, lambda name: then(name) if then else None)
+
+    def discard(self) -> None:
+        """Throw the reading away."""
+        self._then = None
+        self._do(self.tr("Ending the recording"), self.work.discard, lambda _: self.hint.setText(""))
+
+    def judge(self, recordings: Mapping[str, str], given: Mapping[str, Any]) -> None:
+        """Have the session compute the check."""
+
+        def judged(found: KnownOutcome) -> None:
+            self._read_at = self.bench.desk.state.count
+            self.have(found)
+            weights = {Outcome.PASSED: Weight.GOOD, Outcome.UNDECIDED: Weight.WARNING}
+            self.bench.tell(
+                weights.get(found.outcome, Weight.ERROR), f"{self.title()}: {said(found.sentence)}"
+            )
+
+        self._do(
+            self.tr("Computing the check"), lambda: self.work.compute(self.kind, recordings, given), judged
+        )
+
+    def _do(self, title: str, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
+        self._busy = True
+        self.allow()
+
+        def over(found: object) -> None:
+            self._busy = False
+            if not self._closed:
+                done(found)
+                self.allow()
+
+        def wrong(error: BaseException) -> None:
+            self._busy = False
+            self._wrong(error)
+            if not self._closed:
+                self.allow()
+
+        self.bench.jobs.start(title, lambda *_: work(), over, wrong)
+
+    def _wrong(self, error: BaseException) -> None:
+        if not isinstance(error, InputError):
+            raise error
+        if not self._closed:
+            self.hint.setText(said(str(error)))
+            self.bench.tell(Weight.ERROR, str(error))
+
+    # ---- what it shows -----------------------------------------------------------------------------
+
+    def have(self, found: KnownOutcome | None) -> None:
+        """Show a check; None: there is none."""
+        self.outcome = found
+        self.verdict.setVisible(found is not None)
+        if found is not None:
+            words = {
+                Outcome.PASSED: self.tr("Passed"),
+                Outcome.UNDECIDED: self.tr("Cannot tell"),
+                Outcome.FAILED: self.tr("Failed"),
+            }
+            if found.stale:
+                self.verdict.show_verdict(LOCKED, [found.stale], self.tr("Stale: check again"))
+            else:
+                self.verdict.show_verdict(_LEVELS[found.outcome], [found.sentence], words[found.outcome])
+            self.show_parameters(found.parameters)
+        self.allow()
+
+    def show_parameters(self, parameters: Mapping[str, Any]) -> None:
+        """Show what a check was made with."""
+
+    def allow(self) -> None:
+        """Say which buttons do something now."""
+        self.verdict.setVisible(self.outcome is not None and not self.busy)
+        self.cancel.setVisible(self.work.reading is not None)
+        self.cancel.setEnabled(not self._busy)
+        self.hint.setVisible(bool(self.hint.text()))
+        self.changed.emit()
+
+    @property
+    def virtual(self) -> VirtualBench | None:
+        """The virtual bench, if one is open."""
+        pair = self.bench.live.pair
+        return None if pair is None else pair.bench
+
+    def accent(self, button: QPushButton, on: bool, picture: str) -> None:
+        """Make a button the one to press, or not."""
+        button.setIcon(icon(picture, "panel" if on else "text"))
+        if button.property("primary") != on:
+            button.setProperty("primary", on)
+            button.style().unpolish(button)
+            button.style().polish(button)

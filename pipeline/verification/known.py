@@ -1,0 +1,205 @@
+"""What the checks against a known weight and a known point share: parameters, outcome, the file they write."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+    from typing import Self
+
+    from numpy.typing import NDArray
+
+    from pipeline.calibration import Calibration
+    from pipeline.calibration.orientation import Convention
+
+_BLOCK = 1 << 20
+_FOLDERS_SEPARATORS = ("/", "\\")
+
+Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
+Three = tuple[Number, Number, Number]
+
+WEIGHT, TOUCH = "known_weight", "known_touch"  # kinds of results in a session
+SCHEMAS = {WEIGHT: "contactbench.known_weight", TOUCH: "contactbench.known_touch"}
+VERSION = 1
+"""Of both files."""
+
+WEIGHT_ROLES = ("calibration", "unloaded", "loaded")
+TOUCH_ROLES = ("calibration", "probe", "touch")
+
+
+class Outcome(StrEnum):
+    """What a check says."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    UNDECIDED = "undecided"  # its uncertainty is too large to tell
+
+
+class CheckParameters(BaseModel):
+    """
+    Parameters of both checks: as the options of ``contactbench check``, angles of the mount in degrees.
+
+    Attributes
+    ----------
+    name : str
+        Of the file that is written.
+    euler, rotation_vector, robot, radians, inverse
+        How orientations in a CSV file are written.
+    mount : (3,), optional
+        Angles of the sensor on the flange about the fixed axes x, y, z, degrees; left out: as the calibration has it.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    name: str
+    euler: str | None = None
+    rotation_vector: bool = False
+    robot: Literal["elfin3"] | None = None
+    radians: bool = False
+    inverse: bool = False
+    mount: Three | None = None
+
+    @classmethod
+    def checked(cls, values: Mapping[str, Any]) -> Self:
+        """Return parameters; InputError, with the first that is wrong."""
+        try:
+            given = cls.model_validate(dict(values))
+        except ValidationError as error:
+            first = error.errors(include_url=False)[0]
+            where = ".".join(map(str, first["loc"]))
+            raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
+        if not given.name.endswith(".json") or any(each in given.name for each in _FOLDERS_SEPARATORS):
+            raise InputError(f"{given.name}: the result is a file whose name ends in .json.")
+        return given
+
+    def convention(self) -> Convention | None:
+        """Return how orientations are written; None: as the columns say. InputError: the parameters contradict."""
+        from pipeline.calibration.orientation import Convention, Kind
+
+        if sum(map(bool, (self.euler, self.rotation_vector, self.robot))) > 1:
+            raise InputError("euler, rotation_vector and robot contradict each other: give one.")
+        degrees = not self.radians
+        if self.euler:
+            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
+        if self.rotation_vector:
+            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
+        if self.robot:
+            return Convention(Kind.JOINTS, degrees=degrees, robot=self.robot, inverse=self.inverse)
+        return Convention(inverse=True) if self.inverse else None
+
+
+def load_calibrated(
+    file: Path, mount: Three | None
+) -> tuple[Calibration, NDArray[np.float64] | None, tuple[str, ...]]:
+    """
+    Load a calibration.
+
+    Returns
+    -------
+    Calibration
+    (3, 3) or None
+        R_ES: as `mount` says, else as the calibration has it.
+    tuple of str
+        Why nothing that rests on it may pass: it was refused.
+
+    Raises
+    ------
+    InputError
+        It cannot be read.
+    """
+    from scipy.spatial.transform import Rotation
+
+    from pipeline.calibration import Level
+    from pipeline.calibration.files.calibration_file import load_record
+
+    record = load_record(file)
+    verdict = record.calibration.verdict
+    refused = verdict.level is Level.REFUSE
+    faults = (f"The calibration was refused: {verdict.reasons[0]}",) if refused else ()
+    if mount is not None:
+        return record.calibration, Rotation.from_euler("xyz", mount, degrees=True).as_matrix(), faults
+    return record.calibration, None if record.mount is None else record.mount.R_SE.T, faults
+
+
+def roles_of(inputs: Mapping[str, Path], roles: tuple[str, ...]) -> None:
+    """InputError unless the inputs are of these roles."""
+    if set(inputs) != set(roles):
+        raise InputError(f"inputs: {', '.join(roles)} are needed; there are {', '.join(inputs) or 'none'}.")
+
+
+def sha256_of(file: Path) -> str:
+    """Return the SHA-256 of a file, 64 hexadecimal digits."""
+    digest = hashlib.sha256()
+    with file.open("rb") as stream:
+        while block := stream.read(_BLOCK):
+            digest.update(block)
+    return digest.hexdigest()
+
+
+def read_check(kind: str, file: Path) -> dict[str, Any]:
+    """
+    Read what ``contactbench check --out`` wrote.
+
+    Parameters
+    ----------
+    kind : str
+        WEIGHT or TOUCH.
+    file : path
+
+    Raises
+    ------
+    InputError
+        It cannot be read, or is something else.
+    """
+    remedy = f"choose a file that `contactbench check {kind.removeprefix('known_')} --out` wrote."
+    try:
+        content = json.loads(file.read_bytes())
+    except (OSError, ValueError, RecursionError) as error:
+        raise InputError(f"{file}: the file cannot be read ({error!s:.100}): {remedy}") from error
+    known = isinstance(content, dict) and (content.get("schema"), content.get("version")) == (
+        SCHEMAS[kind],
+        VERSION,
+    )
+    words = (content.get("sentence"), content.get("outcome")) if known else ()
+    if not words or not isinstance(words[0], str) or words[1] not in set(Outcome):
+        raise InputError(f"{file}: this is no {SCHEMAS[kind]} of version {VERSION}: {remedy}")
+    found: dict[str, Any] = content
+    return found
+
+
+def to_bytes(content: Mapping[str, Any]) -> bytes:
+    """Return a result as JSON, UTF-8; the same content gives the same bytes."""
+    return (json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+def or_none(value: float) -> float | None:
+    """Return a number that JSON can hold: None for one that is not finite."""
+    return float(value) if np.isfinite(value) else None
+
+
+def likely(causes: list[str]) -> str:
+    """Return sentences that name causes, the likeliest first."""
+    first, *others = causes
+    return " ".join([f"Likely cause: {first}.", *(f"Also possible: {each}." for each in others)])
+
+
+def words_of(outcome: Outcome, reasons: list[str], passed: str) -> str:
+    """Return the one paragraph that says all."""
+    start = {
+        Outcome.PASSED: passed,
+        Outcome.FAILED: "The check failed.",
+        Outcome.UNDECIDED: "The check cannot tell.",
+    }[outcome]
+    return " ".join([start, *reasons])

@@ -1,0 +1,196 @@
+"""A known weight on the gravity page and a known point on the Verify page, by clicks on the virtual bench."""
+
+import shutil
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QWidget
+from workbench.touch_session import STEPWISE, make_session, surface
+
+from app.bench import Bench, Weight
+from app.pages.gravity import GravityPage
+from app.pages.verify_point import PointPanel
+from pipeline.kernel import SurfaceIndex
+from pipeline.session import Session
+from pipeline.verification.known import TOUCH, WEIGHT, Outcome
+from pipeline.workbench.desk import Desk
+from pipeline.workbench.known_checks import FILES
+from pipeline.workbench.steps import StepState, StepStatus
+from pipeline.workbench.verify import tool_of
+
+READY = StepStatus(StepState.READY, "")
+
+
+class QuietScene(QWidget):
+    """Takes what a page shows in 3D, and draws nothing."""
+
+    def look(self, view):
+        pass
+
+    def show_orientation(self, R_WS):
+        pass
+
+    def show_ghost(self, R_WS):
+        pass
+
+
+class Window:
+    """A page or panel on a bench whose clock goes when it is told."""
+
+    def __init__(self, qtbot, folder, make):
+        self.qtbot, self.told = qtbot, []
+        self.bench = Bench(Desk(Session.open(folder, by="ada")), QuietScene())
+        self.bench.told.connect(self.told.append)
+        self.widget = make(self.bench)
+        qtbot.addWidget(self.widget)
+        qtbot.addWidget(self.bench.scene)
+        self.widget.setFixedWidth(360)
+        self.widget.show()
+
+    def open(self):
+        self.bench.live.open(STEPWISE, STEPWISE)
+        self.bench.live.pair.step(400)
+
+    def until(self, condition, poll=lambda: None, steps=100):
+        def look():
+            if self.bench.live.pair is not None:
+                self.bench.live.pair.step(steps)
+            poll()
+            assert condition()
+
+        self.qtbot.waitUntil(look, timeout=60_000)
+
+    def click(self, button):
+        assert button.isEnabled()
+        self.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+    def results(self):
+        return self.bench.desk.state.current_results
+
+
+@pytest.fixture(scope="module")
+def calibrated(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "files").mkdir()
+    return make_session(folder / "s", folder / "files")
+
+
+@pytest.fixture
+def gravity(qtbot, calibrated, tmp_path):
+    made = Window(qtbot, shutil.copytree(calibrated, tmp_path / "s"), GravityPage)
+    page = made.widget
+    made.bench.changed.connect(lambda: page.show_state(READY))
+    page.enter()
+    page.show_state(READY)
+    made.until(page.weight.isVisible, page.tick, steps=0)
+    yield made
+    page.leave()
+    page.close_page()
+    made.bench.close()
+
+
+@pytest.fixture
+def point(qtbot, calibrated, tmp_path):
+    made = Window(qtbot, shutil.copytree(calibrated, tmp_path / "s"), PointPanel)
+    yield made
+    made.widget.close_panel()
+    made.bench.close()
+
+
+def side():
+    top = surface().vertices[:, 2].max()
+    _, _, feet = SurfaceIndex(surface().vertices, surface().faces).closest(
+        np.array([[0.04, 0.0, top - 0.03]])
+    )
+    return feet[0].tolist()
+
+
+def test_three_clicks_weigh_a_kilogram(gravity):
+    w, page = gravity, gravity.widget
+    panel = page.weight
+    w.open()
+    assert not panel.second.isEnabled()
+    assert not panel.verdict.isVisible()
+    panel.certificate.setText("DKD-7")
+    w.click(panel.first)
+    assert "Take everything off" in panel.hint.text()
+    assert not page.primary.isEnabled()  # no captures beside it
+    w.until(panel.second.isEnabled, page.tick)
+    assert "hang the weight on the tool" in panel.hint.text()
+    w.click(panel.second)
+    w.until(lambda: panel.outcome is not None and not panel.busy, page.tick)
+    assert panel.outcome.outcome is Outcome.PASSED, panel.outcome.sentence
+    assert panel.verdict.isVisible()
+    assert panel.verdict.text.startswith("Passed: The sensor reads")
+    assert page.primary.isEnabled()
+    assert w.told[-1].weight is Weight.GOOD
+    made = w.results()[WEIGHT, FILES[WEIGHT]]
+    assert made.action.parameters == {"mass": 1.0, "mass_sigma": 0.0005, "certificate": "DKD-7"}
+
+
+def test_a_wrong_mass_fails_and_what_was_typed_stays(gravity):
+    w, page, panel = gravity, gravity.widget, gravity.widget.weight
+    w.open()
+    w.click(panel.first)
+    w.until(panel.second.isEnabled, page.tick)
+    panel.mass.setValue(0.8)
+    w.click(panel.second)
+    w.bench.live.pair.bench.bump((w.bench.live.reading().R_WS.T @ [0, 0, -9.80665]).tolist(), 60.0)
+    w.until(lambda: panel.outcome is not None and not panel.busy, page.tick)
+    assert panel.outcome.outcome is Outcome.FAILED
+    assert panel.verdict.text.startswith("Failed: ")
+    assert panel.mass.value() == 0.8
+    assert w.told[-1].weight is Weight.ERROR
+
+
+def test_a_reading_can_be_cancelled(gravity):
+    w, page, panel = gravity, gravity.widget, gravity.widget.weight
+    w.open()
+    w.click(panel.first)
+    w.until(panel.cancel.isVisible, page.tick, steps=0)
+    w.click(panel.cancel)
+    w.until(lambda: not panel.busy, page.tick, steps=0)
+    assert not [each for each in w.bench.desk.state.inputs if each.kind == "recording"]
+    assert not panel.second.isEnabled()
+    assert panel.first.isEnabled()
+
+
+def test_without_a_sensor_it_is_said(gravity):
+    w, panel = gravity, gravity.widget.weight
+    w.click(panel.first)
+    w.until(lambda: not panel.busy, steps=0)
+    assert "No sensor is open" in panel.hint.text()
+    assert panel.first.isEnabled()
+
+
+def test_a_new_calibration_makes_the_check_stale(gravity):
+    w, page, panel = gravity, gravity.widget, gravity.widget.weight
+    w.open()
+    w.click(panel.first)
+    w.until(panel.second.isEnabled, page.tick)
+    w.click(panel.second)
+    w.until(lambda: panel.outcome is not None and not panel.busy, page.tick)
+    done = w.bench.desk.do(
+        lambda session: session.mark("calibration", "calibration.json", "stale", "The tool was changed.")
+    )
+    done.result()
+    w.until(lambda: bool(panel.outcome.stale), page.tick, steps=0)
+    assert panel.verdict.text.startswith("Stale: check again")
+
+
+def test_a_press_on_a_marker_is_located(point):
+    w, panel = point, point.widget
+    assert not panel.start.isEnabled()
+    assert "Place a marker" in panel.start.toolTip()
+    tool = tool_of(w.bench.desk.folder, w.bench.desk.state)
+    panel.show_markers([("axis", [0.0, 0.0, surface().vertices[:, 2].max()]), ("side", side())], tool.model)
+    assert panel.point.currentText() == "side"
+    w.open()
+    w.click(panel.start)
+    w.until(lambda: panel.outcome is not None and not panel.busy, panel.poll)
+    assert panel.outcome.outcome is Outcome.PASSED, panel.outcome.sentence
+    assert w.results()[TOUCH, FILES[TOUCH]].action.parameters["point"] == pytest.approx(
+        [1e3 * v for v in side()]
+    )
+    assert panel.verdict.text.startswith("Passed: The press was located")

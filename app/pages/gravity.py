@@ -193,9 +193,7 @@ class GravityPage(Page):
         panel.figures.show_figures(
             int(fitted.kept.sum()), len(fitted.poses), (fitted.contact_error,), running=False
         )
-        panel.coverage.show_poses(
-            outcome.rows, None if check is None else check.proposal, self._max_tilt(), self._down()
-        )
+        panel.coverage.show_poses(outcome.rows, None if check is None else check.proposal, *self._limits())
         panel.table.show_rows(outcome.rows)
         if run.checked is not None:
             verdict = run.checked.verdict
@@ -223,9 +221,7 @@ class GravityPage(Page):
         self._shown = view.revision * 2 + view.busy
         proposal = view.solved.proposal
         panel.table.show_rows(view.rows)
-        panel.coverage.show_poses(
-            view.rows, None if proposal is None else proposal.R_WS, self._max_tilt(), self._down()
-        )
+        panel.coverage.show_poses(view.rows, None if proposal is None else proposal.R_WS, *self._limits())
         panel.figures.show_figures(view.count, view.expected, view.errors, running=True)
         panel.findings.show_findings(view.solved.findings)
         panel.show_next(proposal, virtual=self._bench() is not None, running=True)

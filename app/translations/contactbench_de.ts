@@ -1643,11 +1643,11 @@
     </message>
     <message>
         <source>say where down is</source>
-        <translation type="unfinished"></translation>
+        <translation>angeben, wo unten ist</translation>
     </message>
     <message>
         <source>say how well orientations are known</source>
-        <translation type="unfinished"></translation>
+        <translation>angeben, wie gut die Orientierungen bekannt sind</translation>
     </message>
 </context>
 <context>
@@ -1706,59 +1706,59 @@
     </message>
     <message>
         <source>The robot</source>
-        <translation type="unfinished"></translation>
+        <translation>Der Roboter</translation>
     </message>
     <message>
         <source>stands upright</source>
-        <translation type="unfinished"></translation>
+        <translation>steht aufrecht</translation>
     </message>
     <message>
         <source>hangs from the ceiling</source>
-        <translation type="unfinished"></translation>
+        <translation>hängt an der Decke</translation>
     </message>
     <message>
         <source>is on a wall, its +x points down</source>
-        <translation type="unfinished"></translation>
+        <translation>an der Wand, +x nach unten</translation>
     </message>
     <message>
         <source>is on a wall, its -x points down</source>
-        <translation type="unfinished"></translation>
+        <translation>an der Wand, -x nach unten</translation>
     </message>
     <message>
         <source>is on a wall, its +y points down</source>
-        <translation type="unfinished"></translation>
+        <translation>an der Wand, +y nach unten</translation>
     </message>
     <message>
         <source>is on a wall, its -y points down</source>
-        <translation type="unfinished"></translation>
+        <translation>an der Wand, -y nach unten</translation>
     </message>
     <message>
         <source>Where gravity points in the frame of the orientations. Others: session set calibration.down</source>
-        <translation type="unfinished"></translation>
+        <translation>Wohin die Schwerkraft im Koordinatensystem der Orientierungen zeigt. Andere Richtungen: session set calibration.down</translation>
     </message>
     <message>
         <source>by a robot ({degrees}°)</source>
-        <translation type="unfinished"></translation>
+        <translation>durch einen Roboter ({degrees}°)</translation>
     </message>
     <message>
         <source>by a tracker ({degrees}°)</source>
-        <translation type="unfinished"></translation>
+        <translation>durch einen Tracker ({degrees}°)</translation>
     </message>
     <message>
         <source>by hand ({degrees}°)</source>
-        <translation type="unfinished"></translation>
+        <translation>von Hand ({degrees}°)</translation>
     </message>
     <message>
         <source>Orientations are known</source>
-        <translation type="unfinished"></translation>
+        <translation>Orientierungen bekannt</translation>
     </message>
     <message>
         <source>as the poses show</source>
-        <translation type="unfinished"></translation>
+        <translation>wie die Posen zeigen</translation>
     </message>
     <message>
         <source>How well, 1 sigma about each axis: errors of the orientations move the weight in the readings.</source>
-        <translation type="unfinished"></translation>
+        <translation>Wie gut, 1 Sigma um jede Achse: Fehler der Orientierungen verschieben das Gewicht in den Messwerten.</translation>
     </message>
     <message>
         <source>Next: {words}</source>

@@ -14,7 +14,7 @@ from pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, di
 from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
 from pipeline.calibration.diagnosis.odds import NONE
 from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.fit import PoseNoise
+from pipeline.calibration.fit import PoseNoise, predict
 from pipeline.calibration.poses import named
 from pipeline.calibration.wording import plain
 
@@ -129,6 +129,7 @@ def _key(candidate: Candidate) -> str:
 
 def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, compared: Comparison) -> str:
     fit = candidate.noisy.fit
+    plainly = next(each for each in compared.candidates if each.key == PLAIN)
     match _key(candidate):
         case nuisance.DRIFT:
             return _drift(candidate, arrays)
@@ -146,7 +147,8 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, 
             axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
             return (
                 f"The sensor looks turned by {np.degrees(angle):.2g}° about ({axis}) from where it was said to be on"
-                " its mount. Calibrate with --estimate-mount, or correct the mounting."
+                f" its mount: so turned, the forces' residuals fall from {plain(_left(plainly, arrays))} to"
+                f" {plain(_left(candidate, arrays))} N. Calibrate with --estimate-mount, or correct the mounting."
             )
         case "noise":
             given = candidate.prior.sigmas
@@ -164,6 +166,13 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, 
             )
         case _:
             return "Bias, weight and noise alone explain the poses."
+
+
+def _left(candidate: Candidate, arrays: Stack) -> float:
+    """Return the root mean square of the forces' residuals, N."""
+    fit = candidate.noisy.fit
+    left = arrays.wrenches - predict(fit.mount @ arrays.R_SW, fit.theta) - candidate.terms.columns @ fit.added
+    return float(np.sqrt((left[:, :3] ** 2).sum(axis=1).mean()))
 
 
 def _drift(candidate: Candidate, arrays: Stack) -> str:

@@ -84,7 +84,7 @@ class NoisePrior:
     @classmethod
     def of(cls, noise: PoseNoise | None, orientation: float | None, least: NDArray[np.float64]) -> NoisePrior:
         """Return what a caller knows: noise and the orientations' sigma, rad, each None if nobody said."""
-        given = None if noise is None or noise.estimated else noise.sigmas
+        given = None if noise is None or noise.estimated else np.maximum(noise.sigmas, LEAST)
         if noise is not None and noise.estimated:
             least = np.maximum(least, noise.least)
         guess = USUAL_ORIENTATION if orientation is None else orientation

@@ -134,10 +134,11 @@ def _tilted(calibration: Calibration) -> list[str]:
     sigma = float(np.sqrt(aside @ C @ aside)) / max(size, 1e-12)
     if angle < _LEVEL or size < _SURELY * sigma or not calibration.observability.weighs:
         return []
-    return [
+    sentence = (
         f"Gravity comes out {angle:.1f}° from down: the base is not level, or something pulls that way all the time,"
         " such as a cable, which would count as weight."
-    ]
+    )
+    return [sentence]
 
 
 def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) -> list[str]:
@@ -213,8 +214,12 @@ def _slight(calibration: Calibration, limits: Limits, error: str) -> list[str]:
         words.extend(sight.null_directions)
     if calibration.contact_error > limits.good_error:
         helps = calibration.model_error < 0.5 * calibration.contact_error
-        remedy = "One or two more poses help." if helps else "It is not noise, and more poses do not help."
-        words.append(f"{error}; {1e3 * limits.good_error:g} mm would be good. {remedy}")
+        good = 1e3 * limits.good_error
+        words.append(
+            f"{error}; {good:g} mm would be good. One or two more poses help."
+            if helps
+            else f"{error}; {good:g} mm would be good. It is not noise, and more poses do not help."
+        )
     latest = int(np.argmax(stack(calibration.poses).moments))
     if calibration.deviates[latest].max() >= limit(len(calibration.poses)):
         words.append(

@@ -103,7 +103,7 @@ def test_noise_may_differ_from_axis_to_axis():
 def test_noise_of_any_size(noise):
     both = PoseNoise(noise, noise / 10)
     calibration = calibrate(held(8, noise=both), both)
-    assert 0.1 < calibration.scatter < 1.8
+    assert (0.1 if noise > 1e-6 else 0) < calibration.scatter < 1.8
     assert np.isfinite(calibration.covariance).all()
     assert calibration.verdict.level == (Level.GOOD if noise < 0.01 else Level.REFUSE)
     if noise < 20:  # beyond, the stated width stops at what a parameter may be at all
@@ -281,7 +281,7 @@ def test_without_a_load_the_centre_of_mass_is_unknown(noise):
     sigmas = calibration.sigmas
     assert sigmas["centre_of_mass_S_x"] == pytest.approx(UNKNOWN[6])
     assert np.abs(calibration.force_bias - [5, -3, 2]).max() < 0.1
-    assert "the sensor does not answer" in said(calibration)
+    assert "feels no weight" in said(calibration)
     assert calibration.verdict.level != Level.GOOD
 
 

@@ -94,7 +94,11 @@ def _felt(inside: Stack, fit: Fit, noise: PoseNoise) -> bool:
     """Tell whether forces follow the orientations by more than chance: six parameters more than a bias."""
     flat = centred(inside.F[None])[0] / noise.sigmas[:3]
     gain = max(float((flat**2).sum() - (fit.residuals[:, :3] ** 2).sum()), 0.0)
-    chance = fdtrc(6, noise.freedom[0], gain / 6) if noise.estimated else chdtrc(6, gain)
+    chance = (
+        fdtrc(6, noise.freedom[0], gain / 6)
+        if np.isfinite(noise.freedom[0]) and noise.estimated
+        else chdtrc(6, gain)
+    )
     return bool(chance < _FELT)
 
 

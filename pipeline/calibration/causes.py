@@ -55,6 +55,12 @@ class Cause:
     sentence: str
     believed: bool = False
 
+    @property
+    def diagnosed(self) -> bool:
+        """Whether the diagnosis of conventions found it."""
+        own = {PLAIN, NOISE, nuisance.DRIFT, nuisance.REZERO, nuisance.CABLE, nuisance.MOUNT}
+        return self.key not in own
+
 
 def causes(
     poses: Sequence[PoseSample], arrays: Stack, compared: Comparison, told: Candidate

@@ -100,6 +100,28 @@ class Convention:
         }[self.kind]
 
 
+def convention_of(
+    euler: str | None, rotation_vector: bool, robot: str | None, *, radians: bool, inverse: bool
+) -> Convention | None:
+    """Return how orientations are written, from what was said of it; None: as the file's columns say.
+
+    Raises
+    ------
+    InputError
+        Two things were said that contradict each other, or there is no such order.
+    """
+    if sum(map(bool, (euler, rotation_vector, robot))) > 1:
+        raise InputError("euler, rotation_vector and robot contradict each other: give one.")
+    degrees = not radians
+    if euler:
+        return Convention(Kind.EULER, order=euler, degrees=degrees, inverse=inverse)
+    if rotation_vector:
+        return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=inverse)
+    if robot:
+        return Convention(Kind.JOINTS, degrees=degrees, robot=robot, inverse=inverse)
+    return Convention(inverse=True) if inverse else None
+
+
 def rotations(values: NDArray[np.float64], convention: Convention) -> NDArray[np.float64]:
     """Return R_WS (n, 3, 3) of orientations as they are written.
 

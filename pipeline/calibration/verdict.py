@@ -116,7 +116,9 @@ def _harmless(calibration: Calibration, cause: Cause) -> bool:
 def _possible(calibration: Calibration) -> list[str]:
     """Return causes that the evidence is too weak for, as what they are."""
     return [
-        f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}"
+        cause.sentence  # a diagnosis says itself how probable it is
+        if cause.diagnosed
+        else f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}"
         for cause in calibration.causes
         if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
     ] + [

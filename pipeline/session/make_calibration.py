@@ -46,18 +46,11 @@ class PosesParameters(Parameters):
 
     def convention(self) -> Convention | None:
         """Return how orientations are written; None: as the file's columns say."""
-        from pipeline.calibration.orientation import Convention, Kind
+        from pipeline.calibration.orientation import convention_of
 
-        if sum(map(bool, (self.euler, self.rotation_vector, self.robot))) > 1:
-            raise SessionError("euler, rotation_vector and robot contradict each other: give one.")
-        degrees = not self.radians
-        if self.euler:
-            return Convention(Kind.EULER, order=self.euler, degrees=degrees, inverse=self.inverse)
-        if self.rotation_vector:
-            return Convention(Kind.ROTATION_VECTOR, degrees=degrees, inverse=self.inverse)
-        if self.robot:
-            return Convention(Kind.JOINTS, degrees=degrees, robot=self.robot, inverse=self.inverse)
-        return Convention(inverse=True) if self.inverse else None
+        return convention_of(
+            self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
+        )
 
 
 class CapturesParameters(PosesParameters):

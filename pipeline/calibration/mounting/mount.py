@@ -212,7 +212,7 @@ def estimate_mount(
         )
     flange, down = stack(poses), direction(down_W)
     prior = NoisePrior.of(noise, checked_angle(orientation_sigma), within_scatter(poses))
-    R_start, _ = start_rotation(flange, prior, down)
+    R_start = start_rotation(flange, prior, down)
     arrays = replace(flange, R_SW=R_start @ flange.R_SW)
     compared = compare(arrays, prior, down, mounted=False)
     told, chosen = used(arrays, compared)

@@ -43,8 +43,8 @@ _ROUNDS, _RIDGE = 3, 1e-4
 
 def start_rotation(
     flange: Stack, prior: NoisePrior, down_W: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return R_SE (3, 3) and the poses (n,) of the smallest trimmed sum of squares.
+) -> NDArray[np.float64]:
+    """Return R_SE (3, 3) of the smallest trimmed sum of squares.
 
     From many sets of four poses, with gravity that points down; or, where that explains the poses far
     better, up or along a horizontal axis: a wrench of the opposite sign, or a base on a wall of which nobody spoke.
@@ -67,9 +67,8 @@ def start_rotation(
         sets, ways, trimmed = sets[order], ways[order], trimmed[order]
     gain = (6 * size - 15) * np.log((trimmed[0] + 1) / (trimmed + 1))
     way = int(np.argmax(gain)) if gain.max() > _ANOTHER else 0
-    inside = np.zeros(n, dtype=bool)
-    inside[sets[way]] = True
-    return R[order][way], inside
+    R_SE: NDArray[np.float64] = R[order][way]
+    return R_SE
 
 
 def _start(

@@ -41,9 +41,7 @@ _MEDIAN = 2.366  # of the sum of three squared standard normal numbers
 _ROUNDS, _RIDGE = 3, 1e-4
 
 
-def start_rotation(
-    flange: Stack, prior: NoisePrior, down_W: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def start_rotation(flange: Stack, prior: NoisePrior, down_W: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return R_SE (3, 3) of the smallest trimmed sum of squares.
 
     From many sets of four poses, with gravity that points down; or, where that explains the poses far

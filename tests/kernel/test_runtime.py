@@ -35,7 +35,8 @@ class Reference:
         assert location is not None
         self.low_pass = LowPass(location.cutoff_Hz, location.rate_Hz, location.order)
         self.limits, self.max_age = a["saturation"], a["max_age"]
-        streams = {"R_ES", "pose_gap", "pose_ahead", "silence", "frozen_chance", "motion"}
+        beside = {"gravity_covariance", "orientation_sigma"}  # what is known of the zero changes no contact
+        streams = {"R_ES", "pose_gap", "pose_ahead", "silence", "frozen_chance", "motion", *beside}
         gates = {k: v for k, v in a.items() if k not in {"gravity", "kalman", "sections", *streams}}
         self.solver = kernel.Solver(**{**gates, "saturation": np.full(6, np.inf)})
         self.last: float | None = None

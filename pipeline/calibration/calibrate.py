@@ -241,7 +241,7 @@ def calibrate(
     compared = compare(arrays, prior, down)
     told, chosen = used(arrays, compared)
     noisy, sight = _observed(arrays, chosen, down)
-    covariance = noisy.fit.covariance[:12, :12] + between(compared, chosen)[:12, :12]
+    covariance = noisy.fit.covariance[:12, :12] + between(compared, chosen)
     if sight.null_directions or sight.weak:
         covariance = covariance + _product(covariance, arrays.R_SW[chosen.inside])
     task = facing(task or usual_task(), down)
@@ -285,9 +285,8 @@ def assembled(
     told, chosen = told_used
     noisy, inside, terms = chosen.noisy, chosen.inside, chosen.terms
     fit = noisy.fit
-    R_SW = fit.mount @ arrays.R_SW
     offsets = terms.columns @ fit.added
-    residuals = arrays.wrenches - predict(R_SW, fit.theta) - offsets
+    residuals = fit.left(arrays, terms)
     far = deviates(arrays, inside, noisy, terms)
     # What is not excluded counts by its probability.
     square = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task) ** 2

@@ -14,7 +14,7 @@ from pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, di
 from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
 from pipeline.calibration.diagnosis.odds import NONE
 from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.fit import PoseNoise, predict
+from pipeline.calibration.fit import PoseNoise
 from pipeline.calibration.poses import named
 from pipeline.calibration.wording import plain
 
@@ -176,8 +176,7 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, 
 
 def _left(candidate: Candidate, arrays: Stack) -> float:
     """Return the root mean square of the forces' residuals, N."""
-    fit = candidate.noisy.fit
-    left = arrays.wrenches - predict(fit.mount @ arrays.R_SW, fit.theta) - candidate.terms.columns @ fit.added
+    left = candidate.noisy.fit.left(arrays, candidate.terms)
     return float(np.sqrt((left[:, :3] ** 2).sum(axis=1).mean()))
 
 

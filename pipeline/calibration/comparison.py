@@ -199,9 +199,7 @@ def _candidate(
     log_odds = _COMMON[key] + common + noisy.log_evidence
     log_odds += out * np.log(_BUMPED) + (n - out) * np.log(1 - _BUMPED)
     if out and out < n and bumped.mean() <= LARGEST_SHARE:
-        fit = noisy.fit
-        R_SW = (fit.mount @ poses.R_SW)[bumped]
-        left = poses.wrenches[bumped] - predict(R_SW, fit.theta) - terms.columns[bumped] @ fit.added
+        left = noisy.fit.left(poses.take(bumped), terms.take(bumped))
         sizes = np.linalg.norm(left.reshape(-1, 2, 3), axis=2)
         least = noisy.noise.sigmas.reshape(2, 3).max(axis=1)
         log_odds += float((_ANY_SIZE - 3 * np.log(np.maximum(sizes, least))).sum())

@@ -196,6 +196,12 @@ class Fit:
         offsets: NDArray[np.float64] = self.terms.columns @ self.added
         return offsets
 
+    def left(self, poses: Stack, terms: Terms) -> NDArray[np.float64]:
+        """Return read minus predicted (n, 6), N and N·m, of any poses; `terms` are those of the same poses."""
+        predicted = predict(self.mount @ poses.R_SW, self.theta)
+        left: NDArray[np.float64] = poses.wrenches - predicted - terms.columns @ self.added
+        return left
+
 
 def two_stage(poses: Stack) -> NDArray[np.float64]:
     """Return the parameters (12,) by least squares: (g, F0) from forces, then (L, M0) from torques."""

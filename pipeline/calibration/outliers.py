@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtri
 
-from pipeline.calibration.fit import jacobian, predict, solve_with_offset, whitener
+from pipeline.calibration.fit import jacobian, solve_with_offset, whitener
 from pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
@@ -150,7 +150,7 @@ def deviates(poses: Stack, inside: NDArray[np.bool_], noisy: NoisyFit, terms: Te
     fit = noisy.fit
     R_SW = fit.mount @ poses.R_SW
     J = jacobian(R_SW, fit.theta, fit.free, terms)
-    residuals = poses.wrenches - predict(R_SW, fit.theta) - terms.columns @ fit.added
+    residuals = fit.left(poses, terms)
     V = noisy.noise.covariances(R_SW, fit.theta)
     # A pose that helped to make the fit is nearer to it than noise alone; any other is further away.
     sign = np.where(inside, -1.0, 1.0)[:, None, None]

@@ -241,7 +241,7 @@ def _base(poses: Stack, prior: NoisePrior, theta: NDArray[np.float64], terms: Te
     rough = np.maximum(rough, np.maximum(prior.least, LEAST))
     if len(terms.scale) > len(theta):
         fit = maximise(poses, rough, theta, ALL, terms)
-        squares = (poses.wrenches - predict(fit.R_SW, fit.theta) - fit.offsets) ** 2
+        squares = fit.left(poses, terms) ** 2
         rough = np.repeat(np.sqrt(squares.reshape(-1, 2, 3).sum(axis=(0, 2)) / freedom), 3)
     at_least: NDArray[np.float64] = np.maximum(rough, np.maximum(prior.least, LEAST))
     return at_least
@@ -257,7 +257,7 @@ class _Left:
 
     @classmethod
     def of(cls, poses: Stack, fit: Fit, kept: float) -> _Left:
-        raw = poses.wrenches - predict(fit.R_SW, fit.theta) - fit.offsets
+        raw = fit.left(poses, fit.terms)
         G = turn_jacobian(fit.R_SW, fit.theta)
         J = jacobian(fit.R_SW, fit.theta, fit.free, fit.terms) * fit.terms.scale
         return cls(raw / np.sqrt(truncation(kept)), J, G @ G.swapaxes(1, 2))

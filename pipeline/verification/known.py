@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
     from pipeline.calibration import Calibration
     from pipeline.calibration.orientation import Convention
 
-_BLOCK = 1 << 20
 _FOLDERS_SEPARATORS = ("/", "\\")
 
 Number = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
@@ -133,12 +131,10 @@ def roles_of(inputs: Mapping[str, Path], roles: tuple[str, ...]) -> None:
 
 
 def sha256_of(file: Path) -> str:
-    """Return the SHA-256 of a file, 64 hexadecimal digits."""
-    digest = hashlib.sha256()
-    with file.open("rb") as stream:
-        while block := stream.read(_BLOCK):
-            digest.update(block)
-    return digest.hexdigest()
+    """Return the SHA-256 of a file, 64 hexadecimal digits; InputError if it cannot be read."""
+    from pipeline.calibration.files.calibration_file import Source
+
+    return Source.of(file).sha256
 
 
 def read_check(kind: str, file: Path) -> dict[str, Any]:

@@ -19,10 +19,10 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from scipy.spatial.transform import Rotation
 
 from pipeline.calibration.contact_error import contact_sensitivity, force_directions, largest_eigenvalue
 from pipeline.calibration.model import prediction_jacobian
+from pipeline.calibration.model import upright as turn_upright
 from pipeline.calibration.nuisance import REZERO
 from pipeline.calibration.outliers import FEWEST, limit
 from pipeline.calibration.report.beside import taken_off
@@ -134,8 +134,10 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
 
 def upright(calibration: Calibration) -> NDArray[np.float64]:
     """Return the orientations (n, 3, 3) of the poses in a world that is turned until gravity points along -z."""
-    turn = Rotation.align_vectors([[0, 0, -1.0]], [calibration.down_W])[0].as_matrix()
-    return np.asarray(turn @ np.array([pose.R_WS for pose in calibration.poses]), dtype=np.float64)
+    turned: NDArray[np.float64] = turn_upright(calibration.down_W) @ np.array(
+        [pose.R_WS for pose in calibration.poses]
+    )
+    return turned
 
 
 # ---- residuals ---------------------------------------------------------------------------------

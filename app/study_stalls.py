@@ -45,7 +45,7 @@ def run(
     Measure the event loop of the real window in its worst hour.
 
     Three emulated SRI sensors stream at 1 kHz, one of them into charts and pages, while on the Probe page a mesh is
-    wrapped, measured and simplified again and again, and somebody turns the scene.
+    given an outer surface, measured and simplified again and again, and somebody turns the scene.
 
     Parameters
     ----------
@@ -110,7 +110,7 @@ class Sink:
 
 
 class Simplifying(QObject):
-    """Has the Probe page wrap, measure and simplify a mesh, again as soon as it is done."""
+    """Has the Probe page make the surface of a mesh, measure and simplify it, again as soon as it is done."""
 
     def __init__(self, page: ProbePage, mesh: Path) -> None:
         super().__init__(page)
@@ -201,9 +201,10 @@ def _probe_page(window: MainWindow) -> ProbePage:
 
 
 def _mesh_file(home: Path, facets: int) -> Path:
-    import trimesh
-
+    """Write a ball in millimetres, as another program would."""
     probe = ball(facets)
-    file = home / "ball.stl"
-    trimesh.Trimesh(1e3 * probe.vertices, probe.faces, process=False).export(file)
+    file = home / "ball.obj"
+    with file.open("wb") as stream:
+        np.savetxt(stream, 1e3 * probe.vertices, "v %.9g %.9g %.9g")
+        np.savetxt(stream, probe.faces + 1, "f %d %d %d")
     return file

@@ -96,7 +96,7 @@ _OPTIONAL = {
     "PySide6": ("PySide6-Essentials", "PySide6"),
     "mujoco": ("mujoco",),
     "pymeshlab": ("pymeshlab",),
-    "fast_simplification": ("fast-simplification",),
+    "igl": ("libigl",),
 }
 
 
@@ -133,7 +133,7 @@ def _facts() -> dict[str, Any]:
     return {
         "contactbench": __version__,
         "python": platform.python_version(),
-        **{name: _version(name) for name in ("numpy", "scipy", "trimesh")},
+        **{name: _version(name) for name in ("numpy", "scipy", "manifold3d")},
         "platform": platform.platform(),
         "cpu": _cpu_model(),
         "cpu_count": os.cpu_count(),

@@ -68,7 +68,7 @@ def test_version():
 
 
 def test_starting_imports_nothing_heavy():
-    heavy = "{'numpy', 'scipy', 'trimesh', 'pyvista', 'rich'}"
+    heavy = "{'numpy', 'scipy', 'manifold3d', 'pyvista', 'rich'}"
     code = f"import sys, pipeline.cli; print(sorted({heavy} & set(sys.modules)))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout == "[]\n"
@@ -136,7 +136,7 @@ def test_info():
         "PySide6",
         "mujoco",
         "pymeshlab",
-        "fast_simplification",
+        "igl",
     }
     assert facts["cpu"]
     assert facts["cpu_count"] > 0
@@ -257,6 +257,31 @@ def test_units_and_mount_move_the_probe(bench):
     points = solver.locate_batch(wrenches).points
     assert np.isfinite(points[0]).all()
     np.testing.assert_allclose([float(cell) for cell in contacts[0].split(",")[1:4]], points[0], atol=1e-9)
+
+
+def test_the_unit_is_found_and_the_mount_is_in_it(bench):
+    assert locate(bench, "--mount", "0,0,20,0,0,0").exit_code == 0
+    expected = (bench / "contacts.csv").read_bytes()
+    mesh = trimesh.load_mesh(bench / "ball.stl")
+    mesh.apply_scale(0.001)
+    (bench / "metres.obj").write_bytes(b"# units: m\n" + mesh.export(file_type="obj", digits=9).encode())
+    result = locate(bench, "--mount", "0,0,0.020,0,0,0", "--json", probe="metres.obj")
+    assert json.loads(result.stdout)["warnings"] == []
+    points = [
+        np.genfromtxt(each.splitlines()[1:], delimiter=",", usecols=(1, 2, 3))
+        for each in (expected.decode(), (bench / "contacts.csv").read_text())
+    ]
+    np.testing.assert_allclose(points[1], points[0], atol=1e-6)
+
+
+def test_a_doubtful_unit_is_told(bench):
+    mesh = trimesh.load_mesh(bench / "ball.stl")
+    mesh.apply_scale(1 / 25.4)
+    mesh.export(bench / "inches.stl")
+    result = locate(bench, "--json", probe="inches.stl")
+    [warning] = json.loads(result.stdout)["warnings"]
+    assert "inches.stl: The numbers span 3.15" in warning
+    assert json.loads(locate(bench, "--json", "--units", "in", probe="inches.stl").stdout)["warnings"] == []
 
 
 def test_a_probe_of_our_own_is_in_metres_and_says_when_it_was_never_aligned(bench):

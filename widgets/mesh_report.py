@@ -58,7 +58,7 @@ class MeshReport(QWidget):
             self.show_sentences(())
             return
         found: list[tuple[str, str]] = [(each.level, each.text) for each in inspection.findings]
-        if inspection.sound:
+        if inspection.clear:
             found.insert(0, ("good", self.tr("Nothing was found that spoils contacts.")))
         self.show_sentences((*found, *(("note", fact) for fact in inspection.facts)))
 

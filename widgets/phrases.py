@@ -62,6 +62,8 @@ class PhraseBook:
     """
 
     def __init__(self, pairs: Mapping[str, str]) -> None:
+        # What one sentence continues with begins with a space; texts are looked up without.
+        pairs = {**{source.strip(): meaning.strip() for source, meaning in pairs.items()}, **pairs}
         self._plain = {source: meaning for source, meaning in pairs.items() if not _HOLE.search(source)}
         self._by_word: dict[str, list[_Phrase]] = defaultdict(list)
         for source in pairs.keys() - self._plain.keys():

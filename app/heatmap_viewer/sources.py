@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from pipeline.heatmap.contacts import Contacts
     from pipeline.mesh.sidecar import ProbeFile
 
-_MESHES = (".ply", ".stl", ".obj", ".off", ".3mf")
+_MESHES = (".ply", ".stl", ".obj", ".off", ".3mf", ".glb", ".gltf")
 _HEAD = 65_536  # bytes that tell what a JSON file is
 _OF_SESSION = (("heatmap", "recording"), ("report", "verification"))
 _MARKER_DISTANCE = 0.010  # m: as the command has it

@@ -256,7 +256,8 @@ class HeatmapViewer(QWidget):
                 self.tr("Open recordings, contacts or verifications, with probe and calibration"),
                 "",
                 self.tr(
-                    "What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf);;All files (*)"
+                    "What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;"
+                    "All files (*)"
                 ),
             )
         if names:

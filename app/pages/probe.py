@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from pipeline.workbench.steps import StepStatus
     from widgets.scene import Pick
 
-_MESHES = "(*.stl *.ply *.obj *.off *.3mf)"
+_MESHES = "(*.stl *.ply *.obj *.off *.3mf *.glb *.gltf)"
 
 
 class ProbePage(Page):
@@ -149,9 +149,7 @@ class ProbePage(Page):
     def _show_facets(self) -> None:
         plan, preview = self.stages.plan, self.stages.preview
         target = {name: value for name in TARGETS if (value := getattr(plan, name)) is not None}
-        self.facets.show_plan(
-            target, plan.engine, plan.region_ratio, self.stages.work.has_regions, plan.painted
-        )
+        self.facets.show_plan(target, plan.region_ratio, self.stages.work.has_regions, plan.painted)
         self.facets.chart.setVisible(self.stages.trade is not None)
         count = None if preview is None else len(preview.done.content.probe.faces)
         self.facets.chart.show_trade(self.stages.trade, count or plan.facets or 0)

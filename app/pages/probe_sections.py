@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from pipeline.workbench.probe import Mesh
 
 _CLOSINGS = ("", "fair", "ruled", "hull", "open")  # as `pipeline.mesh.shell.Closing` has them
-_ENGINES = ("auto", "fast-simplification", "meshlab", "best")
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 
 
@@ -191,11 +190,6 @@ class FacetsSection(QGroupBox):
         self.value.setAccessibleName(self.tr("Number of facets, or mm"))
         form.addRow(self.tr("Keep to"), self.target)
         form.addRow(self.tr("Up to"), self.value)
-        self.engine = narrow(QComboBox())
-        self.engine.addItems(
-            [self.tr("automatic"), self.tr("fast"), self.tr("MeshLab"), self.tr("best of all (slow)")]
-        )
-        form.addRow(self.tr("Method"), self.engine)
         self.ratio = number(1.0, 100.0, " : 1", 1)
         self.ratio.setToolTip(self.tr("Facets per area inside the regions over that outside"))
         self.ratio_label = QLabel(self.tr("Finer in regions"))
@@ -206,7 +200,6 @@ class FacetsSection(QGroupBox):
         self.target.activated.connect(self._target_changed)
         for spin in (self.value, self.ratio):
             spin.valueChanged.connect(lambda _value: self.changed.emit())
-        self.engine.activated.connect(lambda _index: self.changed.emit())
         self.painted.clicked.connect(lambda _checked: self.changed.emit())
         return form
 
@@ -231,13 +224,10 @@ class FacetsSection(QGroupBox):
         self.value.setValue(value)
         self.value.blockSignals(False)
 
-    def show_plan(
-        self, target: dict[str, float], engine: str, ratio: float, regions: bool, painted: bool
-    ) -> None:
+    def show_plan(self, target: dict[str, float], ratio: float, regions: bool, painted: bool) -> None:
         """Show what is chosen; `regions`: whether there are any."""
         name = next(iter(target), "max_contact_error")
         self._show_target(_TARGETS.index(name), target.get(name, 0.1))
-        self.engine.setCurrentIndex(_ENGINES.index(engine))
         quietly(self.ratio, ratio)
         self.painted.setChecked(painted)
         for each in (self.ratio, self.ratio_label, self.painted):
@@ -252,7 +242,6 @@ class FacetsSection(QGroupBox):
         }
         return {
             **wanted,
-            "engine": _ENGINES[self.engine.currentIndex()],
             "region_ratio": self.ratio.value(),
             "painted": self.painted.isChecked(),
         }

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject
 
 from app.bench import Weight
 from app.pages.verify_scene import firm_contact
+from pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
 from pipeline.kernel import Reason
 from pipeline.verification.protocol import State
 from widgets.marker_table import ShownMarker
@@ -42,8 +43,10 @@ class LiveShow(QObject):
         reading = page.bench.live.reading()
         contact = firm_contact(reading)
         page.scene_view.show_reading(reading, self._captions(contact))
-        sure = contact is None or contact.reason in _SURE
-        page.panel_touch.state.show_contact(self._contact(contact), sure)
+        on = None if contact is None or reading is None else reading.on
+        sure = contact is None or (contact.reason in _SURE and on in (None, MARKS[0]))
+        words = (self._contact(contact), self._mark(on))
+        page.panel_touch.state.show_contact(" ".join(filter(None, words)), sure)
         page.scene_view.tick()
         self.watch()
         touches = page.work.touches
@@ -218,6 +221,14 @@ class LiveShow(QObject):
         return self.tr(
             "No part of the probe faces this force: check that it is the force on the probe, and the mount."
         )
+
+    def _mark(self, on: str | None) -> str:
+        """Say where a contact is no better than a guess, or should not be; empty: it lies on the mesh as it was."""
+        if on == MARKS[INVENTED]:
+            return self.tr("On a facet that the mesh file did not have: its place is a guess.")
+        if on == MARKS[UNTOUCHABLE]:
+            return self.tr("On a region marked untouchable: check the region and the mount.")
+        return ""
 
     def _next(self, view: TouchView) -> str:
         if view.next_one is None:

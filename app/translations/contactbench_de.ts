@@ -1421,26 +1421,6 @@
         <translation>Bis zu</translation>
     </message>
     <message>
-        <source>automatic</source>
-        <translation>automatisch</translation>
-    </message>
-    <message>
-        <source>fast</source>
-        <translation>schnell</translation>
-    </message>
-    <message>
-        <source>MeshLab</source>
-        <translation>MeshLab</translation>
-    </message>
-    <message>
-        <source>best of all (slow)</source>
-        <translation>am besten (langsam)</translation>
-    </message>
-    <message>
-        <source>Method</source>
-        <translation>Verfahren</translation>
-    </message>
-    <message>
         <source>Facets per area inside the regions over that outside</source>
         <translation>Facetten pro Fläche in den Regionen im Verhältnis zu außerhalb</translation>
     </message>
@@ -1898,8 +1878,8 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
         <translation>Aufzeichnungen, Kontakte oder Überprüfungen mit Sonde und Kalibrierung öffnen</translation>
     </message>
     <message>
-        <source>What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf);;All files (*)</source>
-        <translation>Was gezeigt werden kann (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf);;Alle Dateien (*)</translation>
+        <source>What can be shown (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;All files (*)</source>
+        <translation>Was gezeigt werden kann (*.mcap *.csv *.json *.ply *.stl *.obj *.off *.3mf *.glb *.gltf);;Alle Dateien (*)</translation>
     </message>
     <message>
         <source>Spreading contacts</source>
@@ -2107,6 +2087,14 @@ oder den Ordner einer Sitzung, in dem alles enthalten ist.</translation>
     <message>
         <source>No part of the probe faces this force: check that it is the force on the probe, and the mount.</source>
         <translation>Kein Teil der Sonde ist dieser Kraft zugewandt: Prüfen Sie, ob es die Kraft auf die Sonde ist, und die Einbaulage.</translation>
+    </message>
+    <message>
+        <source>On a facet that the mesh file did not have: its place is a guess.</source>
+        <translation>Auf einer Facette, die die Netzdatei nicht hatte: Ihre Lage ist geschätzt.</translation>
+    </message>
+    <message>
+        <source>On a region marked untouchable: check the region and the mount.</source>
+        <translation>Auf einer Region, die als unberührbar markiert ist: Prüfen Sie die Region und die Einbaulage.</translation>
     </message>
     <message>
         <source>All markers are touched; touches: {done}. Finish, or touch some once more.</source>

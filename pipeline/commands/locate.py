@@ -52,8 +52,9 @@ _UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch:
         "Locate the contact of each wrench in a CSV file.\n\n"
         "WRENCHES has the columns t,fx,fy,fz,mx,my,mz (s, N, N·m about the sensor origin, sensor frame S) in"
         " any order, compensated for weight and offset; - is standard input. The output has"
-        " t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence (m, N·m, frame S; misfit in standard"
-        " deviations squared) and is written as a whole or not at all.\n\n"
+        " t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on (m, N·m, frame S; misfit in standard"
+        " deviations squared; on: measured, or invented where the mesh file had an opening, or untouchable) and is"
+        " written as a whole or not at all.\n\n"
         "Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named."
     ),
     epilog=(
@@ -63,20 +64,20 @@ _UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch:
 )
 def locate(
     wrenches: Annotated[Path, typer.Argument(metavar="WRENCHES", help="CSV file, or - for standard input.")],
-    probe: Annotated[Path, typer.Option(help="Mesh of the probe: .stl, .ply, .obj, .off or .3mf.")],
+    probe: Annotated[
+        Path, typer.Option(help="Mesh of the probe: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
+    ],
     out: Annotated[Path, typer.Option(help="CSV file to write, or - for standard output.")],
     units: Annotated[
         Units | None,
-        typer.Option(
-            help="Unit of the mesh's numbers [m for a probe that contactbench wrote, otherwise mm]."
-        ),
+        typer.Option(help="Unit of the mesh's numbers [what the file says, or guessed from its size]."),
     ] = None,
     mount: Annotated[
         str | None,
         typer.Option(
             metavar="X,Y,Z,RX,RY,RZ",
-            help="Pose of the mesh in S: position in --units, rotations about the fixed axes x, then y, then"
-            " z, degrees. Left out: the mesh is in S.",
+            help="Pose of the mesh in S: position in --units, or in the mesh's unit, rotations about the"
+            " fixed axes x, then y, then z, degrees. Left out: the mesh is in S.",
         ),
     ] = None,
     method: Annotated[MethodName, typer.Option(help="Who answers.")] = MethodName.contactbench,
@@ -134,8 +135,7 @@ def locate(
 ) -> None:
     """Locate the contact of each wrench in a CSV file."""
     _check_usage(out, method, track, as_json)
-    units = units or _own_units(probe)
-    T_SP = None if mount is None else _mount(mount, units)
+    placed = None if mount is None else numbers(mount, 6, "--mount")
     limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
     from pipeline.contact import Gates, WrenchNoise
     from pipeline.contact.stream import locate_file, refuse_overwriting
@@ -153,7 +153,7 @@ def locate(
     chosen: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     gates, noise = Gates(**chosen), WrenchNoise(noise_force, noise_torque)
     model = _model(torsion_arm, model_force, model_torque)
-    surface, warnings = _load(probe, units, T_SP)
+    surface, warnings = _load(probe, units, placed)
     for sentence in warnings:
         say(f"warning: {sentence}", "yellow")
     locator = _locator(method, surface, noise, gates, model)
@@ -185,15 +185,8 @@ def _check_usage(out: Path, method: MethodName, track: bool, as_json: bool) -> N
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
 
 
-def _own_units(probe: Path) -> Units:
-    from pipeline.mesh.ply import written_by_contactbench
-
-    return Units.m if written_by_contactbench(probe) else Units.mm
-
-
-def _mount(text: str, units: Units) -> npt.NDArray[np.float64]:
+def _mount(values: Sequence[float], units: Units) -> npt.NDArray[np.float64]:
     """T_SP (4, 4), metres, from x,y,z in units and rx,ry,rz in degrees: R_SP = Rz Ry Rx."""
-    values = numbers(text, 6, "--mount")
     import numpy as np
     from scipy.spatial.transform import Rotation
 
@@ -203,17 +196,20 @@ def _mount(text: str, units: Units) -> npt.NDArray[np.float64]:
     return T_SP
 
 
-def _load(path: Path, units: Units, T_SP: npt.NDArray[np.float64] | None) -> tuple[Probe, Sequence[str]]:
+def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tuple[Probe, Sequence[str]]:
+    """Read the mesh, and what is to be said of it; `mount` is in `units`, or else in those of the file."""
     import warnings
 
     from pipeline.mesh import MeshWarning, load_probe
-    from pipeline.mesh.ply import written_by_contactbench
+    from pipeline.mesh.load import read_mesh
 
+    read = read_mesh(path, "auto" if units is None else units.value)
+    T_SP = None if mount is None else _mount(mount, units or Units(read.units))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshWarning)  # said below, in the words it would have used
-        probe = load_probe(path, units.value, T_SP)
-    sentences = list(probe.health.sentences)
-    if T_SP is None and written_by_contactbench(path):
+        probe = load_probe(path, read.units, T_SP)
+    sentences = [*read.notes, *probe.health.sentences]
+    if T_SP is None and read.raw.settled:
         from pipeline.mesh.sidecar import load_probe_file
 
         known = load_probe_file(path)

@@ -59,7 +59,7 @@ def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto, as_json: 
         say(sentence)
     for finding in found.findings:
         say(f"{finding.level}: {finding.text}", {"fault": "red", "doubt": "yellow"}.get(finding.level, ""))
-    if found.sound:
+    if found.clear:
         say("Nothing was found that would spoil contacts.")
     if as_json:
         print_json(found.to_json())
@@ -71,7 +71,7 @@ def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto, as_json: 
     help=(
         "Make the closed surface that a finger could touch.\n\n"
         "Inner walls and parts go; openings are closed by invented facets, which are marked. A mesh that needs"
-        " nothing is left as it is."
+        " nothing is left as it is. Exit code 1: what could be made is not sound."
     ),
     epilog="Example: contactbench probe shell housing.stl --close ruled --close fair --out shell.ply",
 )
@@ -89,15 +89,17 @@ def shell(
     from pipeline.preparation.steps import shell_step
 
     content = open_mesh(file, units, out)
-    with Bar("wrapping", counted=True) as bar:
+    with Bar("finding the outer shell", counted=True) as bar:
         done, made = shell_step(
             content, closings(close), alpha=metres(alpha), gap=metres(gap), progress=share(bar)
         )
     save_probe_file(done, out)
     for sentence in made.sentences:
-        say(sentence)
+        say(sentence, "red" if sentence in made.faults else "")
     if as_json:
         print_json({"out": str(out), **made.to_json(), "sentences": list(made.sentences)})
+    if made.faults:
+        raise typer.Exit(1)
 
 
 probe_app.command(
@@ -114,7 +116,7 @@ probe_app.command(
 @probe_app.command(
     help=(
         "Give a probe fewer facets, and say what that costs.\n\n"
-        "Distances and angles are measured against the mesh as it came, both ways, whatever the engine says."
+        "Distances and angles are measured against the mesh as it came, both ways."
     ),
     epilog="Example: contactbench probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply",
 )
@@ -220,7 +222,8 @@ def ladder(
 @probe_app.command(
     help=(
         "All in one go: read, close, align, simplify, and write the probe with its history.\n\n"
-        "Regions that the file holds are kept. Exit code 1: the result is not closed, or not one part."
+        "Regions that the file holds are kept. Exit code 1: the result is not sound (open, crossing, folded or"
+        " inside out); nothing is written then."
     ),
     epilog="Example: contactbench probe prepare housing.stl --mount 0,0,45,0,0,90 --out probe.ply",
 )
@@ -272,11 +275,13 @@ def prepare(
             region_ratio=region_ratio,
             progress=share(bar),
         )
-    save_probe_file(done.content, out)
-    for sentence in done.sentences:
-        say(sentence)
-    say(f"Wrote {out} and {out.with_suffix('.json')}.")
+    if done.ready:
+        save_probe_file(done.content, out)
+    for sentence in dict.fromkeys(done.sentences):
+        noted = sentence in done.content.notes
+        say(f"warning: {sentence}" if noted else sentence, "yellow" if noted else "")
+    say(f"Wrote {out} and {out.with_suffix('.json')}." if done.ready else "Nothing was written.")
     if as_json:
-        print_json({"out": str(out), "ready": done.ready, **done.to_json()})
+        print_json({"out": str(out) if done.ready else None, "ready": done.ready, **done.to_json()})
     if not done.ready:
         raise typer.Exit(1)

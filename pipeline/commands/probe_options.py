@@ -42,7 +42,7 @@ class ClosingName(StrEnum):
 
 
 class EngineName(StrEnum):
-    """Who simplifies."""
+    """Who simplified in earlier versions; all the same now."""
 
     auto = "auto"
     fast = "fast-simplification"
@@ -50,7 +50,9 @@ class EngineName(StrEnum):
     best = "best"
 
 
-MeshArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off or .3mf.")]
+MeshArgument = Annotated[
+    Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
+]
 UnitsOption = Annotated[
     UnitsOrAuto, typer.Option(help="Unit of the file's numbers; auto guesses from its size and says why.")
 ]
@@ -83,7 +85,7 @@ ContactErrorOption = Annotated[
 ForcesOption = Annotated[
     str, typer.Option("--forces", metavar="LOW,HIGH", help="Forces of touches to expect, N.")
 ]
-EngineOption = Annotated[EngineName, typer.Option(help="Who simplifies.")]
+EngineOption = Annotated[EngineName, typer.Option(help="Of earlier versions; without effect.", hidden=True)]
 RatioOption = Annotated[
     float, typer.Option("--region-ratio", help="Facets per area in regions, over that in the rest.")
 ]

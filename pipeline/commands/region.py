@@ -20,8 +20,9 @@ region_app = typer.Typer(
     help=(
         "Mark the parts of a probe that are meant to be touched, in order of priority.\n\n"
         "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names, colours, and which of"
-        " them nothing can touch)."
-        " Each command changes both in one step. Lengths are in mm, in the sensor frame S."
+        " them nothing can touch). Each command changes both in one step, which region undo takes back. Lengths are in"
+        " mm, in the sensor frame S."
+        " Exit code 1: facets were chosen, but none changed."
     ),
     epilog="Example: contactbench region add probe.ply Lens",
     no_args_is_help=True,
@@ -139,6 +140,28 @@ def reorder(
     session.finish(None, as_json)
 
 
+@region_app.command(
+    help=(
+        "Take back the last region command on a probe; up to 100, one after the other.\n\n"
+        "Both files are byte for byte what they were before it. The steps are kept beside the probe, in its .undo file;"
+        " they end where something else changes the probe. Exit code 1: there is nothing to undo."
+    ),
+    epilog="Example: contactbench region undo probe.ply",
+)
+def undo(mesh: MeshArgument, as_json: JsonOption = False) -> None:
+    """Take back the last region command on a probe."""
+    Session(mesh).turn("undo", as_json)
+
+
+@region_app.command(
+    help="Do again what region undo took back last. Exit code 1: there is nothing to redo.",
+    epilog="Example: contactbench region redo probe.ply",
+)
+def redo(mesh: MeshArgument, as_json: JsonOption = False) -> None:
+    """Do again what was undone last."""
+    Session(mesh).turn("redo", as_json)
+
+
 # ---- files -------------------------------------------------------------------------------------
 
 
@@ -213,7 +236,6 @@ def transfer(
     import warnings
 
     from pipeline.mesh import MeshWarning
-    from pipeline.mesh.regions import RegionModel
     from pipeline.mesh.regions import transfer as carry
     from pipeline.mesh.regions.exchange import mesh_hash
 
@@ -224,7 +246,8 @@ def transfer(
         result = carry(
             source.model.snapshot(), source.probe, target.probe, reach=None if reach is None else reach / 1000
         )
-    target.save(result.regions, {"from": mesh_hash(source.probe)})
+    target.model.replace_all(result.regions, text=f"transfer from {old.name}")
+    target.save({"from": mesh_hash(source.probe)})
     _say_transferred(result)
     if as_json:
         print_json(
@@ -237,7 +260,7 @@ def transfer(
             }
         )
     else:
-        show(new, target.probe, RegionModel(result.regions), as_json)
+        show(new, target.probe, target.model, as_json)
     if any(part.vanished for part in result.report):
         raise typer.Exit(1)
 

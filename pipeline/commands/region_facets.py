@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 facets_app = typer.Typer(rich_markup_mode=None)
 
+_NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it
+_EMPTY = "the region has no facets"
+
 EraseOption = Annotated[bool, typer.Option("--erase", help="Take the facets out of REGION instead.")]
 ProtectOption = Annotated[bool, typer.Option("--protect", help="Facets of other regions stay theirs.")]
 RingsOption = Annotated[int | None, typer.Option(help="Rings of facets that share a vertex.")]
@@ -58,7 +61,7 @@ def box(
         values = numbers(frame, 6, "--frame")
         R_SB = Rotation.from_euler("xyz", values[3:], degrees=True).as_matrix()
         chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=[value / 1000 for value in values[:3]])
-    _assign(session, region, chosen, erase, protect, as_json)
+    _assign(session, region, chosen, "box into", erase, protect, as_json)
 
 
 @facets_app.command(
@@ -79,7 +82,8 @@ def plane(
 
     where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
     session = Session(mesh)
-    _assign(session, region, half_space(session.graph, where, direction), erase, protect, as_json)
+    chosen = half_space(session.graph, where, direction)
+    _assign(session, region, chosen, "half into", erase, protect, as_json)
 
 
 @facets_app.command(
@@ -102,13 +106,14 @@ def flood(
     session = Session(mesh)
     faces, _ = session.graph.pick(where)
     chosen = fill(session.graph, int(faces[0]), math.radians(crease))
-    _assign(session, region, chosen, erase, protect, as_json)
+    _assign(session, region, chosen, "fill", erase, protect, as_json)
 
 
 @facets_app.command(
     help=(
         "Paint REGION with a round brush, along the surface through the points nearest to --at.\n\n"
-        "--at is given once for a dab, several times for a stroke."
+        "--at is given once for a dab, several times for a stroke. A point further from the surface than the radius,"
+        " or 2 % of the size if that is more, is refused."
     ),
     epilog="Example: contactbench region brush probe.ply Lens --at=-20,0,140 --at=20,0,140 --radius 5",
 )
@@ -131,13 +136,13 @@ def brush(
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
     where = [metres(text, "--at") for text in at]
     session = Session(mesh)
-    faces, points = session.graph.pick(where)
+    faces, points = session.graph.pick(where, within=max(tool.radius, _NEAR * session.probe.size))
     rank = session.rank(region)
     with session.model.stroke(session.graph, tool, rank) as stroke:
         changed = sum(
             len(stroke.extend(face, point)) for face, point in zip(faces.tolist(), points, strict=True)
         )
-    session.finish(changed, as_json)
+    session.finish_selection(changed, _kept_as(erase=erase, protect=protect), as_json)
 
 
 @facets_app.command(
@@ -228,9 +233,10 @@ def mirror(
     rank = session.rank(region)
     reach = None if tolerance is None else tolerance / 1000
     result = reflect(session.graph, session.mask(rank), direction, where, tolerance=reach)
-    changed = session.model.assign(result.mask, rank, protect=protect, text="mirror")
+    changed = session.model.assign(result.mask, rank, protect=protect, text=f"mirror {session.name(rank)}")
     say(result.sentence, "yellow" if len(result.unmatched) else "")
-    session.finish(len(changed), as_json, unmatched=len(result.unmatched))
+    why_not = _kept_as(erase=False, protect=protect) if session.mask(rank).any() else _EMPTY
+    session.finish_selection(len(changed), why_not, as_json, unmatched=len(result.unmatched))
     if len(result.unmatched):
         raise typer.Exit(1)
 
@@ -243,21 +249,37 @@ def clear(mesh: MeshArgument, region: RegionArgument, as_json: JsonOption = Fals
     """Take all facets out of a region."""
     session = Session(mesh)
     rank = session.rank(region)
-    changed = session.model.assign(session.mask(rank), 0, text="clear")
-    session.finish(len(changed), as_json)
+    changed = session.model.assign(session.mask(rank), 0, text=f"clear {session.name(rank)}")
+    session.finish_selection(len(changed), _EMPTY, as_json)
 
 
 def _assign(
-    session: Session, region: str, chosen: NDArray[np.bool_], erase: bool, protect: bool, as_json: bool
+    session: Session,
+    region: str,
+    chosen: NDArray[np.bool_],
+    what: str,
+    erase: bool,
+    protect: bool,
+    as_json: bool,
 ) -> None:
     rank = session.rank(region)
+    text = f"{what} {session.name(rank)}"
     if erase:
-        changed = session.model.assign(chosen & session.mask(rank), 0)
+        changed = session.model.assign(chosen & session.mask(rank), 0, text=f"{text}, erasing")
     else:
-        changed = session.model.assign(chosen, rank, protect=protect)
-    session.finish(len(changed), as_json)
+        changed = session.model.assign(chosen, rank, protect=protect, text=text)
+    why_not = _kept_as(erase=erase, protect=protect) if chosen.any() else "no facet lies there"
+    session.finish_selection(len(changed), why_not, as_json)
+
+
+def _kept_as(*, erase: bool, protect: bool) -> str:
+    """Say why facets that were chosen stayed where they are."""
+    if erase:
+        return "none of them is in it"
+    return "they are in it already" + (", or in others, where --protect leaves them" if protect else "")
 
 
 def _reshape(session: Session, rank: int, chosen: NDArray[np.bool_], text: str, as_json: bool) -> None:
-    changed = session.model.set_region(rank, chosen, text=text)
-    session.finish(len(changed), as_json)
+    why_not = "the region has that shape already" if session.mask(rank).any() else _EMPTY
+    changed = session.model.set_region(rank, chosen, text=f"{text} {session.name(rank)}")
+    session.finish_selection(len(changed), why_not, as_json)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from pipeline.mesh import Probe
-    from pipeline.mesh.regions import FacetGraph, RegionModel, RegionSet
+    from pipeline.mesh.regions import FacetGraph, RegionModel
+    from pipeline.mesh.regions.undo_file import KeptSteps
 
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="MESH", help="Probe, .ply in metres in S; names are in the .json beside it.")
@@ -67,6 +69,10 @@ class Session:
             return int(region[:9])
         return self.model.rank_of(region)
 
+    def name(self, rank: int) -> str:
+        """Return the name of the region of a rank."""
+        return self.model.regions[rank - 1].name
+
     def mask(self, rank: int) -> NDArray[np.bool_]:
         """Return the facets of one rank, (m,)."""
         mask: NDArray[np.bool_] = self.model.labels == rank
@@ -74,16 +80,30 @@ class Session:
 
     def finish(self, changed: int | None, as_json: bool, **facts: Any) -> None:
         """Save, and say how many facets changed and what there is now."""
-        self.save(self.model.snapshot(), {} if changed is None else {"changed": changed})
+        self.save({} if changed is None else {"changed": changed})
         if changed is not None:
             say(f"{changed:,} of {len(self.probe.faces):,} facets changed.")
             facts = {"changed": changed, **facts}
         show(self.mesh, self.probe, self.model, as_json, **facts)
 
-    def save(self, regions: RegionSet, result: dict[str, Any]) -> None:
-        """Write the probe with these regions, and the command that made them into its history."""
+    def finish_selection(self, changed: int, why_not: str, as_json: bool, **facts: Any) -> None:
+        """Finish what had facets chosen; where none changed, that is wrong: say why, write nothing, exit code 1."""
+        if changed:
+            return self.finish(changed, as_json, **facts)
+        say(f"Nothing changed: {why_not}.", "yellow")
+        show(self.mesh, self.probe, self.model, as_json, changed=0, **facts)
+        raise typer.Exit(1)
+
+    def save(self, result: dict[str, Any]) -> None:
+        """Write the probe with the model's regions, and the command that made them into its history, if it did."""
+        from pipeline.mesh.regions.undo_file import KeptStep
         from pipeline.mesh.sidecar import save_probe_file
 
+        text = self.model.undo_text
+        if text is None:
+            say("The regions are like that already: nothing was written.")
+            return
+        regions = self.model.snapshot()
         areas = (1e6 * regions.areas(self.probe.areas)).round(3).tolist()
         content = self._content.after(
             "region",
@@ -92,7 +112,51 @@ class Session:
             {**result, "areas_mm2": areas},
             regions=regions,
         )
+        steps = self._steps()  # before anything is written: it may refuse
         save_probe_file(content, self.mesh)
+        steps.done.append(KeptStep.of(text, content.history[-1], self._content.regions, self.probe))
+        steps.undone.clear()
+        self._keep(steps)
+
+    def turn(self, way: Literal["undo", "redo"], as_json: bool) -> None:
+        """Undo or redo a step, with what it left in the history, and say which; exit code 1: there is none."""
+        from pipeline.mesh.regions.undo_file import KeptStep
+        from pipeline.mesh.sidecar import save_probe_file
+
+        steps, history = self._steps(), self._content.history
+        taken, given = (steps.done, steps.undone) if way == "undo" else (steps.undone, steps.done)
+        if not taken:
+            why = ": something else has changed the probe since" if steps.changed else ""
+            say(f"There is nothing to {way}{why}.", "yellow")
+            raise typer.Exit(1)
+        step = taken.pop()
+        given.append(KeptStep.of(step.text, step.entry, self._content.regions, self.probe))
+        regions = step.regions(self.probe)
+        changed = int((regions.labels != self.model.labels).sum())
+        content = replace(
+            self._content,
+            probe=self.probe.with_region(regions.labels, regions.untouchable),
+            regions=regions,
+            history=history[:-1] if way == "undo" else (*history, step.entry),
+        )
+        save_probe_file(content, self.mesh)
+        self._keep(steps)
+        self.model.replace_all(regions)
+        word = "undone" if way == "undo" else "redone"
+        say(f"{word}: {step.text}. {changed:,} of {len(self.probe.faces):,} facets changed.")
+        show(self.mesh, self.probe, self.model, as_json, **{word: step.text}, changed=changed)
+
+    def _steps(self) -> KeptSteps:
+        from pipeline.mesh.regions.undo_file import load_steps
+        from pipeline.mesh.sidecar import sidecar_of
+
+        return load_steps((self.mesh, sidecar_of(self.mesh)))
+
+    def _keep(self, steps: KeptSteps) -> None:
+        from pipeline.mesh.regions.undo_file import save_steps
+        from pipeline.mesh.sidecar import sidecar_of
+
+        save_steps(steps, (self.mesh, sidecar_of(self.mesh)))
 
 
 def _command() -> dict[str, Any]:

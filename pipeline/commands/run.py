@@ -262,6 +262,8 @@ def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
 
 
 def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
+    from pipeline.runtime.run import mark_warnings
+
     _say_rate(config, pair)
     _say_motion(config, runner)
     for device, stream in zip(("sensor", "robot"), pair.streams, strict=False):
@@ -272,6 +274,8 @@ def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
             _say(f"{device}: {health.failure}", "red")
     counted = ", ".join(f"{reason} {count:,}" for reason, count in runner.reasons.most_common())
     _say(f"located: {sum(runner.reasons.values()):,} samples: {counted or 'none'}.")
+    for words in mark_warnings(runner.on):
+        _say(words, "yellow")
     median, worst = runner.latencies.quantile(0.5), runner.latencies.quantile(0.99)
     if median is not None and worst is not None:
         _say(f"latency: {1e3 * median:.1f} ms in the median, {1e3 * worst:.1f} ms for 99 of 100.")

@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from pipeline.contact.facet_marks import MARKS
 from pipeline.contact.shortest import WIDTH, shortest
 from pipeline.kernel import Reason
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence\n"
+HEADER = b"t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on\n"
 
 REASONS: tuple[str, ...] = tuple(reason.name.lower() for reason in Reason)
 _REASON_TEXTS = np.array(REASONS, dtype=np.bytes_)
+_MARK_TEXTS = np.array((*MARKS, ""), dtype=np.bytes_)  # the last: not known
 
 
 class Answers(Protocol):
@@ -65,7 +67,11 @@ class ContactRows:
         self._integers = np.array([b""], dtype=np.bytes_)  # the texts of -1, 0, 1, ...
 
     def encode(
-        self, times: npt.NDArray[np.bytes_], answers: Answers, sigma_mm: npt.NDArray[np.float64]
+        self,
+        times: npt.NDArray[np.bytes_],
+        answers: Answers,
+        sigma_mm: npt.NDArray[np.float64],
+        marks: npt.NDArray[np.uint8],
     ) -> bytes:
         """
         Write one line per answer, columns as in `HEADER`.
@@ -78,6 +84,8 @@ class ContactRows:
             Of n wrenches.
         sigma_mm : (n,) float64
             Largest standard deviation of each point, mm; NaN where there is none.
+        marks : (n,) uint8
+            What each lies on, a place in `MARKS`; beyond them: nothing is known.
         """
         columns = [
             times,
@@ -89,6 +97,7 @@ class ContactRows:
             sigma_mm,
             answers.misfits,
             answers.confidences,
+            _MARK_TEXTS.take(marks),
         ]
         widths = [WIDTH if column.dtype.kind == "f" else column.itemsize for column in columns]
         rows = np.empty((len(times), sum(widths) + len(widths)), dtype=np.uint8)

@@ -1,9 +1,12 @@
 """The solver: from a wrench to a contact point, and how sure that is."""
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
 from pipeline import kernel
+from pipeline.contact.facet_marks import MARKS, facet_marks
 from pipeline.contact.gates import Gates
 from pipeline.contact.noise import WrenchNoise
 from pipeline.contact.touch_model import TouchModel
@@ -68,3 +71,11 @@ class ContactSolver(kernel.Solver):
             mesh_curved=self.model.mesh_curved,
             **self.gates.kernel_arguments(),
         )
+
+    def on(self, contact: kernel.Contact) -> str | None:
+        """Say what a contact lies on, one of `pipeline.contact.facet_marks.MARKS`; None: it has no facet."""
+        return None if contact.face is None else MARKS[self._marks[contact.face]]
+
+    @cached_property
+    def _marks(self) -> NDArray[np.uint8]:
+        return facet_marks(self.probe)

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 import numpy as np
 
 from pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
+from pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE, facet_marks
 from pipeline.contact.plausibility import Plausibility, Sample, unexplained
 from pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
 from pipeline.durable import scratch_beside, sync_folder
@@ -54,8 +55,8 @@ class LocateSummary:
         Who answered.
     median_sigma_max_mm : float or None
         Median of the largest standard deviation of the points, mm, to four digits; None without points.
-    on_invented : int
-        Contacts on facets that were made up.
+    on_invented, on_untouchable : int
+        Contacts on facets that were made up, and on those of regions that nothing can touch.
     seconds : float
         From the first byte read to the last one written.
     warnings : tuple of str
@@ -69,6 +70,7 @@ class LocateSummary:
     method: str
     median_sigma_max_mm: float | None
     on_invented: int
+    on_untouchable: int
     seconds: float
     warnings: tuple[str, ...] = ()
     plausibility: Plausibility | None = None
@@ -115,8 +117,8 @@ def locate_file(
         origin, in S. Columns that only a raw recording has are refused.
     out : path or binary file
         Gets columns t, x, y, z (S, m), k (N·m), face, reason, candidates, sigma_max_mm, misfit (sigma squared),
-        confidence; cells are empty where there is no such number, t is the text of the input, numbers are as
-        ``repr`` writes them.
+        confidence, on (what the facet is: measured, invented or untouchable); cells are empty where there is no such
+        number, t is the text of the input, numbers are as ``repr`` writes them.
     track : bool
         Take the rows as one stream in which each contact follows the one before (``track_batch`` of a
         ContactSolver, which is reset first). A row whose t is not later than every t before it is answered
@@ -126,8 +128,8 @@ def locate_file(
     compensated : bool
         Take a file with the columns of a raw recording: somebody compensated it and left them in.
     probe : Probe, optional
-        What is touched. Then contacts on invented facets are counted, and where no touch explains more than half
-        of the rows with force, the usual mistakes are tried.
+        What is touched; that of the solver by default. Where it is given and no touch explains more than half of the
+        rows with force, the usual mistakes are tried.
     progress : callable, optional
         Called after each block with the bytes read and the size of the source (0 if that is unknown).
     block_bytes : int
@@ -148,7 +150,8 @@ def locate_file(
     answer = _tracked(solver_or_method) if track else _Untracked(solver_or_method)
     refuse_overwriting(out, source)
     begin = time.perf_counter()
-    tally, sample = _Tally(None if probe is None else probe.invented), Sample()
+    surface = getattr(solver_or_method, "probe", None) if probe is None else probe
+    tally, sample, mark = _Tally(), Sample(), _Marker(surface)
     with open_table(source, WrenchFileError) as (stream, name, size), whole_output(out, "contacts") as write:
         reader = WrenchReader(stream, name, timed=track, allow_nan=allow_nan, block_bytes=block_bytes)
         if not compensated:
@@ -157,8 +160,9 @@ def locate_file(
         text = ContactRows()
         for rows, answers in _ahead(reader, answer):
             sigma_mm = answers.sigma_max * 1e3
-            write(text.encode(rows.times, answers, sigma_mm))
-            tally.add(answers.reasons, sigma_mm, answers.faces)
+            marks = mark(answers.faces)
+            write(text.encode(rows.times, answers, sigma_mm, marks))
+            tally.add(answers.reasons, sigma_mm, marks)
             sample.add(rows.wrenches, answers.reasons)
             if progress is not None:
                 progress(reader.bytes_read, size)
@@ -170,7 +174,8 @@ def locate_file(
         reasons=tally.reasons,
         method=str(getattr(solver_or_method, "name", "contactbench")),
         median_sigma_max_mm=tally.median(),
-        on_invented=tally.on_invented,
+        on_invented=tally.on[INVENTED],
+        on_untouchable=tally.on[UNTOUCHABLE],
         seconds=time.perf_counter() - begin,
         warnings=(*answer.warnings(), *tally.warnings(), *(() if judged is None else judged.sentences())),
         plausibility=judged,
@@ -250,6 +255,21 @@ def _ahead(
             yield waiting[0], waiting[1].result()
 
 
+class _Marker:
+    """Tells what facets are; of an unknown surface, and of no facet, nothing."""
+
+    def __init__(self, probe: Probe | None) -> None:
+        self._nothing = len(MARKS)
+        of_facets = np.empty(0, dtype=np.uint8) if probe is None else facet_marks(probe)
+        self._known = probe is not None
+        self._of_facets = np.append(of_facets, np.uint8(self._nothing))  # -1, no facet, is the last
+
+    def __call__(self, faces: npt.NDArray[np.int32]) -> npt.NDArray[np.uint8]:
+        if not self._known:
+            return np.full(len(faces), self._nothing, dtype=np.uint8)
+        return self._of_facets[faces]
+
+
 # ---- counting ----------------------------------------------------------------------------------
 
 _MANTISSA_BITS = 12
@@ -262,10 +282,9 @@ _BINS = (int(np.float64(_LARGEST).view(np.int64)) >> _SHIFT) - _FIRST_BIN + 1
 class _Tally:
     """Counts per reason, and a histogram fine enough for a median of four digits."""
 
-    def __init__(self, invented: npt.NDArray[np.bool_] | None = None) -> None:
+    def __init__(self) -> None:
         self.reasons = dict.fromkeys(REASONS, 0)
-        self.on_invented = 0
-        self._invented = invented
+        self.on = [0] * (len(MARKS) + 1)  # the last: on no facet
         # A bin per exponent and first bits of the mantissa, 1/4096 wide: keeping all values of a large
         # file would take more memory than the solver.
         self._bins = np.zeros(_BINS, dtype=np.int64)
@@ -274,10 +293,10 @@ class _Tally:
         self,
         reasons: npt.NDArray[np.uint8],
         sigma_mm: npt.NDArray[np.float64],
-        faces: npt.NDArray[np.int32],
+        marks: npt.NDArray[np.uint8],
     ) -> None:
-        if self._invented is not None:
-            self.on_invented += int(self._invented[faces[faces >= 0]].sum())
+        for mark, count in enumerate(np.bincount(marks, minlength=len(self.on))):
+            self.on[mark] += int(count)
         for name, count in zip(REASONS, np.bincount(reasons, minlength=len(REASONS)), strict=True):
             self.reasons[name] += int(count)
         given = np.clip(sigma_mm[~np.isnan(sigma_mm)], _SMALLEST, _LARGEST)
@@ -293,13 +312,16 @@ class _Tally:
         return float(f"{value:.4g}")
 
     def warnings(self) -> tuple[str, ...]:
-        if not self.on_invented:
-            return ()
-        sentences = (
-            f"Contacts on invented facets: {self.on_invented} of {self._bins.sum()}. Where the mesh file had an"
-            " opening, the surface is a guess, and so are they."
+        sentences = {
+            INVENTED: "Contacts on invented facets: {} of {}. Where the mesh file had an opening, the surface is a"
+            " guess, and so are they.",
+            UNTOUCHABLE: "Contacts on untouchable regions: {} of {}. Nothing should be able to touch there: check the"
+            " region, then the mount and the compensation.",
+        }
+        contacts = self._bins.sum()
+        return tuple(
+            text.format(self.on[mark], contacts) for mark, text in sentences.items() if self.on[mark]
         )
-        return (sentences,)
 
 
 # ---- files -------------------------------------------------------------------------------------

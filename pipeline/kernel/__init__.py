@@ -41,6 +41,8 @@ Solver = _module.Solver
 SurfaceIndex = _module.SurfaceIndex
 Zero = _module.Zero
 ZeroWatch = _module.ZeroWatch
+collapse_edges = _module.collapse_edges
+crossings = _module.crossings
 frozen = _module.frozen
 poses_at = _module.poses_at
 
@@ -61,7 +63,9 @@ __all__ = [
     "SurfaceIndex",
     "Zero",
     "ZeroWatch",
+    "collapse_edges",
     "compiler",
+    "crossings",
     "frozen",
     "poses_at",
     "variant",

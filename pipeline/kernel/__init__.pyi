@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from enum import IntEnum
 from typing import SupportsIndex, overload
 
@@ -21,7 +22,9 @@ __all__ = [
     "SurfaceIndex",
     "Zero",
     "ZeroWatch",
+    "collapse_edges",
     "compiler",
+    "crossings",
     "frozen",
     "poses_at",
     "variant",
@@ -35,6 +38,16 @@ class FrozenDetector:
     def see(self, wrench: tuple[float, ...], chance: float) -> bool: ...
 
 def frozen(wrenches: NDArray[np.float64], chance: float) -> NDArray[np.bool_]: ...
+def collapse_edges(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    wanted: tuple[int, int],
+    second: NDArray[np.bool_],
+    progress: Callable[[float], None],
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
+def crossings(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], limit: int = 100_000
+) -> tuple[NDArray[np.int32], NDArray[np.uint8], NDArray[np.int64], bool]: ...
 def poses_at(
     moments: NDArray[np.float64],
     R: NDArray[np.float64],
@@ -397,6 +410,14 @@ class SurfaceIndex:
     def closest(
         self, points: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]: ...
+    def best_aligned(
+        self,
+        points: NDArray[np.float64],
+        directions: NDArray[np.float64],
+        radius: NDArray[np.float64],
+        normals: NDArray[np.float64],
+        enough: float = ...,
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...
     def first_hit(
         self, origins: NDArray[np.float64], directions: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.int32]]: ...

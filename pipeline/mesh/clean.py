@@ -1,4 +1,4 @@
-"""Make one connected surface of triangles that each bring their own vertices, the same way every time."""
+"""Make one connected surface of triangles that each bring their own vertices, and of those without area none."""
 
 from __future__ import annotations
 
@@ -9,8 +9,13 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from pipeline.mesh.probe import degenerate_facets
+
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+# A row of flat facets side by side takes one round for each.
+_ROUNDS = 8
 
 
 def merge_vertices(
@@ -72,3 +77,83 @@ def _used(
     used[faces] = True
     number = np.cumsum(used, dtype=np.int32) - np.int32(1)
     return vertices[used], number[faces]
+
+
+def flip_flat_facets(
+    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
+) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int64]]:
+    """
+    Divide facets where a facet without area lies on their edge, so that leaving it out opens no seam.
+
+    Where a row of facets is finer than the row beside it, some programs fill the seam with facets whose middle
+    corner lies on the opposite edge. Such a facet and its neighbour across that edge become the two facets that the
+    neighbour makes with the middle corner: the same surface, with the seam closed. Others stay as they are.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+        Indices in range.
+
+    Returns
+    -------
+    faces : (m, 3) int32
+        Rows that were flipped are changed in place of the old ones.
+    origin : (m,) int64
+        The facet given of whose surface each one is now.
+    """
+    faces, origin = faces.copy(), np.arange(len(faces))
+    for _ in range(_ROUNDS):
+        flat = np.flatnonzero(degenerate_facets(vertices, faces))
+        changed = len(flat) > 0 and _flip(vertices, faces, origin, flat)
+        if not changed:
+            break
+    return faces, origin
+
+
+def _flip(
+    vertices: npt.NDArray[np.float64],
+    faces: npt.NDArray[np.int32],
+    origin: npt.NDArray[np.int64],
+    flat: npt.NDArray[np.int64],
+) -> bool:
+    """Flip, in place, flat facets no two of which have a facet in common; tell whether any was."""
+    count = np.int64(len(vertices))
+    ends = np.roll(faces, -1, axis=1).astype(np.int64)
+    # Edge k of a facet goes from corner k to the next.
+    key = (faces * count + ends).ravel()
+    order = np.argsort(key, kind="stable")
+    ordered = key[order]
+
+    def times(wanted: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+        return np.searchsorted(ordered, wanted, "right") - np.searchsorted(ordered, wanted, "left")
+
+    corners = faces[flat].astype(np.int64)
+    sides = vertices[np.roll(corners, -1, axis=1)] - vertices[corners]
+    longest = np.argmax(np.einsum("ijk,ijk->ij", sides, sides), axis=1)
+    # The longest edge goes from b to a, with the middle corner m opposite.
+    b, a, m = (corners[np.arange(len(flat)), (longest + k) % 3] for k in range(3))
+    one = (times(b * count + a) == 1) & (times(a * count + b) == 1)
+    flat, a, b, m = flat[one], a[one], b[one], m[one]
+    beside = order[np.searchsorted(ordered, a * count + b)]
+    neighbour, at = beside // 3, beside % 3
+    c = faces[neighbour, (at + 2) % 3].astype(np.int64)
+    new = np.stack((np.column_stack((a, m, c)), np.column_stack((m, b, c))), axis=1).astype(np.int32)
+    sound = (
+        ~degenerate_facets(vertices, new.reshape(-1, 3)).reshape(-1, 2).any(axis=1)
+        if len(new)
+        else np.zeros(0, bool)
+    )
+    # An edge that is there already would get a third facet.
+    sound &= (times(m * count + c) == 0) & (times(c * count + m) == 0)
+    flat, neighbour, new = flat[sound], neighbour[sound], new[sound]
+    # One flip at a time for each facet: the first that asks.
+    asked = np.column_stack((flat, neighbour)).ravel()
+    _, first = np.unique(asked, return_index=True)
+    mine = np.zeros(len(asked), dtype=bool)
+    mine[first] = True
+    free = mine.reshape(-1, 2).all(axis=1)
+    flat, neighbour, new = flat[free], neighbour[free], new[free]
+    faces[flat], faces[neighbour] = new[:, 0], new[:, 1]
+    origin[flat] = origin[neighbour]
+    return len(flat) > 0

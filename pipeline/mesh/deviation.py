@@ -27,6 +27,9 @@ _PORTION = 1 << 16
 # A facet that looks this far away from what it stands for has been turned over, not tilted.
 _FLIPPED_DEG = 120.0
 
+# Metres: less is the rounding of distances.
+_NOTHING = 1e-9
+
 
 @dataclass(frozen=True)
 class Deviation:
@@ -62,6 +65,8 @@ class Deviation:
     @property
     def sentence(self) -> str:
         """The distances in words."""
+        if self.hausdorff < _NOTHING:
+            return "nowhere off the original"
         return (
             f"at most {1e3 * self.hausdorff:.3g} mm, {1e3 * self.rms:.2g} mm RMS, normals {self.normal_mean_deg:.2g}°"
             " off in the mean"

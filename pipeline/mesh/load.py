@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import stat
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from pipeline.mesh.clean import merge_vertices
+from pipeline.mesh.clean import flip_flat_facets, merge_vertices
 from pipeline.mesh.errors import MeshError, MeshWarning
+from pipeline.mesh.gltf import read_gltf
 from pipeline.mesh.obj import read_obj
 from pipeline.mesh.off import read_off
 from pipeline.mesh.parse import refuse_too_many
@@ -42,16 +44,17 @@ if TYPE_CHECKING:
 # The vertices of one corner differ by float32 rounding between facets, 6e-8 of the coordinate.
 _MERGE = 1e-7
 
-# A few facets without area are slivers; a larger share says that the file was exported or read wrongly.
-_DROPPABLE = 0.01
-
 _RIGID = 1e-6
 _FARTHEST_MOUNT_M = 10.0
 _LARGEST_FILE = 2**29
 
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
     ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
+    ".glb": read_gltf, ".gltf": read_gltf,
 }  # fmt: skip
+
+# Files of CAD programs, which hold curved surfaces and no triangles.
+_CAD = {".step": "STEP", ".stp": "STEP", ".p21": "STEP", ".iges": "IGES", ".igs": "IGES"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,29 +76,35 @@ class MeshFile:
     guess: UnitGuess | None
     units: Units
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was repaired while it was read, and what is doubtful about its unit, in sentences."""
+        doubt = () if self.guess is None or self.guess.certain else (self.guess.reason,)
+        return (*self.raw.notes, *doubt)
+
 
 def load_probe(
     path: str | os.PathLike[str],
-    units: Units | Literal["auto"] = "mm",
+    units: Units | Literal["auto"] = "auto",
     mount: npt.ArrayLike | None = None,
     *,
     name: str | None = None,
 ) -> Probe:
     """
-    Read a probe from an STL (binary or text), PLY, OBJ, OFF or 3MF file.
+    Read a probe from an STL (binary or text), PLY, OBJ, OFF, 3MF or glTF (GLB) file.
 
-    Vertices that coincide within 1e-7 of the size are merged, those that no facet uses are left out, and so
-    are facets without area as long as they are at most 1 % of all. A file written by `save_probe` is taken
-    as it is. Defects that remain are told in one `MeshWarning`; the same sentences are in ``probe.health``.
+    Polygons become triangles, vertices that coincide within 1e-7 of the size are merged, those that no facet uses
+    are left out, and so are facets without area. A file written by `save_probe` is taken as it is. What was
+    repaired and what defects remain is told in one `MeshWarning`; the defects are in ``probe.health`` too.
 
     Parameters
     ----------
     path : str or path
         The file; its suffix says the format.
     units : {"mm", "m", "cm", "in", "auto"}
-        What the file's numbers are. Most files do not say; most CAD programs write millimetres. "auto" guesses
-        from the size and the file's comments, and warns where that is not certain. A 3MF file states its unit,
-        which is used.
+        What the file's numbers are. Most files do not say. "auto" guesses from the size and the file's comments,
+        and warns where that is not certain: numbers that make a probe in inches and in centimetres, say. A 3MF file
+        states its unit, which must not differ; one of `save_probe` is in metres, whatever is given.
     mount : (4, 4) array_like, optional
         T_SP, the rigid transform from the mesh's frame P to the sensor frame S, translation in metres:
         p_S = T_SP @ p_P, after the units are converted. Left out, P is taken to be S.
@@ -112,8 +121,8 @@ def load_probe(
     ------
     MeshError
         The file is missing, not a complete mesh, or holds bad numbers; the size is under 5 mm or over 2 m
-        with these units, or with all of them; the file states other units than given; more than 1 % of the
-        facets have no area; the mount is not rigid. The message names the file.
+        with these units, or with all of them; the file states other units than given; no facet has an area; the
+        mount is not rigid. The message names the file.
 
     Notes
     -----
@@ -127,14 +136,13 @@ def load_probe(
         probe = settle(read, T_SP, file.stem if name is None else name)
     except MeshError as error:
         raise MeshError(f"{file}: {error}") from error
-    doubt = () if read.guess is None or read.guess.certain else (read.guess.reason,)
-    sentences = (*doubt, *probe.health.sentences)
+    sentences = (*read.notes, *probe.health.sentences)
     if sentences:
         warnings.warn(f"{file}: " + " ".join(sentences), MeshWarning, stacklevel=2)
     return probe
 
 
-def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "mm") -> MeshFile:
+def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "auto") -> MeshFile:
     """
     Read a mesh file and settle what unit its numbers are in, before anything is merged or left out.
 
@@ -160,15 +168,16 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "mm
     file = Path(path)
     try:
         raw, notes = _read(file)
-        vertices = check_vertices(raw.vertices)
-        check_faces(raw.faces, len(vertices))
+        check_faces(raw.faces, len(raw.vertices))
+        raw = _without_stray(raw)
+        check_vertices(raw.vertices)
         return _with_units(raw, notes, units)
     except MeshError as error:
         raise MeshError(f"{file}: {error}") from error
 
 
 def _with_units(raw: RawMesh, notes: bytes, units: Units | Literal["auto"]) -> MeshFile:
-    if raw.stated is not None and units not in (raw.stated, "auto", "mm"):
+    if raw.stated is not None and not raw.settled and units not in (raw.stated, "auto"):
         raise MeshError(
             f"the file states that its numbers are {NAMES[raw.stated]}, but units={units!r} was given: pass"
             f" {raw.stated!r} or 'auto'."
@@ -185,6 +194,21 @@ def _with_units(raw: RawMesh, notes: bytes, units: Units | Literal["auto"]) -> M
     return MeshFile(raw, guess, guess.units)
 
 
+def _without_stray(raw: RawMesh) -> RawMesh:
+    """Put points that are nowhere and that no facet uses, as scanners leave them, onto one that is used."""
+    stray: npt.NDArray[np.bool_] = ~np.all(np.isfinite(raw.vertices), axis=1)
+    if raw.settled or not stray.any():
+        return raw
+    stray[raw.faces] = False
+    if not stray.any():
+        return raw
+    vertices = raw.vertices.copy()
+    vertices[stray] = vertices[raw.faces[0, 0]]
+    count = np.count_nonzero(stray)
+    note = f"Points that are not numbers and that no facet uses were left out (points: {count})."
+    return replace(raw, vertices=vertices, notes=(*raw.notes, note))
+
+
 def _read(file: Path) -> tuple[RawMesh, bytes]:
     try:
         status = file.stat()
@@ -195,7 +219,7 @@ def _read(file: Path) -> tuple[RawMesh, bytes]:
     _check_file(status.st_mode, status.st_size)
     suffix = file.suffix.lower()
     reader = _READERS.get(suffix)
-    if reader is None:
+    if reader is None and suffix not in _CAD:
         raise MeshError(
             f"the suffix {file.suffix!r} is not one of {', '.join(_READERS)}: export the part as one of them."
         )
@@ -203,9 +227,23 @@ def _read(file: Path) -> tuple[RawMesh, bytes]:
         data = file.read_bytes()
     except OSError as error:
         raise MeshError(f"the file cannot be read ({error}): check its permissions.") from error
+    cad = _cad_format(data) or _CAD.get(suffix)
+    if cad or reader is None:
+        raise MeshError(
+            f"this is a {cad} file: it holds the curved surfaces of a CAD program and no triangles. Open it in a CAD"
+            " program and export the part as 3MF, or as STL in millimetres, with a tolerance of 0.01 mm."
+        )
     raw = reader(data)
     refuse_too_many(len(raw.faces))
     return raw, notes_in(data, suffix)
+
+
+def _cad_format(data: bytes) -> str | None:
+    """Tell a CAD file by how it begins, whatever its suffix."""
+    if data[:64].lstrip().startswith(b"ISO-10303-21"):
+        return "STEP"
+    # Column 73 of an IGES line names its section, the first of which is S, and then it is numbered.
+    return "IGES" if re.fullmatch(rb"[ -~]{72}S {0,6}0*1", data[:80]) else None
 
 
 def _check_file(mode: int, size: int) -> None:
@@ -266,7 +304,7 @@ def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> P
     Raises
     ------
     MeshError
-        The size is that of no probe, or more than 1 % of the facets have no area.
+        The size is that of no probe, or no facet has an area.
     """
     raw = read.raw
     vertices = check_vertices(raw.vertices)
@@ -278,24 +316,21 @@ def settle(read: MeshFile, T_SP: npt.NDArray[np.float64] | None, name: str) -> P
     vertices = vertices * numerator / denominator
     if not raw.settled:
         vertices, faces = merge_vertices(vertices, faces, _MERGE * extent(vertices, faces))
+    dropped = int(np.count_nonzero(degenerate_facets(vertices, faces)))
+    if dropped and not raw.settled:
+        faces, origin = flip_flat_facets(vertices, faces)
+        region, invented = region[origin], invented[origin]
     moved = vertices if T_SP is None else vertices @ T_SP[:3, :3].T + T_SP[:3, 3]
     # Moving rounds: a facet that is flat in the file may not be flat after it, and the other way round.
     flat = degenerate_facets(vertices, faces)
     if T_SP is not None:
         flat |= degenerate_facets(moved, faces)
-    dropped = int(np.count_nonzero(flat))
-    _refuse_many(dropped, len(faces))
-    if dropped:
+    dropped = max(dropped, int(np.count_nonzero(flat)))
+    if flat.all():
+        raise MeshError(f"none of the {len(faces)} facets has an area: export the part again, as a surface.")
+    if flat.any():
         faces, region, invented = faces[~flat], region[~flat], invented[~flat]
     return build_probe(np.ascontiguousarray(moved), faces, region, name, dropped, invented, raw.untouchable)
-
-
-def _refuse_many(dropped: int, total: int) -> None:
-    if dropped > _DROPPABLE * total:
-        raise MeshError(
-            f"{dropped} of {total} facets have no area, more than 1 %: the export is too coarse or damaged."
-            " Export the part again with a finer tolerance."
-        )
 
 
 def _check_units(size: float, units: Units) -> None:

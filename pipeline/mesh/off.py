@@ -8,22 +8,25 @@ from array import array
 from typing import TYPE_CHECKING
 
 from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, Triangles, points, refuse_too_many
+from pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points, refuse_too_many
+from pipeline.mesh.polygons import Polygons
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-# Texture, colour and normal columns follow x y z, so they can be left alone. 4OFF and nOFF have other vertices.
-_KEYWORD = re.compile(rb"(?:ST)?C?N?OFF")
+# Texture, colour and normal columns follow x y z, so they can be left alone. 4OFF and nOFF have other vertices. Some
+# files forget the blank between the keyword and the counts.
+_KEYWORD = re.compile(rb"(?:ST|C|N){0,3}OFF(?=\s|\d|\Z)", re.I)
 _THREE = re.compile(rb"(" + NUMBER + rb")" + (rb"\s+(" + NUMBER + rb")") * 2 + rb"(?!\S)")
 _COUNT = re.compile(rb"\d{1,18}")
+_NUMBERS = re.compile(rb"^[^\n#]+", re.M)
 
 
 def read_off(data: bytes) -> RawMesh:
     """
-    Read the content of a text OFF file; polygons become fans of triangles.
+    Read the content of a text OFF file; polygons become triangles.
 
-    Colours, normals, texture coordinates and comments are not looked at.
+    Colours, normals, texture coordinates, comments and what follows the last facet are not looked at.
 
     Parameters
     ----------
@@ -38,16 +41,17 @@ def read_off(data: bytes) -> RawMesh:
     Raises
     ------
     MeshError
-        Not a text OFF file, fewer or more rows than it announces, no facets, or a facet that refers to a
+        Not a text OFF file, fewer rows or more facets than it announces, no facets, or a facet that refers to a
         vertex that does not exist.
     """
-    rows = _rows(data)
+    text, notes = decimal_points(plain_text(data), _NUMBERS)
+    rows = _rows(text)
     vertex_count, facet_count = _head(rows)
     refuse_too_many(facet_count)
     # A row takes two bytes at least: an absurd count is refused before anything is made of it.
     if 2 * (vertex_count + facet_count) > len(data):
         raise _too_short(vertex_count, facet_count)
-    coordinates, triangles = array("d"), Triangles("OFF")
+    coordinates, polygons = array("d"), Polygons("OFF")
     for _ in range(vertex_count):
         number, row = next(rows, (0, b""))
         match = _THREE.match(row)
@@ -58,15 +62,23 @@ def read_off(data: bytes) -> RawMesh:
         number, row = next(rows, (0, b""))
         polygon = _polygon(row)
         if polygon is None:
-            raise _bad_row(number, "a facet of three or more vertices", vertex_count, facet_count)
-        triangles.add(polygon, number)
-    _refuse_rest(rows)
-    return RawMesh(points(coordinates), triangles.finish(vertex_count))
+            raise _bad_row(number, "a facet that lists its vertices", vertex_count, facet_count)
+        polygons.add(polygon, number)
+    number, row = next(rows, (0, b""))
+    if _polygon(row):
+        raise MeshError(
+            f"line {number} of the OFF text is a facet beyond those that its header announces: it is damaged,"
+            " export it again."
+        )
+    if number:
+        notes += (f"What follows the last facet of the OFF text, from line {number}, was left out.",)
+    vertices = points(coordinates)
+    done = polygons.finish(vertices)
+    return RawMesh(vertices, done.faces, notes=notes + done.notes)
 
 
-def _rows(data: bytes) -> Iterator[tuple[int, bytes]]:
+def _rows(text: bytes) -> Iterator[tuple[int, bytes]]:
     """Lines that hold something besides a comment, with their numbers."""
-    text = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     for number, raw in enumerate(io.BytesIO(text), start=1):
         row = raw.partition(b"#")[0].strip()
         if row:
@@ -76,10 +88,16 @@ def _rows(data: bytes) -> Iterator[tuple[int, bytes]]:
 def _head(rows: Iterator[tuple[int, bytes]]) -> tuple[int, int]:
     """Read the numbers of vertices and facets; they may follow the keyword on its line."""
     _, first = next(rows, (0, b""))
-    keyword, *counts = first.split(maxsplit=4) or [b""]
-    if _KEYWORD.fullmatch(keyword) is None or counts[:1] == [b"BINARY"]:
+    keyword = _KEYWORD.match(first)
+    if keyword is None:
         raise MeshError(
-            "the first line is not 'OFF': this is not a text OFF file, choose another or export it again."
+            "the first line is not 'OFF': this is not a text OFF file of points in space, choose another or export"
+            " it again."
+        )
+    counts = first[keyword.end() :].split(maxsplit=4)
+    if counts[:1] == [b"BINARY"]:
+        raise MeshError(
+            "this is a binary OFF file, and only text is read: save it as text, or as binary PLY."
         )
     if not counts:
         counts = next(rows, (0, b""))[1].split(maxsplit=4)
@@ -96,18 +114,9 @@ def _polygon(row: bytes) -> list[int] | None:
         return None
     size = int(tokens[0])
     corners = tokens[1 : 1 + size]
-    if size < 3 or len(corners) != size or not all(_COUNT.fullmatch(corner) for corner in corners):
+    if len(corners) != size or not all(_COUNT.fullmatch(corner) for corner in corners):
         return None
     return [int(corner) for corner in corners]
-
-
-def _refuse_rest(rows: Iterator[tuple[int, bytes]]) -> None:
-    rest = next(rows, None)
-    if rest is not None:
-        raise MeshError(
-            f"line {rest[0]} of the OFF text follows the last facet that its header announces: it is damaged,"
-            " export it again."
-        )
 
 
 def _bad_row(number: int, what: str, vertex_count: int, facet_count: int) -> MeshError:

@@ -1,5 +1,5 @@
 """
-What the readers share: the bare mesh that every format ends as, numbers in text, polygons, and the limits.
+What the readers share: the bare mesh that every format ends as, text and the numbers in it, and the limits.
 
 A reader checks the structure of the bytes before it takes numbers from them, and holds no more than a small
 multiple of the file in memory: numbers go to compact arrays as they are read, and counting stops at a limit.
@@ -7,7 +7,8 @@ multiple of the file in memory: numbers go to compact arrays as they are read, a
 
 from __future__ import annotations
 
-from array import array
+import codecs
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ import numpy as np
 from pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from array import array
 
     import numpy.typing as npt
 
@@ -28,6 +29,10 @@ LARGEST_FACETS = 4_000_000
 
 # No two parts can match the same text, so that a megabyte of digits or spaces costs no more than a megabyte.
 NUMBER = rb"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|(?i:nan|inf(?:inity)?))"
+
+_COMMA_NUMBER = re.compile(rb"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+# One thousand two hundred, or 1.2 with three decimals: nobody can tell.
+_THOUSANDS = re.compile(rb"[+-]?[1-9]\d{0,2},\d{3}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +53,11 @@ class RawMesh:
     invented : (m,) int64 or None
         1 for facets that the original did not hold, where the file says so.
     stated : {"mm", "m", "cm", "in"} or None
-        The unit of the numbers, of a format that must state it.
+        The unit of the numbers, where the file must state it.
     untouchable : tuple of int
         Regions that nothing can touch, where the file says so.
+    notes : tuple of str
+        What was repaired or left out while it was read, in sentences.
     """
 
     vertices: npt.NDArray[np.float64]
@@ -60,65 +67,49 @@ class RawMesh:
     invented: npt.NDArray[np.int64] | None = None
     stated: Units | None = None
     untouchable: tuple[int, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
-class Triangles:
+def plain_text(data: bytes) -> bytes:
+    """Give a text in bytes that begin with ASCII, without a byte order mark, its lines ended by a line feed."""
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        data = data.decode("utf-16", errors="replace").encode()
+    data = data.removeprefix(codecs.BOM_UTF8)
+    return data.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in data else data
+
+
+def decimal_points(text: bytes, row: re.Pattern[bytes]) -> tuple[bytes, tuple[str, ...]]:
     """
-    The polygons of a text, as fans of triangles, each with the line it stands on.
+    Turn decimal commas into points, where every comma can be nothing else.
 
     Parameters
     ----------
-    kind : str
-        The format's name, for messages.
+    text : bytes
+    row : re.Pattern
+        Matches what holds numbers between blanks.
+
+    Returns
+    -------
+    text : bytes
+        As it was, where a number has a point, or a comma that may set thousands apart.
+    notes : tuple of str
+        A sentence where commas were turned.
     """
-
-    def __init__(self, kind: str) -> None:
-        self._kind = kind
-        self._corners = array("q")
-        self._lines = array("q")
-
-    def add(self, polygon: Sequence[int], line: int) -> None:
-        """
-        Add one polygon of three or more vertices, counted from 0.
-
-        Raises
-        ------
-        MeshError
-            There are too many facets now.
-        """
-        self._corners.extend(fan(polygon))
-        self._lines.extend([line] * (len(polygon) - 2))
-        refuse_too_many(len(self._lines))
-
-    def finish(self, vertex_count: int) -> npt.NDArray[np.int64]:
-        """
-        Give the (m, 3) triangles, all of whose vertices are there.
-
-        Raises
-        ------
-        MeshError
-            No facets, or one refers to a vertex that the file does not have; the message names its line.
-        """
-        if not self._lines:
-            raise MeshError(
-                f"the {self._kind} text holds no facets: export the part again, as a surface of triangles."
-            )
-        triangles = np.frombuffer(self._corners, dtype=np.int64).reshape(-1, 3)
-        missing = ((triangles < 0) | (triangles >= vertex_count)).any(axis=1)
-        if missing.any():
-            raise MeshError(
-                f"line {self._lines[int(np.argmax(missing))]} of the {self._kind} text is a facet that refers"
-                f" to a vertex that is not there (the file has {vertex_count}): it is damaged or cut short,"
-                " export it again."
-            )
-        return triangles
-
-
-def fan(polygon: Sequence[int]) -> list[int]:
-    """Split a polygon of three or more vertices into triangles about its first, three numbers for each."""
-    flat = [polygon[0]] * (3 * (len(polygon) - 2))
-    flat[1::3], flat[2::3] = polygon[1:-1], polygon[2:]
-    return flat
+    if b"," not in text:
+        return text, ()
+    certain = False
+    for found in row.finditer(text):
+        for token in found.group().split():
+            if b"," in token:
+                if _COMMA_NUMBER.fullmatch(token) is None:
+                    return text, ()
+                certain = certain or _THOUSANDS.fullmatch(token) is None
+            elif b"." in token:
+                return text, ()
+    if not certain:
+        return text, ()
+    note = "The file's numbers have decimal commas, which were read as decimal points."
+    return row.sub(lambda found: found.group().replace(b",", b"."), text), (note,)
 
 
 def points(coordinates: array[float]) -> npt.NDArray[np.float64]:

@@ -7,7 +7,6 @@ refused before anything is allocated for it.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,14 +16,12 @@ from pipeline.mesh.ply_body import read_binary, read_text
 from pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, read_header
 
 if TYPE_CHECKING:
-    import os
-
     import numpy.typing as npt
 
 
 def read_ply(data: bytes) -> RawMesh:
     """
-    Read the content of a PLY file; polygons become fans of triangles that share their polygon's region.
+    Read the content of a PLY file; polygons become triangles that share their polygon's region.
 
     Parameters
     ----------
@@ -49,7 +46,9 @@ def read_ply(data: bytes) -> RawMesh:
         body.labels.get("region"),
         settled=header.settled,
         invented=body.labels.get("invented"),
+        stated="m" if header.settled else None,
         untouchable=header.untouchable,
+        notes=body.notes,
     )
 
 
@@ -96,13 +95,3 @@ def encode_ply(
         "property uchar invented\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
     )
     return header.encode("ascii") + vertices.astype("<f8").tobytes() + rows.tobytes()
-
-
-def written_by_contactbench(path: str | os.PathLike[str]) -> bool:
-    """Tell whether a file begins like those of `save_probe`; False also for one that cannot be read."""
-    start = f"ply\nformat binary_little_endian 1.0\ncomment {SETTLED}\n".encode("ascii")
-    try:
-        with Path(path).open("rb") as stream:
-            return stream.read(len(start)) == start
-    except (OSError, ValueError):  # ValueError: a path that no file system can hold
-        return False

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+import struct
 from array import array
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -11,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, fan, points, refuse_too_many
-from pipeline.mesh.ply_header import INDICES, INTEGERS, KINDS
+from pipeline.mesh.parse import NUMBER, decimal_points, plain_text, points, refuse_too_many
+from pipeline.mesh.ply_header import INDICES, INTEGERS, KINDS, STRIPS
+from pipeline.mesh.polygons import strip_triangles, triangulate
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -26,6 +28,7 @@ LABELS = ("region", "invented")
 
 _ONE_NUMBER = re.compile(NUMBER)
 _ONE_INTEGER = re.compile(rb"[+-]?\d{1,18}")
+_ROW = re.compile(rb"^[^\n]+", re.M)
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,19 +40,56 @@ class Body:
     ----------
     vertices : (n, 3) float64
     faces : (m, 3) int64
-        Polygons as fans of triangles; indices may be out of range.
+        Polygons as triangles; indices may be out of range.
     labels : dict of (m,) int64
         For each of `LABELS` that the file has.
+    notes : tuple of str
+        What was repaired or left out, in sentences.
     """
 
     vertices: npt.NDArray[np.float64]
     faces: npt.NDArray[np.int64]
     labels: dict[str, npt.NDArray[np.int64]]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Lists:
+    """The lists of a property, one after another, and how long each is."""
+
+    values: npt.NDArray[np.int64]
+    sizes: npt.NDArray[np.int64]
+
+
+def _body(
+    vertices: npt.NDArray[np.float64],
+    facets: _Lists,
+    labels: dict[str, npt.NDArray[np.int64]],
+    strips: bool,
+    notes: tuple[str, ...],
+) -> Body:
+    if strips:
+        return Body(vertices, _from_strips(facets), {}, notes)
+    refuse_too_many(int(np.maximum(facets.sizes - 2, 0).sum()))
+    done = triangulate(vertices, facets.values, facets.sizes)
+    labels = {name: values[done.polygon] for name, values in labels.items()}
+    return Body(vertices, done.faces, labels, notes + done.notes)
+
+
+def _from_strips(lists: _Lists) -> npt.NDArray[np.int64]:
+    refuse_too_many(len(lists.values))
+    # A list may hold several strips, with -1 between them.
+    among = lists.values >= 0
+    strip = np.repeat(np.arange(len(lists.sizes)), lists.sizes) + np.cumsum(~among)
+    return strip_triangles(lists.values[among], strip[among])
+
+
+# ---- binary ------------------------------------------------------------------------------------------
 
 
 def read_binary(header: Header, data: bytes) -> Body:
     """
-    Read a binary body; every list of a property must be as long as its first.
+    Read a binary body.
 
     Parameters
     ----------
@@ -61,33 +101,129 @@ def read_binary(header: Header, data: bytes) -> Body:
     Raises
     ------
     MeshError
-        Fewer bytes than announced, lists of several lengths, or facets of fewer than three vertices.
+        Fewer bytes than announced, or lists that the file cannot hold.
     """
     _refuse_short(header, len(data))
-    blocks, at = {}, header.length
+    blocks: dict[str, Mapping[str, Any]] = {}
+    at = header.length
     for element in header.elements:
-        dtype = _row_type(header, element, data, at)
-        needed = at + element.count * dtype.itemsize
-        if needed > len(data):
-            raise _short(header, needed - header.length, len(data))
-        block = np.frombuffer(data, dtype, element.count, at)
-        _refuse_mixed(element, block)
-        if element.name in ("vertex", "face"):
-            blocks[element.name] = block
-        at = needed
-    vertex, face = blocks["vertex"], blocks["face"]
-    corners = face[INDICES]
-    if corners.shape[1] < 3:
-        raise MeshError(
-            "the PLY file holds facets with fewer than three vertices: export it with triangles only."
-        )
-    fans = corners.shape[1] - 2
-    refuse_too_many(fans * len(face))
+        blocks[element.name], at = _read_element(header, element, data, at)
+    vertex, strips = blocks["vertex"], "face" not in blocks
     with np.errstate(invalid="ignore"):  # a signalling NaN; it is refused with its row later
         vertices = np.column_stack([vertex[axis].astype(np.float64) for axis in "xyz"])
-    names = face.dtype.names or ()
-    labels = {name: np.repeat(face[name].astype(np.int64), fans) for name in LABELS if name in names}
-    return Body(vertices, _fan(corners), labels)
+    facets = blocks[STRIPS if strips else "face"]
+    labels = {name: facets[name].astype(np.int64) for name in LABELS if name in facets}
+    left = len(data) - at
+    notes = () if not left else (f"Bytes after the last row of the PLY file were left out (bytes: {left}).",)
+    return _body(vertices, facets[INDICES], labels, strips, notes)
+
+
+def _read_element(
+    header: Header, element: Element, data: bytes, at: int
+) -> tuple[Mapping[str, npt.NDArray[Any] | _Lists], int]:
+    """Read the rows that begin at a byte: what each property of use holds, and where they end."""
+    dtype = _row_type(header, element, data, at)
+    end = at + element.count * dtype.itemsize
+    if end <= len(data):
+        block = np.frombuffer(data, dtype, element.count, at)
+        if all(
+            np.all(block[f"{p.name} count"] == dtype[p.name].shape[0])
+            for p in element.properties
+            if p.count_kind
+        ):
+            return _even(element, block), end
+    elif not any(prop.count_kind for prop in element.properties):
+        raise _short(header, end - header.length, len(data))
+    return _uneven(header, element, data, at)
+
+
+def _even(element: Element, block: npt.NDArray[Any]) -> dict[str, npt.NDArray[Any] | _Lists]:
+    found: dict[str, npt.NDArray[Any] | _Lists] = {}
+    for prop in element.properties:
+        if prop.count_kind is None:
+            found[prop.name] = block[prop.name]
+        elif prop.name == INDICES:
+            size = block[prop.name].shape[1]
+            found[prop.name] = _Lists(block[prop.name].astype(np.int64).ravel(), np.full(len(block), size))
+    return found
+
+
+def _uneven(
+    header: Header, element: Element, data: bytes, at: int
+) -> tuple[dict[str, npt.NDArray[Any] | _Lists], int]:
+    """Read rows whose lists differ in length, so that each row tells where the next begins."""
+    # A row is pieces of a fixed length with lists between them: where each piece begins, and how long each list is.
+    steps: list[tuple[int, struct.Struct, int]] = []
+    places: dict[str, tuple[int, int, str]] = {}
+    offset = 0
+    for prop in element.properties:
+        kind = header.order + KINDS[prop.kind]
+        if prop.count_kind is None:
+            places[prop.name] = (len(steps), offset, kind)
+            offset += np.dtype(kind).itemsize
+            continue
+        places[prop.name] = (len(steps), -1, kind)
+        count = struct.Struct(header.order + np.dtype(KINDS[prop.count_kind]).char)
+        steps.append((offset, count, np.dtype(kind).itemsize))
+        offset = 0
+    begins, sizes, end = _walk(header, element, data, at, steps, offset)
+    content = np.frombuffer(data, np.uint8)
+    found: dict[str, npt.NDArray[Any] | _Lists] = {}
+    for name, (piece, offset, kind) in places.items():
+        if offset >= 0 and name in (*LABELS, *"xyz"):
+            found[name] = _gather(content, begins[:, piece] + offset, kind)
+        elif offset < 0 and name == INDICES:
+            # The list ends where the next piece begins.
+            lengths = sizes[:, piece]
+            width = np.dtype(kind).itemsize
+            starts = np.repeat(begins[:, piece + 1] - width * lengths, lengths)
+            within = np.arange(len(starts)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+            values = _gather(content, starts + width * within, kind)
+            found[name] = _Lists(values.astype(np.int64), lengths)
+    return found, end
+
+
+def _walk(
+    header: Header,
+    element: Element,
+    data: bytes,
+    at: int,
+    steps: list[tuple[int, struct.Struct, int]],
+    last: int,
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], int]:
+    begins, sizes = array("q"), array("q")
+    total = 0
+    for _ in range(element.count):
+        for before, count, width in steps:
+            begins.append(at)
+            at += before
+            if at + count.size > len(data):
+                raise _short(header, at + count.size - header.length, len(data))
+            (size,) = count.unpack_from(data, at)
+            at += count.size + size * width
+            if size < 0 or at > len(data):
+                raise _absurd(element, size)
+            sizes.append(size)
+            total += size
+        begins.append(at)
+        at += last
+    if at > len(data):
+        raise _short(header, at - header.length, len(data))
+    refuse_too_many(
+        total // 4
+    )  # of corners, so that the memory they take is bounded before they are looked at
+    lists = len(steps)
+    return (
+        np.frombuffer(begins, np.int64).reshape(-1, lists + 1),
+        np.frombuffer(sizes, np.int64).reshape(-1, lists),
+        at,
+    )
+
+
+def _gather(content: npt.NDArray[np.uint8], places: npt.NDArray[np.int64], kind: str) -> npt.NDArray[Any]:
+    dtype = np.dtype(kind)
+    values: npt.NDArray[Any] = content[places[:, None] + np.arange(dtype.itemsize)].view(dtype)
+    return values.ravel()
 
 
 def _refuse_short(header: Header, size: int) -> None:
@@ -100,6 +236,13 @@ def _short(header: Header, needed: int, size: int) -> MeshError:
     return MeshError(
         f"the PLY header announces {header.contents}, at least {needed} bytes, but {size - header.length}"
         " follow: the file is cut short, copy or export it again."
+    )
+
+
+def _absurd(element: Element, length: int) -> MeshError:
+    return MeshError(
+        f"a list of the PLY element '{element.name}' announces {length} numbers, which the file does not hold: it is"
+        " damaged or cut short, copy or export it again."
     )
 
 
@@ -120,32 +263,17 @@ def _row_type(header: Header, element: Element, data: bytes, at: int) -> np.dtyp
         begin += count.itemsize + length * kind.itemsize
         # Refused before a type is made of it: those have limits of their own.
         if length < 0 or begin > len(data):
-            raise MeshError(
-                f"a list of the PLY element '{element.name}' announces {length} numbers, which the file does not"
-                " hold: it is damaged or cut short, export it again with triangles only."
-            )
+            raise _absurd(element, length)
         fields += [(f"{prop.name} count", count.str), (prop.name, kind.str, (length,))]
     return np.dtype(fields)
 
 
-def _refuse_mixed(element: Element, block: npt.NDArray[Any]) -> None:
-    for prop in element.properties:
-        if prop.count_kind and np.any(block[f"{prop.name} count"] != block[f"{prop.name} count"][0]):
-            raise MeshError(
-                "the PLY facets have different numbers of vertices, or the file is damaged: export it"
-                " with triangles only."
-            )
-
-
-def _fan(polygons: npt.NDArray[np.integer[Any]]) -> npt.NDArray[np.int64]:
-    fans = np.empty((len(polygons), polygons.shape[1] - 2, 3), dtype=np.int64)
-    fans[:, :, 0], fans[:, :, 1], fans[:, :, 2] = polygons[:, :1], polygons[:, 1:-1], polygons[:, 2:]
-    return fans.reshape(-1, 3)
+# ---- text --------------------------------------------------------------------------------------------
 
 
 def read_text(header: Header, data: bytes) -> Body:
     """
-    Read a text body; polygons may be of any length.
+    Read a text body.
 
     Parameters
     ----------
@@ -157,38 +285,45 @@ def read_text(header: Header, data: bytes) -> Body:
     Raises
     ------
     MeshError
-        More or fewer rows than announced, or a row that does not hold the numbers it should.
+        Fewer rows than announced, or a row that does not hold the numbers it should.
     """
-    body = data[header.length :]
-    rows = sum(1 for _ in _rows(body))
-    if rows != sum(element.count for element in header.elements):
+    body, notes = decimal_points(plain_text(data[header.length :]), _ROW)
+    rows, announced = sum(1 for _ in _rows(body)), sum(element.count for element in header.elements)
+    if rows < announced:
         raise MeshError(
             f"the PLY header announces {header.contents}, but {rows} rows follow it: the file is cut short or"
             " damaged, copy or export it again."
         )
-    coordinates, corners = array("d"), array("q")
+    if rows > announced:
+        notes += (
+            f"Rows after the last that the PLY header announces were left out (rows: {rows - announced}).",
+        )
+    strips = all(element.name != "face" for element in header.elements)
+    coordinates, corners, sizes = array("d"), array("q"), array("q")
     labels = {name: array("q") for name in LABELS}
     stream = _rows(body)
+    facets = 0
     for element in header.elements:
         fields_of = _RowReader(element)
         for number, row in zip(range(element.count), stream, strict=False):
             if element.name == "vertex":
                 fields = fields_of(row, number)
                 coordinates.extend((float(fields["x"][0]), float(fields["y"][0]), float(fields["z"][0])))
-            elif element.name == "face":
+            elif element.name == (STRIPS if strips else "face"):
                 fields = fields_of(row, number)
-                triangles = _triangles(fields[INDICES], number)
-                corners.extend(triangles)
+                corners.extend(map(int, fields[INDICES]))
+                sizes.append(len(fields[INDICES]))
                 for name in LABELS:
-                    labels[name].extend([int(v) for v in fields.get(name, ())] * (len(triangles) // 3))
-                refuse_too_many(len(corners) // 3)
+                    labels[name].extend(map(int, fields.get(name, ())))
+                facets += max(len(fields[INDICES]) - 2, 0)
+                refuse_too_many(facets)
     present = {name: np.frombuffer(values, np.int64) for name, values in labels.items() if values}
-    return Body(points(coordinates), np.frombuffer(corners, np.int64).reshape(-1, 3), present)
+    lists = _Lists(np.frombuffer(corners, np.int64), np.frombuffer(sizes, np.int64))
+    return _body(points(coordinates), lists, present, strips, notes)
 
 
 def _rows(body: bytes) -> Iterator[bytes]:
-    text = body.replace(b"\r\n", b"\n").replace(b"\r", b"\n") if b"\r" in body else body
-    return (row for row in io.BytesIO(text) if not row.isspace())
+    return (row for row in io.BytesIO(body) if not row.isspace())
 
 
 class _RowReader:
@@ -239,16 +374,6 @@ def _fields(element: Element, row: list[bytes], number: int) -> dict[str, Sequen
     if position != len(row):
         raise _bad_row(element, number)
     return fields
-
-
-def _triangles(polygon: Sequence[bytes], number: int) -> list[int]:
-    """Corners of the fan, three for each triangle."""
-    if len(polygon) < 3:
-        raise MeshError(
-            f"row {number} of the PLY element 'face' has fewer than three vertices: export it with triangles"
-            " only."
-        )
-    return fan([int(corner) for corner in polygon])
 
 
 def _bad_row(element: Element, number: int) -> MeshError:

@@ -15,6 +15,9 @@ UNTOUCHABLE = "untouchable regions"
 
 INDICES = "vertex_indices"
 
+# Strips of triangles, each ended by -1, take the place of the facets in files of some scanners.
+STRIPS = "tristrips"
+
 INTEGERS = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
     "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "int64": "i8", "uint64": "u8",
@@ -23,7 +26,7 @@ KINDS = INTEGERS | {"float16": "f2", "float": "f4", "float32": "f4", "double": "
 
 ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
-_END = re.compile(rb"^end_header[ \t]*\r?\n", re.M)
+_END = re.compile(rb"(?<=[\r\n])end_header[ \t]*(?:\r\n|\r|\n)")
 # Real headers take a few hundred bytes; one of megabytes is no header.
 _LONGEST = 2**16
 
@@ -111,14 +114,14 @@ def read_header(data: bytes) -> Header:
     MeshError
         Not a PLY header, or one without vertices or facets, or with properties of an unsuitable type.
     """
-    if not re.match(rb"ply[ \t]*\r?\n", data):
+    if not re.match(rb"ply[ \t]*[\r\n]", data):
         raise MeshError(
             "the first line is not 'ply': this is not a PLY file, choose another or export it again."
         )
     end = _END.search(data, 0, _LONGEST)
     if end is None:
         raise MeshError("the PLY header has no 'end_header' line: the file is cut short, export it again.")
-    lines = data[: end.start()].decode("latin-1").split("\n")[1:]
+    lines = re.split(r"\r\n|\r|\n", data[: end.start()].decode("latin-1"))[1:]
     order, settled = None, False
     untouchable: set[int] = set()
     elements: list[tuple[str, int, list[Property]]] = []
@@ -155,7 +158,7 @@ def _are_ranks(words: list[str]) -> bool:
 def _property(words: list[str], element: str) -> Property | None:
     match words:
         case ["list", count_kind, kind, name] if count_kind in INTEGERS and kind in KINDS:
-            same = element == "face" and name in (INDICES, "vertex_index")
+            same = element in ("face", STRIPS) and name in (INDICES, "vertex_index")
             return Property(INDICES if same else name, kind, count_kind)
         case [kind, name] if kind in KINDS:
             return Property(name, kind)
@@ -180,7 +183,7 @@ def _check(elements: tuple[Element, ...]) -> None:
             raise MeshError(
                 f"the PLY file holds no vertices with a number '{axis}': export it again as a mesh."
             )
-    facets = found.get("face", {})
+    facets = found.get("face") or found.get(STRIPS, {})
     corners = facets.get(INDICES) or facets.get("vertex_index")
     if corners is None:
         raise MeshError("the PLY file holds no facets (a point cloud?): export it again as a surface.")

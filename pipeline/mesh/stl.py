@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, points, refuse_too_many
+from pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points, refuse_too_many
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -19,13 +19,16 @@ _HEADER, _RECORD = 84, 50
 # Normal and attribute bytes are left alone: the corners alone say what the facet is.
 _FACET_RECORD = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
-_VERTEX = rb"vertex" + (rb"[ \t]+(" + NUMBER + rb")") * 3 + rb"[ \t]*\n\s*"
+_VERTEX = rb"\s+vertex" + (rb"\s+(" + NUMBER + rb")") * 3
+# The normal may be anything, or not there; usually the line ends after it.
 _FACET = re.compile(
-    rb"facet\b[^\n]*\n\s*outer[ \t]+loop[ \t]*\n\s*" + _VERTEX * 3 + rb"endloop[ \t]*\n\s*endfacet\b", re.I
+    rb"facet\b(?:[^\n]*\n|(?:\s+[^\s]+){0,4}?\s)\s*outer\s+loop" + _VERTEX * 3 + rb"\s+endloop\s+endfacet\b",
+    re.I,
 )
-_SOLID = re.compile(rb"^[ \t]*solid\b", re.I | re.M)
-_ENDSOLID = re.compile(rb"^[ \t]*endsolid\b", re.I | re.M)
-_FACET_KEYWORD = re.compile(rb"(?<=\n)(?:[ \t]*)(facet)\b", re.I)
+# A name may be any words, so its line is left out, unless the first facet stands on it too.
+_NAME = re.compile(rb"^[ \t]*(end)?solid\b(?![^\n]*\bouter[ \t]+loop\b)[^\n]*", re.I | re.M)
+_KEYWORD = re.compile(rb"\bfacet\b", re.I)
+_NUMBERS = re.compile(rb"(?<=vertex)\b[^\n]*", re.I)
 
 
 def read_stl(data: bytes) -> RawMesh:
@@ -48,24 +51,34 @@ def read_stl(data: bytes) -> RawMesh:
         Neither a complete binary nor a complete text STL.
     """
     # Many binary files begin with "solid" too, so the size decides before the word does.
-    if len(data) >= _HEADER:
-        announced = int.from_bytes(data[80:_HEADER], "little")
-        if len(data) == _HEADER + _RECORD * announced:
-            return _read_binary(data, announced)
-    if data.lstrip()[:5].lower() == b"solid" and b"\0" not in data:
-        return _read_text(data)
+    announced = int.from_bytes(data[80:_HEADER], "little") if len(data) >= _HEADER else 0
+    end = _HEADER + _RECORD * announced
+    if len(data) == end:
+        return _read_binary(data, announced)
+    text = plain_text(data)
+    # Some programs fill the last block of a text with zeros.
+    text = text.rstrip(b"\0\x1a \t\n") + b"\n"
+    if text.lstrip()[:5].lower() == b"solid" and b"\0" not in text:
+        return _read_text(text)
+    whole, extra = divmod(len(data) - _HEADER, _RECORD)
+    if announced == 0 and whole > 0 and extra == 0:
+        note = f"The STL header announces no facets; the file has room for {whole}, which were read."
+        return _read_binary(data, whole, (note,))
+    if announced > 0 and end < len(data):
+        note = f"Bytes after the last facet of the STL file were left out (bytes: {len(data) - end})."
+        return _read_binary(data, announced, (note,))
     raise _broken_binary(data)
 
 
-def _read_binary(data: bytes, facet_count: int) -> RawMesh:
+def _read_binary(data: bytes, facet_count: int, notes: tuple[str, ...] = ()) -> RawMesh:
     if facet_count == 0:
         raise MeshError("the STL file holds no facets: export the part again.")
     refuse_too_many(facet_count)
-    corners = np.frombuffer(data, dtype=_FACET_RECORD, offset=_HEADER)["corners"]
+    corners = np.frombuffer(data, _FACET_RECORD, facet_count, _HEADER)["corners"]
     # A signalling NaN warns when it is converted; it is refused, with its row, like every other NaN.
     with np.errstate(invalid="ignore"):
         vertices = corners.reshape(-1, 3).astype(np.float64)
-    return RawMesh(vertices, _own_corners(facet_count))
+    return RawMesh(vertices, _own_corners(facet_count), notes=notes)
 
 
 def _own_corners(facet_count: int) -> npt.NDArray[np.int64]:
@@ -78,37 +91,45 @@ def _broken_binary(data: bytes) -> MeshError:
             f"{len(data)} bytes are too few for an STL file: it is cut short or is something else."
         )
     announced = int.from_bytes(data[80:_HEADER], "little")
-    expected = _HEADER + _RECORD * announced
-    fault = "is cut short" if len(data) < expected else "has bytes after its end"
+    if announced == 0:
+        return MeshError("the STL file holds no facets: export the part again.")
     return MeshError(
-        f"the STL header announces {announced} facets, which take {expected} bytes, but the file has"
-        f" {len(data)}: it {fault} or is not an STL file. Copy or export it again."
+        f"the STL header announces {announced} facets, which take {_HEADER + _RECORD * announced} bytes, but the"
+        f" file has {len(data)}: it is cut short or is not an STL file. Copy or export it again."
     )
 
 
-def _read_text(data: bytes) -> RawMesh:
-    text = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
-    starts, ends = (sum(1 for _ in word.finditer(text)) for word in (_SOLID, _ENDSOLID))
-    if ends < starts:
-        raise MeshError("the STL text ends before 'endsolid': it is cut short, copy or export it again.")
-    facets = sum(1 for _ in _FACET_KEYWORD.finditer(text))
+def _read_text(text: bytes) -> RawMesh:
+    text, notes = decimal_points(text, _NUMBERS)
+    # Names go, and the line ends stay: what is wrong is said with its line.
+    bare = _NAME.sub(lambda found: b"endsolid" if found.group(1) else b"solid", text)
+    words = bare.lower()
+    facets = words.count(b"facet") - words.count(b"endfacet")
     if not facets:
         raise MeshError("the STL text holds no facets: export the part again.")
     refuse_too_many(facets)
     coordinates = array("d")
-    for facet in _FACET.finditer(text):
+    for facet in _FACET.finditer(bare):
         coordinates.extend(map(float, facet.groups()))
+    ended = 2 * words.count(b"endsolid") >= words.count(b"solid")
     if len(coordinates) != 9 * facets:
-        raise _broken_facet(text)
-    return RawMesh(points(coordinates), _own_corners(facets))
+        raise _broken_facet(bare, ended)
+    if not ended:
+        notes += (
+            "The STL text ends before 'endsolid'. All its facets are whole, but if it was cut short some are missing.",
+        )
+    return RawMesh(points(coordinates), _own_corners(facets), notes=notes)
 
 
-def _broken_facet(text: bytes) -> MeshError:
-    for keyword in _FACET_KEYWORD.finditer(text):
-        if not _FACET.match(text, keyword.start(1)):
-            line = text.count(b"\n", 0, keyword.start(1)) + 1
-            return MeshError(
-                f"the facet on line {line} of the STL text is not three 'vertex x y z' lines between"
-                " 'outer loop' and 'endloop': repair that line or export the file again."
-            )
-    return MeshError("the STL text holds facets outside their lines: export the file again.")
+def _broken_facet(text: bytes, ended: bool) -> MeshError:
+    keywords = _KEYWORD.finditer(text)
+    broken = next((found for found in keywords if not _FACET.match(text, found.start())), None)
+    if broken is None:
+        return MeshError("the STL text holds facets within facets: export the file again.")
+    if not ended and next(keywords, None) is None:
+        return MeshError("the STL text ends within a facet: it is cut short, copy or export it again.")
+    line = text.count(b"\n", 0, broken.start()) + 1
+    return MeshError(
+        f"the facet on line {line} of the STL text is not three 'vertex x y z'"
+        " between 'outer loop' and 'endloop': repair that facet or export the file again."
+    )

@@ -2,7 +2,7 @@
 3MF, the 3D manufacturing format: a zip archive with one XML model that states its unit.
 
 The archive is unpacked in pieces with a limit, document types (and with them entities) are refused, and nothing
-outside the archive's one model is opened.
+but the archive's models is opened: the one that says what is built, and those it takes parts from.
 """
 
 from __future__ import annotations
@@ -48,19 +48,44 @@ _UNITS: Final[dict[str, tuple[Units, float]]] = {
 _Transform = tuple["npt.NDArray[np.float64]", "npt.NDArray[np.float64]"]
 
 
+@dataclass(frozen=True)
+class _Placed:
+    """An object by its number and the path of its model, empty for the model that places it, and where it goes."""
+
+    path: str
+    name: str
+    transform: _Transform
+
+
 @dataclass
 class _Object:
     coordinates: array[float] = field(default_factory=lambda: array("d"))
     corners: array[int] = field(default_factory=lambda: array("q"))
-    components: list[tuple[str, _Transform]] = field(default_factory=list)
+    components: list[_Placed] = field(default_factory=list)
 
 
 @dataclass
 class _Model:
     unit: str = "millimeter"
     objects: dict[str, _Object] = field(default_factory=dict)
-    items: list[tuple[str, _Transform]] = field(default_factory=list)
+    items: list[_Placed] = field(default_factory=list)
     current: _Object | None = None
+
+
+@dataclass
+class _Package:
+    """An archive, its entries and the models read so far by their path, and how many bytes may still be unpacked."""
+
+    archive: zipfile.ZipFile
+    entries: dict[str, zipfile.ZipInfo]
+    left: int
+    models: dict[str, _Model] = field(default_factory=dict)
+
+    def model(self, path: str) -> _Model:
+        key = _key(path)
+        if key not in self.models:
+            self.models[key] = _parse(self, key)
+        return self.models[key]
 
 
 def read_threemf(data: bytes) -> RawMesh:
@@ -82,11 +107,13 @@ def read_threemf(data: bytes) -> RawMesh:
     Raises
     ------
     MeshError
-        Not a 3MF archive, damaged, unpacking to more than it may, split over several model files, or without
-        facets.
+        Not a 3MF archive, damaged, unpacking to more than it may, or without facets.
     """
     try:
-        model = _parse(data)
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            entries = {_key(entry.filename): entry for entry in archive.infolist()}
+            limit = min(_LARGEST_MODEL, _MOST_GROWTH * len(data) + 2**20)
+            return _build(_Package(archive, entries, limit))
     except MeshError:
         raise
     # ValueError and LookupError: names and encodings in words that Python does not know.
@@ -102,16 +129,21 @@ def read_threemf(data: bytes) -> RawMesh:
         raise MeshError(
             f"this is not a readable 3MF archive ({str(error)[:_QUOTED]}): copy or export it again."
         ) from error
+
+
+def _build(package: _Package) -> RawMesh:
+    root = _root(package)
+    model = package.model(root)
     if model.unit not in _UNITS:
         raise MeshError(f"the 3MF model states the unknown unit {model.unit[:40]!r}: export it again.")
     copies: list[tuple[_Object, _Transform]] = []
-    for name, transform in model.items:
-        _collect(model, name, transform, copies, depth=0)
+    for item in model.items:
+        _collect(package, root, item, (np.eye(3), np.zeros(3)), copies, depth=0)
     refuse_too_many(sum(len(part.corners) // 3 for part, _ in copies))
     return _join(copies, model.unit)
 
 
-def _parse(data: bytes) -> _Model:
+def _parse(package: _Package, path: str) -> _Model:
     # Costs a command that reads no 3MF nothing. Document types are refused, so there are no entities.
     from xml.parsers import expat
 
@@ -119,13 +151,11 @@ def _parse(data: bytes) -> _Model:
     parser = expat.ParserCreate(namespace_separator="\n")
     parser.StartDoctypeDeclHandler = _refuse_doctype
     parser.StartElementHandler = lambda name, attributes: _start(model, name, attributes)
-    limit = min(_LARGEST_MODEL, _MOST_GROWTH * len(data) + 2**20)
-    with zipfile.ZipFile(io.BytesIO(data)) as archive, archive.open(_model_entry(archive)) as stream:
-        read = 0
+    with package.archive.open(_entry(package, path)) as stream:
         try:
             while piece := stream.read(_PIECE):
-                read += len(piece)
-                if read > limit:
+                package.left -= len(piece)
+                if package.left < 0:
                     raise MeshError("the 3MF archive unpacks to far more than a model takes: it is refused.")
                 parser.Parse(piece, False)
             parser.Parse(b"", True)
@@ -134,18 +164,32 @@ def _parse(data: bytes) -> _Model:
     return model
 
 
-def _model_entry(archive: zipfile.ZipFile) -> zipfile.ZipInfo:
-    for entry in archive.infolist():
-        if entry.filename.lower().lstrip("/") == _MODEL:
-            # Others can be made to unpack to any amount in one read.
-            if entry.flag_bits & 1 or entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                raise MeshError(
-                    "the 3MF model is encrypted or packed in an unusual way: export it again, unprotected."
-                )
-            return entry
-    raise MeshError(
-        "the archive holds no 3D/3dmodel.model: this is not a 3MF file, or one for printers only."
-    )
+def _key(path: str) -> str:
+    return path.lower().lstrip("/")
+
+
+def _root(package: _Package) -> str:
+    """Find the model that says what is built: the usual one, or the only one."""
+    models = [name for name in package.entries if name.endswith(".model")]
+    return models[0] if len(models) == 1 else _MODEL
+
+
+def _entry(package: _Package, path: str) -> zipfile.ZipInfo:
+    entry = package.entries.get(path)
+    if entry is None:
+        if path == _MODEL:
+            raise MeshError(
+                "the archive holds no 3D/3dmodel.model: this is not a 3MF file, or one for printers only."
+            )
+        raise MeshError(
+            f"the 3MF archive does not hold the model {path[:60]!r} that it takes parts from: export it again."
+        )
+    # Others can be made to unpack to any amount in one read.
+    if entry.flag_bits & 1 or entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+        raise MeshError(
+            "the 3MF model is encrypted or packed in an unusual way: export it again, unprotected."
+        )
+    return entry
 
 
 def _refuse_doctype(*_: object) -> None:
@@ -186,34 +230,38 @@ def _element(model: _Model, tag: str, attributes: dict[str, str]) -> None:
             pass
 
 
-def _placed(attributes: dict[str, str]) -> tuple[str, _Transform]:
-    if any(key.rpartition("\n")[2] == "path" for key in attributes):
-        raise MeshError(
-            "the 3MF model is split over several model files: export it again from the CAD program as one, or as"
-            " STL."
-        )
+def _placed(attributes: dict[str, str]) -> _Placed:
     numbers = np.array([float(word) for word in attributes.get("transform", "").split()])
     if not len(numbers):
         numbers = np.array([1.0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0])
     if numbers.shape != (12,) or not (np.abs(numbers) < 1e9).all():
         raise MeshError("a transform of the 3MF model is not twelve finite numbers: export it again.")
+    # A part of another model of the archive is named with that model's path, of the production extension.
+    path = next((value for key, value in attributes.items() if key.rpartition("\n")[2] == "path"), "")
     # Written for rows: p' = p A + t.
-    return attributes["objectid"], (numbers[:9].reshape(3, 3), numbers[9:])
+    return _Placed(path, attributes["objectid"], (numbers[:9].reshape(3, 3), numbers[9:]))
 
 
 def _collect(
-    model: _Model, name: str, transform: _Transform, copies: list[tuple[_Object, _Transform]], depth: int
+    package: _Package,
+    model: str,
+    placed: _Placed,
+    above: _Transform,
+    copies: list[tuple[_Object, _Transform]],
+    depth: int,
 ) -> None:
     """List every copy of a mesh that an item stands for, with where it goes."""
-    part = model.objects.get(name)
+    model = placed.path or model
+    part = package.model(model).objects.get(placed.name)
     if part is None:
-        raise MeshError(f"the 3MF model places the object {name[:40]!r}, which it does not hold.")
+        raise MeshError(f"the 3MF model places the object {placed.name[:40]!r}, which it does not hold.")
+    (A, t), (B, s) = above, placed.transform
+    transform = (B @ A, s @ A + t)
     copies.append((part, transform))
     if depth > _DEEPEST or len(copies) > _MOST_COPIES:
         raise MeshError("the 3MF model nests or repeats its objects too often: export the probe alone.")
-    A, t = transform
-    for inner, (B, s) in part.components:
-        _collect(model, inner, (B @ A, s @ A + t), copies, depth + 1)
+    for inner in part.components:
+        _collect(package, model, inner, transform, copies, depth + 1)
 
 
 def _join(copies: list[tuple[_Object, _Transform]], unit: str) -> RawMesh:

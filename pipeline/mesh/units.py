@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from typing import Literal, get_args
@@ -21,6 +22,7 @@ _USUAL: tuple[Units, ...] = ("mm", "m", "cm", "in")
 
 # A probe's largest extent is nearly always between these.
 LIKELY_M = (0.03, 0.6)
+_TYPICAL_M = 0.07
 
 # Metres up to which a thing of that extent is called so.
 _CALLED = (
@@ -71,7 +73,8 @@ def notes_in(data: bytes, suffix: str) -> bytes:
     data : bytes
         The whole file.
     suffix : str
-        ".stl", ".ply", ".obj" or ".off"; another has no such part.
+        ".stl", ".ply", ".obj" or ".off"; another has no such part. ".glb" and ".gltf" are in metres by their
+        format, which many programs forget.
 
     Returns
     -------
@@ -87,6 +90,8 @@ def notes_in(data: bytes, suffix: str) -> bytes:
             return b"\n".join(re.findall(rb"^(?:comment|obj_info)\b(.*)$", header, re.M))
         case ".obj" | ".off":
             return b"\n".join(re.findall(rb"#(.*)", head))
+        case ".glb" | ".gltf":
+            return b"unit: m"
         case _:
             return b""
 
@@ -128,14 +133,18 @@ def guess_units(
     noted = _noted(notes)
     if noted in possible:
         others = tuple(unit for unit in possible if unit != noted)
-        reason = f"The file's notes speak of {NAMES[noted]}, and {_says(span, noted)}."
+        reason = f"The file speaks of {NAMES[noted]}, and {_says(span, noted)}."
         return UnitGuess(noted, True, reason, others)
     likely = [unit for unit in possible if LIKELY_M[0] <= in_metres(span, unit) <= LIKELY_M[1]]
+    # Where millimetres and metres are out of the question, the size of the usual probe decides.
+    likely.sort(key=lambda unit: (unit not in _USUAL[:2], abs(math.log(in_metres(span, unit) / _TYPICAL_M))))
     near = [unit for unit in likely if in_metres(farthest, unit) <= 5 * LARGEST_M]
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
-    contradiction = "" if noted is None else f" Its notes speak of {NAMES[noted]}, which cannot be."
-    # Few programs write centimetres or inches; alone the size is too little to believe it.
-    certain = len(near or likely) == 1 and ranked[0] in ("mm", "m") and noted is None
+    contradiction = "" if noted is None else f" It speaks of {NAMES[noted]}, which cannot be."
+    # Few programs write centimetres or inches; alone the size is too little to believe it. And nothing is as sure as
+    # that where another unit makes a small probe, or the hub of a needle.
+    smaller = any(in_metres(span, unit) < LIKELY_M[0] for unit in possible)
+    certain = len(near or likely) == 1 and ranked[0] in ("mm", "m") and noted is None and not smaller
     if certain:
         return UnitGuess(ranked[0], True, _contrast(span, ranked[0]), tuple(ranked[1:]))
     return UnitGuess(ranked[0], False, _question(span, ranked) + contradiction, tuple(ranked[1:]))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pipeline.mesh.engines import Cancelled
 from pipeline.mesh.shell import Closing
+from pipeline.mesh.soundness import check_soundness
 from pipeline.preparation.steps import (
     align_step,
     import_mesh,
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from pipeline.mesh.shell import Shell
     from pipeline.mesh.sidecar import ProbeFile
     from pipeline.mesh.simplify import Engine, Simplified, Target
+    from pipeline.mesh.soundness import Soundness
     from pipeline.mesh.units import Units
     from pipeline.preparation.alignment import Alignment
 
@@ -60,6 +62,8 @@ class Preparation:
         The probe, its regions and its history: for `save_probe_file`.
     shell : Shell
     simplified : Simplified
+    soundness : Soundness
+        Of the result, compared with the shell, as if it came from a stranger.
     carried : tuple of RegionReport
         What simplification did to the area of each region.
     """
@@ -67,12 +71,21 @@ class Preparation:
     content: ProbeFile
     shell: Shell
     simplified: Simplified
+    soundness: Soundness
     carried: tuple[RegionReport, ...] = ()
 
     @property
     def ready(self) -> bool:
-        """Whether the result is one closed surface that faces outwards."""
-        return not self.content.probe.health.sentences
+        """Whether the shell and the result are closed, 2-manifold and outward, and cross and fold nowhere."""
+        return not self.faults
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """What makes the result unfit, in words."""
+        return (
+            *self.shell.faults,
+            *(fault for fault in self.soundness.faults if fault not in self.shell.faults),
+        )
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -82,21 +95,23 @@ class Preparation:
             if self.content.frame == "S"
             else ("The mesh is in its own frame: align it with the sensor before it is used.",)
         )
-        wrong = () if self.ready else ("NOT READY: " + " ".join(self.content.probe.health.sentences),)
-        return (
+        wrong = () if self.ready else ("NOT READY: " + " ".join(self.faults),)
+        said = (
+            *wrong,
             *self.content.notes,
-            *self.shell.sentences,
+            *(sentence for sentence in self.shell.sentences if sentence not in self.faults),
             *self.simplified.sentences,
             *(report.sentence for report in self.carried),
             *frame,
-            *wrong,
         )
+        return tuple(dict.fromkeys(said))
 
     def to_json(self) -> dict[str, Any]:
         """Give the whole history and the sentences as plain values."""
         return {
             "frame": self.content.frame,
             "facets": len(self.content.probe.faces),
+            "soundness": self.soundness.to_json(),
             "history": [dict(step) for step in self.content.history],
             "sentences": list(self.sentences),
         }
@@ -256,7 +271,11 @@ def finish(
         progress=progress,
         cancelled=cancelled,
     )
-    return Preparation(content, dense.shell, simplified, carried)
+    made, whole = content.probe, placed.probe
+    soundness = check_soundness(
+        made.vertices, made.faces, (whole.vertices, whole.faces), invented=made.invented
+    )
+    return Preparation(content, dense.shell, simplified, soundness, carried)
 
 
 def _part(

@@ -68,8 +68,8 @@ def import_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "
             probe = settle(read, None, file.stem)
         except MeshError as error:
             raise MeshError(f"{file}: {error}") from error
-    doubt = () if read.guess is None or read.guess.certain else (read.guess.reason,)
-    found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=(*doubt, *probe.health.sentences))
+    notes = (*read.notes, *probe.health.sentences)
+    found = ProbeFile(probe, RegionSet.from_labels(probe.region), notes=notes)
     reason = "" if read.guess is None else read.guess.reason
     return ProbeFile(
         probe, found.regions, history=(_origin(file, found, read.units, reason),), notes=found.notes

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.config.runtime.runtime_of import make_runtime
+from pipeline.contact.facet_marks import MARKS, facet_marks
 from pipeline.runtime.lines import Answer
 
 if TYPE_CHECKING:
@@ -41,6 +42,7 @@ class Engine:
         self, config: RuntimeConfig, *, hold: float | None = None, clock: Callable[[], float] | None = None
     ) -> None:
         self._runtime, self._clock = make_runtime(config, hold=hold), clock
+        self._marks = facet_marks(config.probe)
 
     def poses(self, samples: Sequence[FlangeSample]) -> None:
         """Take poses of the flange, oldest first."""
@@ -55,7 +57,8 @@ class Engine:
         arrival = sample.time if sample.arrival is None else sample.arrival
         contact = self._runtime.locate(reading, sample.time, arrival, int(sample.status))
         latency = contact.latency if self._clock is None else self._clock() - sample.time
-        return Answer(contact, latency, self._runtime.zero())
+        on = None if contact.face is None else MARKS[self._marks[contact.face]]
+        return Answer(contact, latency, self._runtime.zero(), on)
 
     def silent(self, now: float) -> Answer | None:
         """Return an answer that says that no sample comes, or None while they do; `now` in s of the samples' clock."""

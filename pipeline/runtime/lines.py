@@ -35,6 +35,8 @@ class Answer:
         How old the reading was when this was known, s; NaN: not known.
     zero : kernel.Zero
         What is known of the sensor's zero at this sample.
+    on : str, optional
+        What the contact lies on, one of `pipeline.contact.facet_marks.MARKS`; None: there is none.
 
     Attributes
     ----------
@@ -47,13 +49,15 @@ class Answer:
         Why there is a contact, or none.
     health : int
         Health word; see `health_names`.
-    latency
+    latency, on
         As given.
     """
 
-    __slots__ = ("_line", "contact", "health", "latency", "reason", "time", "zero")
+    __slots__ = ("_line", "contact", "health", "latency", "on", "reason", "time", "zero")
 
-    def __init__(self, contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero) -> None:
+    def __init__(
+        self, contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on: str | None = None
+    ) -> None:
         self.contact: kernel.RuntimeContact | None = contact
         self.zero: kernel.Zero | None = zero
         self.time, self.reason, self.health, self.latency = (
@@ -62,6 +66,7 @@ class Answer:
             contact.health,
             latency,
         )
+        self.on = on
         self._line: bytes | None = None
 
     def let_go(self) -> None:
@@ -75,11 +80,11 @@ class Answer:
         # Two threads may both make it: it is the same.
         contact, zero = self.contact, self.zero
         if self._line is None and contact is not None and zero is not None:
-            self._line = _line(contact, self.latency, zero).encode("ascii")
+            self._line = _line(contact, self.latency, zero, self.on).encode("ascii")
         return self._line or b""
 
 
-def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero) -> str:
+def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero, on: str | None) -> str:
     wrench = contact.wrench
     covariance = contact.covariance
     health = ",".join(f'"{name}"' for name in health_names(contact.health))
@@ -93,6 +98,7 @@ def _line(contact: kernel.RuntimeContact, latency: float, zero: kernel.Zero) -> 
         f',"torque_S_Nm":{_array(None if wrench is None else wrench[3:])}'
         f',"covariance_S_m2":{_array(None if covariance is None else covariance.ravel())}'
         f',"face":{_index(contact.face)},"vertex":{_index(contact.vertex)},"region":{contact.region}'
+        f',"on":{_text(on)}'
         f',"candidates":{contact.candidates},"confidence":{number(contact.confidence)}'
         f',"misfit":{number(contact.misfit)},"left_over_Nm":{number(contact.left_over)}'
         f',"arm_m":{number(contact.arm)},"runner_up_S_m":{_array(contact.runner_up)}'
@@ -108,6 +114,10 @@ def _zero(zero: kernel.Zero) -> str:
         f',"torque_S_Nm":{_array(None if offset is None else offset[3:])}'
         f',"shift_m":{number(zero.shift)},"shift_sigma_m":{number(zero.shift_sigma)}}}'
     )
+
+
+def _text(text: str | None) -> str:
+    return "null" if text is None else f'"{text}"'
 
 
 def _index(index: int | None) -> int:

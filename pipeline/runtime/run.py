@@ -78,6 +78,8 @@ class Run:
     ----------
     reasons, unhealthy : Counter
         Samples so far by their reason, and by what is wrong with their health.
+    on : Counter
+        Contacts so far by what they lie on, one of `pipeline.contact.facet_marks.MARKS`.
     latencies : Latencies
     positions : bool or None
         Whether poses come with positions; None: none came yet.
@@ -98,6 +100,7 @@ class Run:
         self.outlets, self._on_answer = tuple(outlets), on_answer
         self.reasons: Counter[str] = Counter()
         self.unhealthy: Counter[str] = Counter()
+        self.on: Counter[str] = Counter()
         self.latencies = Latencies()
         self.positions: bool | None = None
         self.zero: kernel.Zero | None = None
@@ -128,6 +131,8 @@ class Run:
             self._lost += self._begun and not usable
             if answer.health:
                 self.unhealthy.update(health_names(answer.health))
+            if answer.on is not None:
+                self.on[answer.on] += 1
             self.latencies.add(answer.latency)
             if self._on_answer is not None:
                 self._on_answer(sample, answer)
@@ -255,6 +260,18 @@ def rate_warning(config: RuntimeConfig, rate: float | None) -> str | None:
         f"The sensor gives {rate:.0f} samples a second, the bundle is for {wanted:.0f}: its filters act at another"
         " frequency. Set the sensor's rate, or export for this one."
     )
+
+
+def mark_warnings(on: Counter[str]) -> list[str]:
+    """Say how many contacts, counted by what they lie on, rest on a guess or should not be; empty: none."""
+    sentences = {
+        "invented": "{} of {} contacts are on invented facets: where the mesh file had an opening, the surface is a"
+        " guess, and so are they.",
+        "untouchable": "{} of {} contacts are on regions that nothing can touch: check the region, then the mount.",
+    }
+    return [
+        text.format(f"{on[mark]:,}", f"{on.total():,}") for mark, text in sentences.items() if on[mark] > 0
+    ]
 
 
 def zero_words(zero: kernel.Zero) -> str:

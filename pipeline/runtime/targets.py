@@ -236,6 +236,11 @@ def contact_schema() -> bytes:
         "face": {**whole, "description": "-1: none."},
         "vertex": {**whole, "description": "-1: none."},
         "region": {**whole, "description": "Rank; 0: none."},
+        "on": {
+            **text,
+            "description": "What the facet is: measured, invented (the file had an opening there) or untouchable;"
+            " null: none.",
+        },
         "candidates": whole,
         "confidence": _numbers("That this place is touched and no other, 0 to 1.", array=False),
         "misfit": _numbers("Of the best touch, in standard deviations squared.", array=False),

@@ -113,7 +113,7 @@ def shell(
         ),
     ] = None,
     facets: Annotated[int, typer.Option(help="Facets of each bundled probe.")] = 20_000,
-    quick: Annotated[bool, typer.Option("--quick", help="One housing, coarse facets.")] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="One housing.")] = False,
     seed: Annotated[int, typer.Option(help="Seed of the points that are measured.")] = 0,
     out: MarkdownOption = None,
     as_json: JsonOption = False,

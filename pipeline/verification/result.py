@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -189,7 +188,7 @@ def verify_files(
 
 def load_surface(file: Path) -> Probe:
     """
-    Load a probe, in metres if this program wrote it, else in millimetres.
+    Load a probe, in the unit that its file says, or that its size suggests.
 
     Raises
     ------
@@ -200,16 +199,19 @@ def load_surface(file: Path) -> Probe:
 
 
 def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
-    from pipeline.mesh import MeshWarning, load_probe
-    from pipeline.mesh.ply import written_by_contactbench
+    from pipeline.mesh import MeshError
+    from pipeline.mesh.load import read_mesh, settle
     from pipeline.mesh.sidecar import load_probe_file
 
-    ours, aligned = written_by_contactbench(file), True
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", MeshWarning)  # said below, in the same words
-        probe = load_probe(file, "m" if ours else "mm")
-    said = list(probe.health.sentences)
-    if ours:
+    read, aligned = read_mesh(file), True
+    try:
+        probe = settle(read, None, file.stem)
+    except MeshError as error:
+        raise MeshError(f"{file}: {error}") from error
+    said = [*read.notes, *probe.health.sentences]
+    if read.guess is not None and not read.guess.certain:
+        said.append("`contactbench probe prepare --units` writes a probe whose unit is certain.")
+    if read.raw.settled:
         known = load_probe_file(file)
         said += known.notes
         aligned = not known.history or known.frame == "S"

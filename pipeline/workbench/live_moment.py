@@ -40,6 +40,8 @@ class Reading:
         NaN where no pose is known.
     contact : Contact or None
         None: nothing touches, or there is no probe or no calibration.
+    on : str or None
+        What the contact lies on, one of `pipeline.contact.facet_marks.MARKS`; None: there is none.
     """
 
     time: float
@@ -47,6 +49,7 @@ class Reading:
     compensated: NDArray[np.float64]
     R_WS: NDArray[np.float64]
     contact: Contact | None
+    on: str | None = None
 
 
 class Moment:
@@ -109,16 +112,17 @@ class Moment:
         solver: ContactSolver | None,
     ) -> Reading:
         compensated = np.full(6, np.nan) if model is None else model.compensate(R_WS, raw)
-        contact = None
+        contact, on = None, None
         if solver is not None and np.isfinite(compensated).all():
             contact = self._follow(time, compensated, solver)
+            on = None if contact is None else solver.on(contact)
         point = None if contact is None else contact.point
         if (
             self._contacts and self._contacts[-1][0] == time
         ):  # looked for anew, with another calibration or probe
             self._contacts.pop()
         self._contacts.append((time, np.full(3, np.nan) if point is None else point))
-        return Reading(time, raw, compensated, R_WS, contact)
+        return Reading(time, raw, compensated, R_WS, contact, on)
 
     def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
         """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+import trimesh
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QWidget
@@ -7,12 +8,14 @@ from workbench.probe_files import bad_meshes, egg
 
 from app.bench import Bench
 from app.pages.probe import ProbePage
+from pipeline.mesh.inspect import inspect
 from pipeline.mesh.sidecar import save_probe_file
 from pipeline.preparation.alignment import from_angles
 from pipeline.preparation.steps import align_step, import_mesh
 from pipeline.session import Session
 from pipeline.workbench.desk import Desk
 from pipeline.workbench.steps import Step, StepState, StepStatus
+from widgets.mesh_report import MeshReport
 from widgets.scene import Scene
 from widgets.scene.scene import Pick
 
@@ -282,3 +285,14 @@ def test_nothing_is_cut_in_a_narrow_panel(qtbot, page, tmp_path):
     room = page.area.viewport().width()
     assert page.area.widget().minimumSizeHint().width() <= room
     assert page.area.widget().width() <= room
+
+
+def test_a_doubtful_mesh_is_not_praised(qtbot, tmp_path):
+    report = MeshReport()
+    qtbot.addWidget(report)
+    box = trimesh.creation.box(extents=(1.0, 0.8, 3.15))
+    (tmp_path / "box.stl").write_bytes(box.export(file_type="stl"))
+    report.show_inspection(inspect(tmp_path / "box.stl", samples=200))
+    assert [level for level, _ in report.sentences if level != "note"] == ["doubt"]
+    report.show_inspection(inspect(tmp_path / "box.stl", "in", samples=200))
+    assert report.sentences[0][0] == "good"

@@ -294,11 +294,11 @@ def found(reason, **known):
     return SimpleNamespace(**(usual | known))
 
 
-def shown(window, monkeypatch, contact, force=9.0):
+def shown(window, monkeypatch, contact, force=9.0, on=None):
     """Let the page see a contact; return what it says, whether without a doubt, and what it shows in the scene."""
     wrench, seen = np.array([0.0, 0.0, -force, 0.0, 0.0, 0.0]), []
     monkeypatch.setattr(
-        window.bench.live, "reading", lambda: Reading(1.0, wrench, wrench, np.eye(3), contact)
+        window.bench.live, "reading", lambda: Reading(1.0, wrench, wrench, np.eye(3), contact, on)
     )
     monkeypatch.setattr(window.scene, "show_contact", lambda *given: seen.append(given))
     window.page.tick()
@@ -375,3 +375,25 @@ def test_why_there_is_no_contact_is_said_in_plain_words(window, monkeypatch, rea
     # Too light to say anything, or nothing at all.
     assert shown(window, monkeypatch, contact, force=0.8)[:2] == ("", True)
     assert shown(window, monkeypatch, None)[:2] == ("", True)
+
+
+@pytest.mark.parametrize(
+    ("on", "words", "sure"),
+    [
+        ("measured", "Confidence 98 %", True),
+        (
+            "invented",
+            "Confidence 98 % On a facet that the mesh file did not have: its place is a guess.",
+            False,
+        ),
+        (
+            "untouchable",
+            "Confidence 98 % On a region marked untouchable: check the region and the mount.",
+            False,
+        ),
+    ],
+)
+def test_a_contact_on_an_invented_or_untouchable_facet_is_a_doubt(window, monkeypatch, on, words, sure):
+    assert shown(window, monkeypatch, found(Reason.OK), on=on)[:2] == (words, sure)
+    # Not of what is too light to be shown.
+    assert shown(window, monkeypatch, found(Reason.OK), force=0.8, on=on)[:2] == ("", True)

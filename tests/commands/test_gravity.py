@@ -205,7 +205,7 @@ def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None
         assert invoke("calibrate", poses, *EULER, "--out", out, "--report", report).exit_code == 0
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
     assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
-    assert "Gravity calibration" in (tmp_path / "a.html").read_text()
+    assert "Gravity calibration" in (tmp_path / "a.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -6,12 +6,14 @@ import json
 
 import numpy as np
 import pytest
+import trimesh
 from contact_cases import bundled
 from mesh.shell.housings import housing
 from typer.testing import CliRunner
 
 from pipeline import cli
 from pipeline.mesh import Probe, load_probe, save_probe
+from pipeline.mesh.shell import Shell
 from pipeline.preparation.ladder import ExpectedTouches
 from pipeline.preparation.ladder.touches import draw_parts
 
@@ -25,8 +27,6 @@ def said(result):
 
 
 def write_stl(file, probe, scale=1000.0):
-    import trimesh
-
     file.write_bytes(
         trimesh.Trimesh(probe.vertices * scale, probe.faces, process=False).export(file_type="stl")
     )
@@ -53,6 +53,23 @@ def test_inspect_tells_what_is_wrong(hollow, ready):
     result = invoke("inspect", ready)
     assert result.exit_code == 0
     assert "Nothing was found that would spoil contacts" in said(result)
+
+
+@pytest.mark.parametrize("command", ["inspect", "shell", "prepare"])
+def test_a_doubtful_unit_is_told_once_and_nothing_is_praised(tmp_path, command):
+    box = trimesh.creation.box(extents=(1.0, 0.8, 3.15))
+    (tmp_path / "box.stl").write_bytes(box.export(file_type="stl"))
+    out = () if command == "inspect" else ("--out", tmp_path / "out.ply")
+    words = said(invoke(command, tmp_path / "box.stl", *out))
+    assert words.count("80.01 mm if they are inches, 31.5 mm if they are centimetres") == 1
+    assert "Nothing was found" not in words
+
+
+def test_a_shell_that_is_not_sound_ends_with_1(hollow, tmp_path, monkeypatch):
+    monkeypatch.setattr(Shell, "faults", ("It crosses itself.",))
+    result = invoke("shell", hollow, "--out", tmp_path / "shell.ply")
+    assert result.exit_code == 1
+    assert said(result).count("It crosses itself.") == 1
 
 
 def test_shell_closes_and_says_how(hollow, tmp_path):

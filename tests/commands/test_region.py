@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from typer.testing import CliRunner
 from pipeline import cli
 from pipeline.commands.region import region_app
 from pipeline.mesh import Probe, load_probe, save_probe
+from pipeline.mesh.regions import undo_file
 
 app = typer.Typer(cls=cli._Commands, rich_markup_mode=None)
 app.add_typer(region_app, name="region")
@@ -33,6 +35,16 @@ def done(*arguments: object) -> dict[str, Any]:
 
 def said(result: Any) -> str:
     return " ".join(result.stderr.split())
+
+
+def unchanged(mesh: Path, why: str, *arguments: object) -> None:
+    """The command says why nothing changed, with exit code 1, and leaves the files alone."""
+    before = mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()
+    result = invoke(*arguments, "--json")
+    assert result.exit_code == 1, result.stderr
+    assert json.loads(result.stdout)["changed"] == 0
+    assert f"Nothing changed: {why}" in said(result)
+    assert (mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()) == before
 
 
 def labels(mesh: Path) -> np.ndarray:
@@ -133,8 +145,7 @@ def test_boxes_planes_and_floods(mesh: Path) -> None:
     found = done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
     assert found["changed"] == 128
     assert found["regions"][0]["area_mm2"] == pytest.approx(1600)
-    again = done("flood", mesh, "Top", "--at", "0,0,30", "--crease", 45)
-    assert again["changed"] == 0
+    unchanged(mesh, "they are in it already", "flood", mesh, "Top", "--at", "0,0,30", "--crease", 45)
     assert done("flood", mesh, "Side", "--at", "30,0,0")["changed"] == 128
     # The axes of the box are turned by a quarter: its x is y of S.
     turned = done(
@@ -155,11 +166,191 @@ def test_brush_grow_shrink_and_smooth(mesh: Path) -> None:
     assert 20 < painted < 36  # 353 mm² of facets of 12.5 mm²
     grown = done("grow", mesh, "Top", "--distance", 3)["regions"][0]["facets"]
     assert grown > painted
-    assert done("shrink", mesh, "Top", "--rings", 1)["regions"][0]["facets"] < grown
-    done("smooth", mesh, "Top", "--rings", 1)
+    assert 0 < done("shrink", mesh, "Top", "--distance", 2)["regions"][0]["facets"] < grown
+    assert done("smooth", mesh, "Top", "--rings", 1)["changed"] > 0
     done("brush", mesh, "Top", *stroke, "--straight")
-    assert done("brush", mesh, "Side", *stroke, "--erase")["changed"] == 0
+    unchanged(mesh, "none of them is in it", "brush", mesh, "Side", *stroke, "--erase")
     assert done("brush", mesh, "Top", *stroke, "--straight", "--erase")["changed"] == painted
+
+
+def test_a_selection_that_changes_nothing_says_why_and_writes_nothing(mesh: Path) -> None:
+    above, below = ("--point", "0,0,99", "--normal", "0,0,1"), ("--point", "0,0,19", "--normal", "0,0,1")
+    unchanged(mesh, "no facet lies there", "plane", mesh, "Top", *above)
+    unchanged(mesh, "no facet lies there", "plane", mesh, "Top", *above, "--erase")
+    for command in (("clear",), ("smooth",), ("grow", "--rings", 1), ("mirror", "--normal", "1,0,0")):
+        unchanged(mesh, "the region has no facets", command[0], mesh, "Top", *command[1:])
+    done("plane", mesh, "Top", *below)
+    unchanged(mesh, "they are in it already", "plane", mesh, "Top", *below)
+    unchanged(
+        mesh,
+        "they are in it already, or in others, where --protect leaves them",
+        "plane",
+        mesh,
+        "Side",
+        *below,
+        "--protect",
+    )
+    unchanged(mesh, "none of them is in it", "plane", mesh, "Side", *below, "--erase")
+    unchanged(mesh, "the region has that shape already", "smooth", mesh, "Top", "--rings", 1)
+    unchanged(mesh, "they are in it already", "mirror", mesh, "Top", "--normal", "1,0,0")
+    # What the list is to be, it is: that is no mistake. Nothing is written either.
+    before = mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()
+    done("rename", mesh, "Top", "Top")
+    done("mark", mesh, "Top", "--touchable")
+    assert (mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()) == before
+
+
+def test_a_brush_far_from_the_surface_is_refused(mesh: Path) -> None:
+    before = mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()
+    for far, radius, at_most in (("0,0,22.6", 2.5, "2.5"), ("0,0,20.81", 0.1, "0.8"), ("0,0,500", 6, "6")):
+        # One of several points is enough.
+        result = invoke("brush", mesh, "Top", "--at", "0,0,20", "--at", far, "--radius", radius)
+        assert result.exit_code == 2
+        assert f"the point {far.replace(',', ', ')} mm is " in said(result)
+        assert f"mm from the surface, more than {at_most} mm: give one on the surface" in said(result)
+    assert (mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()) == before
+    assert done("brush", mesh, "Top", "--at", "0,0,22.4", "--radius", 2.5)["changed"] > 0
+    assert done("brush", mesh, "Side", "--at", "0,10,20.79", "--radius", 0.1)["changed"] > 0
+
+
+def state(mesh: Path) -> tuple[bytes, bytes]:
+    return mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()
+
+
+def test_undo_and_redo_give_the_bytes_back(mesh: Path, tmp_path: Path) -> None:
+    side = ("--point", "19,0,0", "--normal", "1,0,0")
+    other = tmp_path / "other.ply"
+    save_probe(load_probe(mesh, units="m").with_region(np.arange(768) % 3), other)
+    done("export", other, "--out", tmp_path / "r.json")
+    commands = (
+        ("plane", mesh, "Side", *side),
+        ("mark", mesh, "Side", "--untouchable"),
+        ("brush", mesh, "Top", "--at", "19,0,20", "--radius", 6),
+        ("mirror", mesh, "Side", "--normal", "1,0,0"),
+        ("grow", mesh, "Top", "--rings", 1),
+        ("reorder", mesh, "Side", "Top"),
+        ("remove", mesh, "Side"),
+        ("import", mesh, tmp_path / "r.json"),
+        ("transfer", other, mesh),
+        ("rename", mesh, "1", "Lens"),
+        ("clear", mesh, "Lens"),
+    )
+    texts = [
+        *(
+            "half into Side",
+            "mark Side untouchable",
+            "paint Top",
+            "mirror Side",
+            "grow Top",
+            "reorder regions",
+        ),
+        *("remove Side", "import regions", "transfer from other.ply", "rename Region 1", "clear Lens"),
+    ]
+    save_probe(load_probe(mesh, units="m").with_region(np.arange(768) // 300), other)
+    states = [state(mesh)]
+    for command in commands:
+        done(*command)
+        states.append(state(mesh))
+    assert len(set(states)) == len(states)
+    for _ in range(2):
+        for before, text in zip(reversed(states[:-1]), reversed(texts), strict=True):
+            found = done("undo", mesh)
+            assert found["undone"] == text
+            assert state(mesh) == before
+        for after, text in zip(states[1:], texts, strict=True):
+            result = invoke("redo", mesh)
+            assert result.exit_code == 0
+            assert f"redone: {text}. " in said(result)
+            assert state(mesh) == after
+
+
+def test_undo_goes_back_to_the_first_command_and_a_new_one_ends_redo(mesh: Path) -> None:
+    assert done("undo", mesh)["regions"][0]["name"] == "Top"
+    assert done("undo", mesh)["regions"] == []
+    for _ in range(2):
+        result = invoke("undo", mesh)
+        assert result.exit_code == 1
+        assert "There is nothing to undo." in said(result)
+    assert done("redo", mesh)["redone"] == "add Top"
+    done("rename", mesh, "Top", "Top")  # changes nothing: what was undone can still be redone
+    done("add", mesh, "Handle")
+    result = invoke("redo", mesh)
+    assert result.exit_code == 1
+    assert "There is nothing to redo." in said(result)
+    assert [row["name"] for row in done("list", mesh)["regions"]] == ["Top", "Handle"]
+
+
+def test_steps_end_where_something_else_changes_the_probe(mesh: Path) -> None:
+    sidecar = mesh.with_suffix(".json")
+    document = json.loads(sidecar.read_text())
+    sidecar.write_text(json.dumps({"source": "part.stl", **document}))
+    before = state(mesh)
+    result = invoke("undo", mesh)
+    assert result.exit_code == 1
+    assert "There is nothing to undo: something else has changed the probe since." in said(result)
+    assert state(mesh) == before
+    done("add", mesh, "Handle")
+    assert done("undo", mesh)["undone"] == "add Handle"
+    assert invoke("undo", mesh).exit_code == 1  # not beyond the change
+    # A folder that is copied keeps its steps.
+    moved = Path(shutil.copytree(mesh.parent, mesh.parent / "copy")) / mesh.name
+    assert done("redo", moved)["redone"] == "add Handle"
+
+
+def test_steps_are_few_enough_to_be_kept(mesh: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(undo_file, "MOST_STEPS", 3)
+    for colour in range(5):
+        done("colour", mesh, "Top", f"#00000{colour}")
+    assert [done("undo", mesh)["undone"] for _ in range(3)] == ["colour Top"] * 3
+    assert invoke("undo", mesh).exit_code == 1
+    assert done("list", mesh)["regions"][0]["colour"] == "#000001"
+    monkeypatch.setattr(undo_file, "SIZE_LIMIT", 6_000)  # of the steps some 1,500 each
+    for colour in range(5, 9):
+        done("colour", mesh, "Top", f"#00000{colour}")
+    assert mesh.with_suffix(".undo").stat().st_size < 6_000
+    assert done("undo", mesh)["regions"][0]["colour"] == "#000007"
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda _: b"", "not a JSON file"),
+        (lambda _: b"[]", "does not hold one object"),
+        (lambda data: data.replace(b"region steps", b"region stairs"), "does not hold the steps"),
+        (
+            lambda data: data.replace(b'"version": 1, "files"', b'"version": 2, "files"'),
+            "does not hold the steps",
+        ),
+        (lambda data: data.replace(b'"text"', b'"txt"', 1), "step 1 of 'done'"),
+        (lambda data: data.replace(b'"step": "region"', b'"step": 3', 1), "step 1 of 'done' has no name"),
+        (lambda data: data.replace(b'"undone": []', b'"undone": {}'), "does not hold the steps"),
+    ],
+)
+def test_a_file_of_steps_that_is_none_is_refused(mesh: Path, change: Any, message: str) -> None:
+    file = mesh.with_suffix(".undo")
+    file.write_bytes(change(file.read_bytes()))
+    before = state(mesh), file.read_bytes()
+    for command in (("undo", mesh), ("redo", mesh), ("add", mesh, "New")):
+        result = invoke(*command)
+        assert result.exit_code == 2
+        assert message in said(result)
+        assert "Delete it" in said(result)
+        assert (state(mesh), file.read_bytes()) == before
+    assert invoke("list", mesh).exit_code == 0
+
+
+def test_steps_with_regions_that_cannot_be_are_refused(mesh: Path) -> None:
+    done("plane", mesh, "Top", "--point", "0,0,19", "--normal", "0,0,1")
+    done("clear", mesh, "Top")
+    file = mesh.with_suffix(".undo")
+    document = json.loads(file.read_text())
+    document["done"][-1]["other"]["regions"][0]["facets"] = [[0, 769]]
+    file.write_text(json.dumps(document))
+    before = state(mesh)
+    result = invoke("undo", mesh)
+    assert result.exit_code == 2
+    assert "facets run from 0 to 767" in said(result)
+    assert state(mesh) == before
 
 
 def test_mirror(mesh: Path) -> None:
@@ -252,7 +443,7 @@ def test_wrong_arguments_change_nothing(mesh: Path, arguments: tuple[str, ...], 
 
 COMMANDS = [
     *("list", "add", "remove", "rename", "reorder", "colour", "box", "plane", "flood", "brush", "grow"),
-    "mark",
+    *("mark", "undo", "redo"),
     *("shrink", "smooth", "mirror", "clear", "transfer", "export", "import"),
 ]
 

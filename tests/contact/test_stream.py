@@ -4,6 +4,7 @@ import io
 import math
 import os
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import trimesh
 import pipeline.contact.stream as stream_module
 from pipeline.contact import ContactSolver, Gates, Reason
 from pipeline.contact.contact_csv import HEADER, REASONS
+from pipeline.contact.facet_marks import MARKS
 from pipeline.contact.shortest import shortest
 from pipeline.contact.stream import WrenchFileError, locate_file
 from pipeline.contact.wrench_csv import RAW_COLUMNS
@@ -88,7 +90,7 @@ def test_output_holds_what_the_batch_says(solver, wrenches, write):
     assert len(found) == len(wrenches)
     assert {REASONS[r] for r in batch.reasons} >= {"ok", "low_force"}
     assert np.isfinite(batch.misfits[batch.reasons == Reason.IMPLAUSIBLE]).any()
-    for i, (t, x, y, z, k, face, reason, candidates, sigma, misfit, confidence) in enumerate(found):
+    for i, (t, x, y, z, k, face, reason, candidates, sigma, misfit, confidence, on) in enumerate(found):
         assert t == f"{0.005 * i:.3f}"
         assert reason == REASONS[batch.reasons[i]]
         assert candidates == str(batch.candidates[i])
@@ -96,6 +98,35 @@ def test_output_holds_what_the_batch_says(solver, wrenches, write):
         numbers = (*batch.points[i], batch.torques[i], 1e3 * batch.sigma_max[i], batch.misfits[i])
         assert [x, y, z, k, sigma, misfit] == ["" if math.isnan(v) else repr(float(v)) for v in numbers]
         assert confidence == repr(float(batch.confidences[i]))
+        assert on == ("measured" if face else "")
+
+
+def test_each_row_says_what_its_facet_is(probe, wrenches, write):
+    centre = probe.vertices[probe.faces].mean(axis=1)
+    invented, hidden = centre[:, 0] > 0.005, centre[:, 1] > 0
+    marked = probe.with_region(np.where(hidden, 1, 0), (1,)).with_invented(invented)
+    expected = np.where(hidden, "untouchable", np.where(invented, "invented", "measured"))
+    solver, out = ContactSolver(marked), io.BytesIO()
+    source = write(table(*rows_of(wrenches)))
+    summary = locate_file(solver, source, out)  # of the solver's own probe
+    rows = cells(out.getvalue())
+    assert [row[11] for row in rows] == [expected[int(row[5])] if row[5] else "" for row in rows]
+    counts = {on: sum(row[11] == on for row in rows) for on in MARKS}
+    assert min(counts.values()) > 10
+    assert summary.on_invented == counts["invented"]
+    assert summary.on_untouchable == counts["untouchable"]
+    total = sum(counts.values())
+    assert summary.warnings[0].startswith(f"Contacts on invented facets: {counts['invented']} of {total}.")
+    assert summary.warnings[1].startswith(
+        f"Contacts on untouchable regions: {counts['untouchable']} of {total}."
+    )
+    again = io.BytesIO()  # of the probe that is given: the method has none
+    method = SimpleNamespace(name="own", locate_batch=solver.locate_batch)
+    assert locate_file(method, source, again, probe=marked).on_invented == counts["invented"]
+    assert again.getvalue() == out.getvalue()
+    unknown = io.BytesIO()
+    assert locate_file(method, source, unknown).on_untouchable == 0
+    assert {row[11] for row in cells(unknown.getvalue())} == {""}
 
 
 def test_summary_counts_and_finds_the_median(solver, wrenches, write):
@@ -306,7 +337,7 @@ def test_allow_nan_answers_with_not_finite(solver, write):
     source = write(table(GOOD, "1,nan,0,0,0,0,0", "2,0,0,-inf,0,0,0", "3,0,,0,0,0,0", GOOD))
     found = cells(located(solver, source, allow_nan=True))
     assert [row[6] == "not_finite" for row in found] == [False, True, True, True, False]
-    assert found[1] == ["1", "", "", "", "", "", "not_finite", "0", "", "", "0.0"]
+    assert found[1] == ["1", "", "", "", "", "", "not_finite", "0", "", "", "0.0", ""]
     source = write(table("0,0,0,-5,0,0,0", "nan,0,0,-5,0,0,0", "1,0,0,-5,0,0,0"))
     found = cells(located(solver, source, allow_nan=True, track=True))
     assert [row[6] == "stale" for row in found] == [False, True, False]

@@ -23,6 +23,7 @@ from pipeline import kernel
 from pipeline.config.runtime import RuntimeConfig
 from pipeline.config.runtime.canonical import encode_json
 from pipeline.config.runtime.runtime_of import kernel_arguments
+from pipeline.contact.facet_marks import facet_marks
 
 ROOT = Path(__file__).parents[2]
 SOURCE, BUILD = ROOT / "pipeline/kernel/runtime", ROOT / "build/runtime"
@@ -93,7 +94,11 @@ CONTACT = np.dtype(
     + [("covariances", "<f8", (3, 3)), ("filtered_points", "<f8", 3)]
     + [(name, "<f8") for name in ("misfits", "left_overs", "arms", "confidences")]
     + [("runners_up", "<f8", 3), ("seconds", "<f8", 3), ("pose_age", "<f8"), ("latency", "<f8")]
+    + [("on", "<i4"), ("reserved", "<i4")]
 )
+
+
+CONTACT_2_0 = 336  # bytes, of version 2.0: without what has come since
 
 
 class Library:
@@ -138,6 +143,8 @@ def both_answers(library: Library, folder: Path, count: int) -> set[int]:
     assert codes == {0}
     for name, values in expected.items():
         assert rows[name].tobytes() == values.tobytes(), name
+    marks, faces = facet_marks(config.probe).astype(int), rows["faces"]
+    assert (rows["on"] == np.where(faces < 0, -1, marks[faces])).all()
     return set(rows["reasons"].tolist())
 
 
@@ -183,7 +190,7 @@ def test_null_and_wrong_sizes_are_refused(library: Library, bundle: tuple[Path, 
     assert library.c.cb_reason_name(-2) == library.c.cb_reason_name(15) == b"unknown"
     assert library.c.cb_reason_name(14) == b"unhealthy"
     assert library.c.cb_reason_name(-1) == b"no_answer"
-    assert library.c.cb_version() == b"2.1.0"
+    assert library.c.cb_version() == b"2.2.0"
 
 
 def test_a_contact_that_was_not_answered_is_no_contact(
@@ -515,7 +522,11 @@ def test_structs_may_grow_and_a_caller_with_a_longer_one_keeps_its_end(
     assert row["size"][0] == len(longer)
     assert row["times"][0] == 0.0
     assert (longer[CONTACT.itemsize :] == 0xA5).all()
-    row["size"] = CONTACT.itemsize - 1  # smaller than it ever was
+    row["size"], longer[CONTACT_2_0:] = CONTACT_2_0, 0xA5
+    assert library.c.cb_update(*given[:3], 1.0, given[4]) == 0
+    assert row["times"][0] == 1.0
+    assert (longer[CONTACT_2_0:] == 0xA5).all()
+    row["size"] = CONTACT_2_0 - 1  # smaller than it ever was
     assert library.c.cb_update(*given) == 1
     library.c.cb_close(handle)
 

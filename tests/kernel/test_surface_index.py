@@ -96,6 +96,31 @@ def test_a_ray_meets_what_a_search_over_all_facets_meets():
             assert t[i] == pytest.approx(s[hit].min(), rel=1e-9)
 
 
+def test_best_aligned_is_the_best_of_all_facets_that_are_near():
+    probe = bundled("t-shape", 500)
+    rng = np.random.default_rng(4)
+    points = probe.vertices[rng.integers(len(probe.vertices), size=60)] + rng.normal(0, 0.002, (60, 3))
+    directions = rng.normal(size=(60, 3))
+    radius = rng.uniform(0, 0.02, 60)
+    cosine, face = index_of(probe).best_aligned(points, directions, radius, probe.normals)
+    corners = probe.vertices[probe.faces]
+    for i, point in enumerate(points):
+        near = np.array([distance_to(point, triangle) <= radius[i] for triangle in corners])
+        assert (face[i] >= 0) == near.any()
+        if near.any():
+            assert near[face[i]]
+            assert cosine[i] == pytest.approx((probe.normals[near] @ directions[i]).max(), abs=1e-12)
+            assert probe.normals[face[i]] @ directions[i] == pytest.approx(cosine[i])
+        else:
+            assert cosine[i] == -1
+    some, _ = index_of(probe).best_aligned(points, directions, radius, probe.normals, enough=0.5)
+    assert ((some == cosine) | (some >= 0.5)).all()
+    with pytest.raises(ValueError, match="not one per facet"):
+        index_of(probe).best_aligned(points, directions, radius, probe.normals[:-1].copy())
+    with pytest.raises(ValueError, match="differ in number"):
+        index_of(probe).best_aligned(points, directions, radius[1:].copy(), probe.normals)
+
+
 def test_no_ray_slips_through_a_closed_surface():
     """Rays at vertices and along edges are where facets that decide alone leave cracks."""
     probe = ball(320)

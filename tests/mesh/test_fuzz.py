@@ -42,7 +42,7 @@ def folder(tmp_path_factory) -> Path:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_files_that_are_changed_are_sound(folder, name):
     assert sound(FuzzCase(suffix_of(name), "none", sound_files()[name]), folder) == "valid"
-    probe = load_probe(folder / f"case{suffix_of(name)}")
+    probe = load_probe(folder / f"case{suffix_of(name)}", "mm")
     assert (len(probe.faces), probe.health.sentences) == (48, ())
 
 

@@ -197,7 +197,7 @@ def test_merging_many_points_on_one_spot_stays_small(write):
     # Were every pair listed, 20,000 points within the tolerance would take 3 GB.
     spot = np.random.default_rng(0).random((20_000, 3)) * 1e-9
     faces = np.arange(20_001).reshape(-1, 3)
-    with pytest.raises(MeshError, match="facets have no area"):
+    with pytest.raises(MeshError, match="none of the 6667 facets has an area"):
         load_probe(write("spot.obj", text_obj(np.vstack((spot, [[100.0, 0, 0]])), faces)))
 
 
@@ -216,21 +216,77 @@ def with_flat_facets(mesh: trimesh.Trimesh, count: int) -> tuple[np.ndarray, np.
     return np.vstack((mesh.vertices, (corner + other) / 2)), np.vstack((flat[:1], mesh.faces, flat[1:]))
 
 
+@pytest.mark.parametrize("count", [3, 100])
 @pytest.mark.parametrize("mount", [None, rigid()])
-def test_few_facets_without_area_are_left_out_with_a_warning(ball, write, mount):
-    path = write("ball.obj", text_obj(*with_flat_facets(ball, 3)))
-    with pytest.warns(MeshWarning, match=r"Facets without area were left out \(facets: 3\)") as caught:
+def test_facets_without_area_are_left_out_with_a_warning(ball, write, mount, count):
+    path = write("ball.obj", text_obj(*with_flat_facets(ball, count)))
+    with pytest.warns(MeshWarning, match=rf"Facets without area were left out \(facets: {count}\)") as caught:
         probe = load_probe(path, mount=mount)
     assert len(caught) == 1
     assert caught[0].filename == __file__
-    assert probe.health.dropped_facets == 3
+    assert probe.health.dropped_facets == count
+    assert len(probe.faces) == len(ball.faces)
     assert probe.health.watertight
     np.testing.assert_array_equal(np.sort(probe.areas) > 1e-9, True)
 
 
-def test_many_facets_without_area_are_refused(ball, write):
-    with pytest.raises(MeshError, match="4 of 324 facets have no area, more than 1 %"):
-        load_probe(write("ball.obj", text_obj(*with_flat_facets(ball, 4))))
+def test_facets_that_all_have_no_area_are_refused(write):
+    with pytest.raises(MeshError, match="none of the 2 facets has an area"):
+        load_probe(write("line.obj", "v 0 0 0\nv 100 0 0\nv 50 0 0\nf 1 2 3\nf 1 1 2\n"), "mm")
+
+
+def divided(mesh: trimesh.Trimesh, edges: int) -> tuple[np.ndarray, np.ndarray]:
+    """The mesh with edges divided on one side only, and the seam filled with facets without area."""
+    vertices, faces = mesh.vertices.tolist(), mesh.faces.tolist()
+    used: set[int] = set()
+    neighbours = {(a, b): k for k, f in enumerate(faces) for a, b in zip(f, f[1:] + f[:1], strict=True)}
+    for (a, b), k in list(neighbours.items()):
+        other = neighbours[b, a]
+        if len(used) == 2 * edges or {k, other} & used:
+            continue
+        used |= {k, other}
+        (c,) = set(faces[k]) - {a, b}
+        m = len(vertices)
+        vertices.append([(x + y) / 2 for x, y in zip(vertices[a], vertices[b], strict=True)])
+        faces[k] = [a, m, c]
+        faces += [[m, b, c], [m, a, b]]
+    return np.array(vertices), np.array(faces)
+
+
+@pytest.mark.parametrize("name", ["soup", "shared"])
+def test_a_seam_of_facets_without_area_stays_closed(write, name):
+    box = trimesh.creation.box(extents=(160, 64, 32)).subdivide()
+    vertices, faces = divided(box, 15)
+    if name == "soup":
+        vertices, faces = vertices[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3)
+    with pytest.warns(MeshWarning, match=r"left out \(facets: 15\)"):
+        probe = load_probe(write("box.obj", text_obj(vertices, faces)), "mm")
+    assert probe.health.watertight
+    assert probe.health.outward
+    assert len(probe.faces) == len(box.faces) + 2 * 15
+    assert probe.areas.sum() == pytest.approx(1e-6 * box.area, rel=1e-12)
+    volume = trimesh.Trimesh(probe.vertices, probe.faces, process=False).volume
+    assert volume == pytest.approx(1e-9 * box.volume, rel=1e-12)
+
+
+def test_regions_follow_a_divided_facet(write, ply_text):
+    # Two quads of different regions beside each other; the second one's side is divided by a facet of a third.
+    vertices = ["0 0 0", "100 0 0", "100 100 0", "0 100 0", "50 0 0", "50 -80 0"]
+    rows = ["3 0 1 2 1", "3 0 2 3 1", "3 0 4 1 9", "3 0 5 4 2", "3 5 1 4 2"]
+    text = ply_text(vertices, rows, face_properties=("list uchar int vertex_indices", "int region"))
+    with pytest.warns(MeshWarning, match=r"left out \(facets: 1\)"):
+        probe = load_probe(write("a.ply", text), "mm")
+    assert sorted(probe.region.tolist()) == [1, 1, 1, 2, 2]
+    np.testing.assert_allclose(probe.normals, [[0, 0, 1.0]] * 5)
+    # Only the outer rim is open: the seam is not.
+    assert probe.health.boundary_edges == 5
+
+
+def test_stray_points_that_are_not_numbers_are_told(ball, write):
+    text = "v nan nan nan\n" + text_obj(ball.vertices, ball.faces + 1) + "\nv inf 0 0\n"
+    with pytest.warns(MeshWarning, match=r"no facet uses were left out \(points: 2\)"):
+        probe = load_probe(write("ball.obj", text))
+    assert len(probe.vertices) == len(ball.vertices)
 
 
 def test_facets_that_collapse_in_merging_are_left_out(ball, write):
@@ -290,7 +346,24 @@ def test_empty_file(write):
     refuse(write("empty.obj", b""), "the file is empty")
 
 
-@pytest.mark.parametrize("name", ["probe.step", "probe", "probe.stl.gz"])
+@pytest.mark.parametrize(
+    ("name", "data", "kind"),
+    [
+        ("probe.step", b"anything", "STEP"),
+        ("probe.STP", b"anything", "STEP"),
+        ("probe.igs", b"anything", "IGES"),
+        ("probe.stl", b"ISO-10303-21;\nHEADER;\n", "STEP"),
+        ("probe.stl", b"Made by hand".ljust(72) + b"S      1\n", "IGES"),
+    ],
+)
+def test_cad_files_are_refused_with_what_to_export(write, name, data, kind):
+    refuse(
+        write(name, data),
+        f"this is a {kind} file.*no triangles.*as STL in millimetres, with a tolerance of 0.01",
+    )
+
+
+@pytest.mark.parametrize("name", ["probe.sldprt", "probe", "probe.stl.gz"])
 def test_unknown_suffix(write, name):
     refuse(write(name, b"anything"), "is not one of .stl, .ply, .obj")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshError, load_probe
+from pipeline.mesh import MeshError, MeshWarning, load_probe
 
 VERTICES = "0 0 0\n50 0 0\n0 50 0\n0 0 50\n"
 FACETS = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
@@ -14,7 +14,7 @@ OFF = f"OFF\n4 4 6\n{VERTICES}{FACETS}"
 
 
 def corners(path) -> list:
-    probe = load_probe(path)
+    probe = load_probe(path, "mm")
     assert probe.health.sentences == ()
     return (probe.vertices[probe.faces] * 1000).round(9).tolist()
 
@@ -28,6 +28,10 @@ def test_what_trimesh_writes(ball, write):
     "text",
     [
         OFF.replace("OFF\n", "OFF "),
+        OFF.replace("OFF\n", "OFF"),
+        OFF.replace("OFF", "NCOFF").replace("50 0 0\n", "50 0 0 9 9 9 9 1 0 0\n"),
+        OFF.replace("OFF\n", "off\n"),
+        OFF.replace("OFF\n", "\ufeffOFF\n"),
         OFF.replace("4 4 6", "4 4"),
         OFF.replace("\n", "\r\n"),
         OFF.replace("\n", "\r"),
@@ -41,39 +45,58 @@ def test_forms_of_the_same(write, text):
     assert corners(write("a.off", text)) == corners(write("b.off", OFF))
 
 
-def test_polygons_become_fans(write):
+def test_polygons_become_triangles(write):
     box = trimesh.creation.box(extents=(60, 40, 20))
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     rows = [" ".join(map(str, row)) for row in box.vertices.tolist()] + [
         "4 " + " ".join(map(str, quad)) for quad in quads
     ]
-    probe = load_probe(write("a.off", "OFF\n8 6 12\n" + "\n".join(rows)))
+    probe = load_probe(write("a.off", "OFF\n8 6 12\n" + "\n".join(rows)), "mm")
     assert len(probe.faces) == 12
     assert probe.health.sentences == ()
 
 
 @pytest.mark.parametrize(
+    ("old", "new", "note"),
+    [
+        ("3 1 2 3\n", "3 1 2 3\n2 0 1\n", "fewer than three corners were left out .polygons: 1"),
+        (
+            "3 1 2 3\n",
+            "3 1 2 3\nmade by hand\n",
+            "the last facet of the OFF text, from line 11, was left out",
+        ),
+        ("50 0 0", "50,0 0 0", "decimal commas"),
+    ],
+)
+def test_what_is_repaired_is_told(write, old, new, note):
+    text = OFF.replace(old, new, 1)
+    if "corners" in note:
+        text = text.replace("4 4 6", "4 5 6")
+    with pytest.warns(MeshWarning, match=note):
+        assert len(load_probe(write("a.off", text), "mm").faces) == 4
+
+
+@pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("OFF\n", "OFF BINARY\n", "the first line is not 'OFF'"),
+        ("OFF\n", "OFF BINARY\n", "this is a binary OFF file, and only text is read"),
         ("OFF\n", "4OFF\n", "the first line is not 'OFF'"),
         ("OFF\n", "\n", "the first line is not 'OFF'"),
         ("4 4 6", "4", "does not announce its numbers"),
         ("4 4 6", "4 -4 6", "does not announce its numbers"),
         ("4 4 6", "4 999999999999 6", "more than 4000000 facets"),
         ("4 4 6", "999999999999 4 6", "announces 999999999999 vertices.*cut short"),
-        ("4 4 6", "4 0 6", "line 7 .* follows the last facet|holds no facets"),
+        ("4 4 6", "4 0 6", "line 7 .* is a facet beyond those"),
         ("4 4 6", "4 5 6", "announces 4 vertices and 5 facets.*cut short"),
-        ("4 4 6", "4 3 6", "line 10 .* follows the last facet"),
-        ("4 4 6", "3 4 6", "line 6 .* is not a facet of three or more|refers to a vertex"),
+        ("4 4 6", "4 3 6", "line 10 .* is a facet beyond those"),
+        ("4 4 6", "3 4 6", "line 10 .* is a facet beyond those"),
         ("50 0 0", "50 0", "line 4 .* is not a vertex of three numbers"),
-        ("50 0 0", "50,0 0 0", "line 4 .* is not a vertex of three numbers"),
+        ("50 0 0", "50,0,0 0 0", "line 4 .* is not a vertex of three numbers"),
         ("50 0 0", "nan 0 0", r"vertices: row 1 .*nan.* is not a finite point"),
         ("3 0 1 3", "3 0 1 4", "line 8 .* refers to a vertex that is not there .the file has 4"),
-        ("3 0 1 3", "3 0 1 -1", "line 8 .* is not a facet of three or more"),
-        ("3 0 1 3", "2 0 1", "line 8 .* is not a facet of three or more"),
-        ("3 0 1 3", "4 0 1 3", "line 8 .* is not a facet of three or more"),
-        ("3 0 1 3", "999999999999999999 0 1 3", "line 8 .* is not a facet of three or more"),
+        ("3 0 1 3", "3 0 1 -1", "line 8 .* is not a facet that lists its vertices"),
+        ("3 0 1 3", "4 0 1 3", "line 8 .* is not a facet that lists its vertices"),
+        ("3 0 1 3", "999999999999999999 0 1 3", "line 8 .* is not a facet that lists its vertices"),
         (FACETS, "", "ends before them: it is cut short"),
     ],
 )

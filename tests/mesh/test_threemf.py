@@ -33,11 +33,15 @@ def model(objects: str = OBJECT, items: str = '<item objectid="1"/>', attributes
     )
 
 
-def packed(text: str | bytes, name: str = "3D/3dmodel.model", how: int = zipfile.ZIP_DEFLATED) -> bytes:
+def packed(
+    text: str | bytes, name: str = "3D/3dmodel.model", how: int = zipfile.ZIP_DEFLATED, **others: str
+) -> bytes:
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", how) as archive:
         archive.writestr("[Content_Types].xml", "<Types/>")
         archive.writestr(name, text)
+        for other, content in others.items():
+            archive.writestr(f"3D/Objects/{other}.model", content)
     return out.getvalue()
 
 
@@ -64,20 +68,22 @@ def test_a_part(write):
         ("foot", None),
     ],
 )
-@pytest.mark.parametrize("units", ["auto", "mm"])
-def test_the_stated_unit_is_used(write, unit, metres, units):
+def test_the_stated_unit_is_used(write, unit, metres):
     path = write("a.3mf", packed(model(attributes=f'unit="{unit}"')))
     if metres is None:
-        refuse(path, "the probe is .* mm long", units=units)
+        refuse(path, "the probe is .* mm long")
     else:
-        assert load_probe(path, units).size == pytest.approx(metres)
+        assert load_probe(path).size == pytest.approx(metres)
 
 
 def test_another_unit_than_stated_is_refused(write):
     path = write("a.3mf", packed(model(attributes='unit="inch"')))
-    refuse(
-        path, "states that its numbers are inches, but units='cm' was given: pass 'in' or 'auto'", units="cm"
-    )
+    for other in ("cm", "mm"):
+        refuse(
+            path,
+            f"states that its numbers are inches, but units='{other}' was given: pass 'in' or 'auto'",
+            units=other,
+        )
 
 
 def test_parts_are_placed_by_components_and_items(write):
@@ -90,6 +96,30 @@ def test_parts_are_placed_by_components_and_items(write):
     probe = load_probe(write("a.3mf", packed(model(objects, items))))
     np.testing.assert_allclose(probe.bounds * 1000, [[-50, 100, 7], [0, 150, 57]], atol=1e-9)
     assert probe.health.outward is True
+
+
+def test_parts_in_other_models_of_the_archive(write):
+    # As slicers write them: the build takes an object of the first model, which takes one of another.
+    objects = (
+        '<object id="2"><components><component p:path="/3D/Objects/part.model" objectid="7"'
+        ' transform="1 0 0 0 1 0 0 0 1 100 0 0"/></components></object>'
+    )
+    inner = (
+        '<object id="7"><components><component objectid="1" transform="1 0 0 0 1 0 0 0 1 0 10 0"/></components>'
+        f"</object>{OBJECT}"
+    )
+    data = packed(model(objects, '<item objectid="2"/>'), part=model(inner, ""))
+    probe = load_probe(write("a.3mf", data))
+    np.testing.assert_allclose(probe.bounds * 1000, [[100, 10, 0], [150, 60, 50]], atol=1e-9)
+
+
+def test_models_that_take_parts_from_each_other_are_refused(write):
+    placed = '<component p:path="/3D/Objects/part.model" objectid="1"/>'
+    objects = f'<object id="1"><components>{placed}</components></object>'
+    back = objects.replace("Objects/part", "3dmodel")
+    refuse(
+        write("a.3mf", packed(model(objects), part=model(back, ""))), "nests or repeats its objects too often"
+    )
 
 
 def test_a_mirrored_part_keeps_its_outside(write):
@@ -113,6 +143,7 @@ def test_elements_of_other_namespaces_are_left_alone(write):
 
 def test_names_may_be_in_another_case(write):
     assert len(load_probe(write("a.3mf", packed(model(), "/3d/3DModel.MODEL"))).faces) == 4
+    assert len(load_probe(write("b.3mf", packed(model(), "3D/part.model"))).faces) == 4
 
 
 @pytest.mark.parametrize(
@@ -120,7 +151,7 @@ def test_names_may_be_in_another_case(write):
     [
         (b"hello", "not a readable 3MF archive"),
         (packed(model())[:-30], "not a readable 3MF archive"),
-        (packed(model(), "other.model"), "holds no 3D/3dmodel.model"),
+        (packed(model(), "other.txt"), "holds no 3D/3dmodel.model"),
         (packed(model(), how=zipfile.ZIP_BZIP2), "encrypted or packed in an unusual way"),
         (packed(model()[:-20]), "not sound XML"),
         (packed(model().replace("<build>", "<build>&nosuch;")), "not sound XML"),
@@ -142,7 +173,7 @@ def test_names_may_be_in_another_case(write):
         ),
         (
             packed(model(items='<item objectid="1" p:path="/3D/other.model"/>')),
-            "split over several model files",
+            "does not hold the model '3d/other.model' that it takes parts from",
         ),
         (packed("<!DOCTYPE a [<!ENTITY b 'c'>]>" + model().partition("?>")[2]), "declares a document type"),
     ],

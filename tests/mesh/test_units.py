@@ -26,6 +26,9 @@ from pipeline.mesh.units import METRES, guess_units, in_metres, notes_in
         (45.0, "mm", False),
         (1000.0, "mm", False),
         (0.01, "m", False),
+        (0.47, "m", False),
+        (0.19, "m", True),
+        (3.15, "in", False),
     ],
 )
 def test_size_alone(span, units, certain):
@@ -45,6 +48,12 @@ def test_inch_or_centimetre_is_asked():
     assert "measure the probe" in guess.reason
 
 
+def test_a_small_part_in_inches_is_asked_about():
+    guess = guess_units(0.47)
+    assert guess.alternatives == ("in",)
+    assert "470 mm if they are metres, 11.94 mm if they are inches" in guess.reason
+
+
 @pytest.mark.parametrize(
     ("notes", "units"),
     [
@@ -60,7 +69,7 @@ def test_inch_or_centimetre_is_asked():
 def test_notes_decide_where_they_can_be_true(notes, units):
     guess = guess_units(5.2 if units != "mm" else 52.0, notes=notes)
     assert (guess.units, guess.certain) == (units, True)
-    assert "notes speak of" in guess.reason
+    assert "speaks of" in guess.reason
 
 
 def test_notes_that_cannot_be_true_make_it_uncertain():
@@ -106,6 +115,15 @@ def test_notes_of_each_format():
     )
     assert notes_in(b"# units: mm\nv 1 2 3 # cm\ng inch", ".obj").split(b"\n") == [b" units: mm", b" cm"]
     assert notes_in(b"anything", ".3mf") == b""
+    assert notes_in(b"anything", ".glb") == b"unit: m"
+
+
+@given(st.floats(0.03, 0.6), st.sampled_from(sorted(METRES)))
+def test_a_probe_of_usual_size_is_never_silently_read_in_another_unit(size_m, units):
+    numerator, denominator = METRES[units]
+    guess = guess_units(size_m * denominator / numerator)
+    assert guess.units == units or not guess.certain
+    assert guess.certain or units in (guess.units, *guess.alternatives)
 
 
 # ---------------------------------------------------------------- units="auto"
@@ -150,3 +168,10 @@ def test_other_values_do_not_guess(scaled):
         assert load_probe(scaled(0.1), "cm").size == pytest.approx(0.08, rel=1e-3)
     with pytest.raises(MeshError, match="did the file hold metres"):
         load_probe(scaled(1e-3), "mm")
+
+
+def test_the_default_asks_about_inches(scaled):
+    with pytest.warns(MeshWarning, match="80 mm if they are inches"):
+        load_probe(scaled(1 / 25.4))
+    with pytest.warns(MeshWarning, match="if they are inches.*measure the probe, and say the units"):
+        load_probe(scaled(1.2 / 25.4))

@@ -58,6 +58,7 @@ def test_without_a_pose() -> None:
     assert told["health"] == ["no_pose"]
     assert told["point_S_m"] is told["force_S_N"] is told["misfit"] is None
     assert told["accepted"] is False
+    assert told["on"] is None
     assert answer.line.endswith(b"}\n")
     nothing = dict.fromkeys(("age_s", "force_S_N", "torque_S_Nm", "shift_m", "shift_sigma_m"))
     assert told["zero"] == {"state": "unknown", **nothing}

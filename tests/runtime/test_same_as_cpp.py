@@ -8,11 +8,13 @@ import shutil
 import struct
 import subprocess
 import sys
+from collections import Counter
 from math import isfinite
 from pathlib import Path
 
 import numpy as np
 import pytest
+from config.runtime import bundles
 from config.runtime.bundles import example_bundle
 from runtime.runtime_recordings import BEGIN, flange, input_lines, record, samples, wrench
 from scipy.spatial.transform import Rotation
@@ -76,6 +78,38 @@ def test_a_recording_gives_the_same_bytes(
     text = "".join(expected)
     for reason in ("ok", "low_force", "not_finite", "saturated"):
         assert f'"reason":"{reason}"' in text
+
+
+def test_what_a_contact_lies_on_is_told_alike(example: Path, tmp_path: Path) -> None:
+    clamped = bundles.example(clamped=True)
+    invented = np.arange(len(clamped.probe.faces)) % 3 == 0
+    (tmp_path / "bundle").mkdir()
+    for name, data in bundles.with_invented(clamped, invented).items():
+        (tmp_path / "bundle" / name).write_bytes(data)
+    marks = np.where(invented, "invented", "measured").astype(object)
+    marks[clamped.probe.region == 2] = "untouchable"
+    mixed, rng, level = samples(clamped, 4_000), np.random.default_rng(6), np.eye(3)
+    for i, facet in enumerate(np.repeat(np.flatnonzero(clamped.probe.region == 2)[::40], 200)):
+        t = BEGIN + 10 + 0.001 * i  # later than a gap: the last contact is not followed
+        force = -8.0 * clamped.probe.normals[facet] * (i % 200 > 50)
+        touch = [*force, *np.cross(clamped.probe.vertices[clamped.probe.faces[facet]].mean(axis=0), force)]
+        mixed.append(flange(t, level))
+        mixed.append(wrench(t, clamped.gravity.predict(level) + touch + rng.normal(0, 0.001, 6)))
+    file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
+    address = f"replay://{file}?speed=step"
+    arguments = ["run", str(tmp_path / "bundle"), "--sensor", address, "--pose", address, "--out", str(told)]
+    done = CliRunner().invoke(app, arguments)
+    assert done.exit_code == 0, done.stderr
+    lines = told.read_text().splitlines()
+    assert lines == run(example, tmp_path / "bundle", given="\n".join(input_lines(mixed))).splitlines()
+    rows = [json.loads(line) for line in lines]
+    assert [row["on"] for row in rows] == [None if row["face"] < 0 else marks[row["face"]] for row in rows]
+    counts = Counter(row["on"] for row in rows if row["on"])
+    assert set(counts) == {"measured", "invented", "untouchable"}
+    said = " ".join(done.stderr.split()).replace(",", "")
+    total = sum(counts.values())
+    assert f"{counts['invented']} of {total} contacts are on invented facets" in said
+    assert f"{counts['untouchable']} of {total} contacts are on regions that nothing can touch" in said
 
 
 def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig], tmp_path: Path) -> None:

@@ -117,8 +117,7 @@ def test_the_simplification_study_in_short():
     assert named(figures, "mm against m").measured < 1e-12
     best = named(figures, "Hausdorff of the best rival")
     assert 0.1 < best.measured < 3
-    ratios = [named(figures, f"engine {engine!r}").measured for engine in ("auto", "best")]
-    assert 0.3 < ratios[1] <= ratios[0] * 1.05 < 4
+    assert 0.3 < named(figures, "Hausdorff over it").measured < 2
     assert named(figures, "density").measured > 4
     assert named(figures, "RMS inside").measured < 0.5
     assert named(figures, "RMS elsewhere").measured > 1
@@ -139,7 +138,7 @@ def test_other_facets_from_millimetres_miss(monkeypatch):
 @pytest.mark.skipif(
     not Path("/proc/self/status").exists(), reason="peaks of small processes are told by /proc"
 )
-def test_peak_memory_is_of_both_processes(tmp_path):
+def test_peak_memory_grows_with_the_mesh(tmp_path):
     found = []
     for facets in (5_000, 200_000):
         probe = shapes.bundled("t-shape", facets)
@@ -148,10 +147,9 @@ def test_peak_memory_is_of_both_processes(tmp_path):
         found.append(peak.Peak(**peak._in_a_process("measure", "1000", str(file))))
     small, large = found
     assert large.facets == pytest.approx(200_000, rel=0.05)
-    # A mesh takes 24 bytes a facet; each process holds more than two copies of it.
+    # A mesh takes 24 bytes a facet; more than two copies of it are held.
     more = 48 * (large.facets - small.facets)
-    assert large.own - small.own > more
-    assert large.engine - small.engine > more
+    assert large.memory - small.memory > more
 
 
 def test_a_failed_measurement_of_memory_is_an_error(tmp_path):
@@ -274,18 +272,27 @@ def hollow() -> tuple[shell.Case, list[Figure]]:
     pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
     probe, outside = housing("linear", 2_000)
     case = shell.Case("hollow", probe, outside, 1)
-    return case, shell.judge(case, np.random.default_rng(0), quick=True)
+    return case, shell.judge(case, np.random.default_rng(0))
 
 
 def test_a_hollow_probe_becomes_a_sound_shell(hollow):
     _, figures = hollow
-    for what in ("closed: 0", "manifold: 0", "outward: 0", "parts", "cross others", "inner hits"):
+    for what in (
+        "closed: 0",
+        "manifold: 0",
+        "outward: 0",
+        "inside others",
+        "cross or overlap",
+        "folded back",
+    ):
         assert named(figures, what).measured == 0, what
+    assert named(figures, "time").name.endswith("hull")
+    assert [figure.measured for figure in figures if figure.name == "parts"] == [1]
     truth = named(figures, "true outside")
-    assert 0 < truth.measured < 0.5
-    assert truth.target == ""
+    assert 0 <= truth.measured < 0.01
+    assert truth.passed
     assert named(figures, "openings closed").passed
-    assert 2 < named(figures, "invented").measured < 15
+    assert 1 < named(figures, "invented").measured < 3
 
 
 def test_what_is_no_shell_misses(hollow, monkeypatch):
@@ -303,6 +310,16 @@ def test_an_opening_left_open_misses(hollow):
     case, _ = hollow
     made = shell.make_shell(case.probe, Closing.OPEN, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
     assert not named(shell._openings(case, made), "left open").passed
+    assert named(shell._openings(replace(case, openings=None), made), "left open").passed
+
+
+def test_a_wrap_has_its_distances_and_no_inner_hits(hollow):
+    case, _ = hollow
+    made = shell.make_shell(case.probe, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
+    assert made.how == "wrapped"
+    figures = shell._fit(case, made, np.random.default_rng(0))
+    assert named(figures, "inner hits").measured == 0
+    assert not named(figures, "visible outside to shell, 95 %").passed
 
 
 def test_a_file_is_measured_from_the_command_line(tmp_path):

@@ -22,7 +22,7 @@ from pipeline.verification.markers import make_markers
 from pipeline.verification.noise import measured_noise, resting
 from pipeline.verification.press import Touch
 from pipeline.verification.reference import force_accuracy
-from pipeline.verification.result import VerificationParameters, verification, verify_files
+from pipeline.verification.result import VerificationParameters, load_surface, verification, verify_files
 from pipeline.verification.source import clock_sentences, read_touch_recording
 from pipeline.verification.verdict import crowded
 from pipeline.verification.verify import VerifySettings, verify
@@ -244,6 +244,25 @@ def test_forces_are_compared_with_a_reference(files):
     found = verify_files({**given, "reference": files / "r2.csv"}, VerificationParameters(name="v.json"))
     assert abs(found.force.mean_N) < 0.3
     assert found.force.max_N < 1.0
+
+
+def test_the_unit_of_a_foreign_mesh_is_found_and_doubts_are_told(files, good, tmp_path):
+    def obj(factor, head=""):
+        file = tmp_path / "probe.obj"
+        rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in (factor * good.probe.vertices).tolist()]
+        rows += [f"f {a} {b} {c}" for a, b, c in (good.probe.faces + 1).tolist()]
+        file.write_text("\n".join([head, *rows]) + "\n")
+        return file
+
+    for factor, head in ((1e3, ""), (1.0, "# units: m"), (100.0, "# units: cm")):
+        surface = load_surface(obj(factor, head))
+        assert surface.size == pytest.approx(good.probe.size, rel=1e-9)
+    given = VerificationParameters(name="v.json")
+    for factor, doubtful in ((1e3, False), (100.0, True)):  # only hundredths need not be centimetres
+        found = verify_files({**inputs(files), "probe": obj(factor)}, given)
+        assert any("are assumed" in said for said in found.warnings) == doubtful
+        assert any("prepare --units" in said for said in found.warnings) == doubtful
+        assert not any(str(tmp_path) in said for said in found.warnings)
 
 
 @pytest.mark.parametrize(

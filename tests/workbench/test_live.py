@@ -219,18 +219,19 @@ def test_reading_finds_the_contact_once_for_each_sample(live):
     live.pair.step(200)
     raw = live.reading().raw
     live.set_model(GravityModel(EMPTY, raw[:3], EMPTY, raw[3:]))
-    solver = ContactSolver(bench.probe)
+    solver = ContactSolver(bench.probe.with_invented(np.ones(len(bench.probe.faces), dtype=bool)))
     asked = []
 
     class Counting:
-        reset = solver.reset
+        reset, on = solver.reset, solver.on
 
         def track(self, wrench):
             asked.append(wrench)
             return solver.track(wrench)
 
     live.set_solver(Counting())
-    assert live.reading().contact is None  # nothing touches
+    reading = live.reading()
+    assert reading.contact is reading.on is None  # nothing touches
     point = bench.markers[2]
     bench.touch(point_S=point, force=9.0, seconds=2.0)
     live.pair.step(420)
@@ -238,6 +239,7 @@ def test_reading_finds_the_contact_once_for_each_sample(live):
     assert len(asked) == 2
     contact = live.reading().contact
     assert contact.accepted
+    assert live.reading().on == "invented"
     assert np.linalg.norm(contact.point - point) < 0.004
     times, points = live.contacts(10.0)
     assert np.isnan(points[0]).all()
@@ -256,6 +258,9 @@ class Following:
 
     def reset(self):
         self.began += 1
+
+    def on(self, _contact):
+        return "measured"
 
 
 def test_a_contact_is_followed_until_it_is_let_go():

@@ -91,6 +91,7 @@ void bind_contact(nb::module_& m);
 void bind_solvers(nb::module_& m);
 void bind_surface(nb::module_& m);
 void bind_geodesic(nb::module_& m);
+void bind_collapse(nb::module_& m);
 void bind_runtime(nb::module_& m);
 
 }  // namespace contactbench::bindings

@@ -9,5 +9,6 @@ NB_MODULE(CONTACTBENCH_MODULE, m) {
     contactbench::bindings::bind_solvers(m);
     contactbench::bindings::bind_surface(m);
     contactbench::bindings::bind_geodesic(m);
+    contactbench::bindings::bind_collapse(m);
     contactbench::bindings::bind_runtime(m);
 }

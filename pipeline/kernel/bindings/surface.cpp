@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "bindings.hpp"
+#include "contactbench/crossings.hpp"
 #include "contactbench/surface.hpp"
 
 namespace contactbench::bindings {
@@ -21,21 +22,49 @@ void refuse_infinite(const Rows3& rows, const char* what) {
             throw nb::value_error((std::string(what) + ": row " + std::to_string(i) + " is not finite").c_str());
 }
 
-Surface* make_surface(const Rows3& vertices, const Faces& faces) {
+struct Mesh {
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::int32_t, 3>> faces;
+};
+
+Mesh to_mesh(const Rows3& vertices, const Faces& faces) {
     refuse_infinite(vertices, "vertices");
-    if (faces.shape(0) == 0) throw nb::value_error("faces: there are none");
-    std::vector<Vec3> points(vertices.shape(0));
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = row(vertices, i);
-    std::vector<std::array<std::int32_t, 3>> triangles(faces.shape(0));
-    for (std::size_t f = 0; f < triangles.size(); ++f)
+    Mesh mesh;
+    mesh.vertices.resize(vertices.shape(0));
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i] = row(vertices, i);
+    mesh.faces.resize(faces.shape(0));
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::int32_t v = faces.data()[3 * f + k];
-            if (v < 0 || std::size_t(v) >= points.size())
+            if (v < 0 || std::size_t(v) >= mesh.vertices.size())
                 throw nb::value_error(("faces: row " + std::to_string(f) + " refers to a vertex that is not there").c_str());
-            triangles[f][k] = v;
+            mesh.faces[f][k] = v;
         }
+    return mesh;
+}
+
+Surface* make_surface(const Rows3& vertices, const Faces& faces) {
+    Mesh mesh = to_mesh(vertices, faces);
+    if (mesh.faces.empty()) throw nb::value_error("faces: there are none");
     nb::gil_scoped_release release;
-    return new Surface(std::move(points), std::move(triangles));
+    return new Surface(std::move(mesh.vertices), std::move(mesh.faces));
+}
+
+nb::tuple crossings(const Rows3& vertices, const Faces& faces, std::size_t limit) {
+    Mesh mesh = to_mesh(vertices, faces);
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+            if (!fit_for_exact(mesh.vertices[i].*axis))
+                throw nb::value_error(("vertices: row " + std::to_string(i) + " is beyond 1e90").c_str());
+    Crossings found;
+    {
+        nb::gil_scoped_release release;
+        found = find_crossings(mesh.vertices, std::move(mesh.faces), limit);
+    }
+    const std::size_t k = found.kinds.size();
+    return nb::make_tuple(make_array(std::move(found.pairs), {k, 2}), make_array(std::move(found.kinds), {k}),
+                          make_array(std::vector<std::int64_t>(found.count.begin(), found.count.end()), {3}),
+                          found.complete);
 }
 
 // Splits many queries over the processor's cores: each is on its own, so the answer is the same.
@@ -68,6 +97,28 @@ nb::tuple closest(const Surface& surface, const Rows3& points) {
     }
     return nb::make_tuple(make_array(std::move(distance), {n}), make_array(std::move(face), {n}),
                           make_array(std::move(place), {n, 3}));
+}
+
+nb::tuple best_aligned(const Surface& surface, const Rows3& points, const Rows3& directions,
+                       const nb::ndarray<const double, nb::shape<-1>, nb::c_contig, nb::device::cpu>& radius,
+                       const Rows3& normals, double enough) {
+    refuse_infinite(points, "points");
+    const std::size_t n = points.shape(0);
+    if (directions.shape(0) != n || radius.shape(0) != n) throw nb::value_error("points, directions and radius differ in number");
+    if (normals.shape(0) != surface.size()) throw nb::value_error("normals: not one per facet");
+    std::vector<double> cosine(n);
+    std::vector<std::int32_t> face(n);
+    {
+        nb::gil_scoped_release release;
+        const auto normal = [&](std::int32_t facet) { return row(normals, std::size_t(facet)); };
+        in_parts(n, [&](std::size_t from, std::size_t to) {
+            for (std::size_t i = from; i < to; ++i) {
+                const auto best = surface.best_aligned(row(points, i), row(directions, i), radius.data()[i], normal, enough);
+                cosine[i] = best.cosine, face[i] = best.face;
+            }
+        });
+    }
+    return nb::make_tuple(make_array(std::move(cosine), {n}), make_array(std::move(face), {n}));
 }
 
 std::pair<std::vector<double>, std::vector<std::int32_t>> cast_all(const Surface& surface, const Rows3& origins,
@@ -116,10 +167,21 @@ void bind_surface(nb::module_& m) {
         .def("__len__", &Surface::size, "Number of facets.")
         .def("closest", &closest, nb::arg("points"),
              "Nearest point of the surface to each of points (k, 3): distance (k,), facet (k,), point (k, 3).")
+        .def("best_aligned", &best_aligned, nb::arg("points"), nb::arg("directions"), nb::arg("radius"),
+             nb::arg("normals"), nb::arg("enough") = std::numeric_limits<double>::infinity(),
+             "Of the facets within radius (k,) of each point (k, 3), the one whose normal, of normals (m, 3), has the largest"
+             " dot product with the point's direction (k, 3): that product (k,), -1 for none, and facet (k,), -1. The"
+             " search for a point ends at the first that is `enough`.")
         .def("first_hit", &first_hit, nb::arg("origins"), nb::arg("directions"),
              "First facet on each half-line: t (k,), in lengths of its direction, inf for none, and facet (k,), -1.")
         .def("escapes", &escapes, nb::arg("origins"), nb::arg("directions"),
              "Whether each half-line meets no facet at all: (k,) bool.");
+    m.def("crossings", &crossings, nb::arg("vertices"), nb::arg("faces"), nb::arg("limit") = 100'000,
+          "Facets of vertices (n, 3) float64 and faces (m, 3) int32 that share points beyond their common vertices and"
+          " edges, decided exactly: pairs (k, 2) int32, ascending; their kinds (k,) uint8, 0 crossing, 1 touching only, 2"
+          " sharing an area; how many there are of each kind (3,) int64; and whether every pair was looked at. At most `limit`"
+          " crossings and overlaps are listed, where the search stops, and at most `limit` touching pairs. Facets without"
+          " area are left out; a coordinate below 1e-75 counts as 0, ValueError beyond 1e90.");
 }
 
 }  // namespace contactbench::bindings

@@ -1,8 +1,8 @@
 """
 The mesh libraries, each in a child process: what they break stays there.
 
-fast-simplification holds the interpreter while it works and has state that all threads share; pymeshlab
-carries its own Qt and is GPL-3; both end the process on some meshes. Here a crash is an `EngineError`.
+pymeshlab carries its own Qt, it and the CGAL half of libigl are GPL-3, and both end the process on some meshes. Here a
+crash is an `EngineError`.
 """
 
 from pipeline.mesh.engines.errors import Cancelled, EngineError
@@ -11,9 +11,8 @@ from pipeline.mesh.engines.operations import (
     Control,
     alpha_wrap,
     close_holes,
-    fast_quadric,
+    cut_along_crossings,
     orient_facets,
-    quadric,
     self_intersections,
 )
 from pipeline.mesh.engines.run import engine_pid, run, stop_engines
@@ -26,10 +25,9 @@ __all__ = [
     "Operation",
     "alpha_wrap",
     "close_holes",
+    "cut_along_crossings",
     "engine_pid",
-    "fast_quadric",
     "orient_facets",
-    "quadric",
     "run",
     "self_intersections",
     "stop_engines",

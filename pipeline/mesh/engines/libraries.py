@@ -44,17 +44,6 @@ def perform(
     return _OPERATIONS[operation](module, arrays, fields)
 
 
-def _fast_quadric(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
-    vertices, faces = module.simplify(
-        arrays["vertices"],
-        arrays["faces"],
-        target_count=int(fields["count"]),
-        agg=float(fields["aggression"]),
-        preserve_border=bool(fields["keep_border"]),
-    )
-    return _mesh(vertices, faces)
-
-
 def _alpha_wrap(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
     meshes = _mesh_set(module, arrays)
     meshes.generate_alpha_wrap(
@@ -86,32 +75,22 @@ def _self_intersections(
     return {"selected": np.asarray(meshes.current_mesh().face_selection_array(), dtype=np.bool_)}
 
 
+def _cut(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:
+    vertices, faces, _, born, _ = module.remesh_self_intersections(
+        arrays["vertices"], arrays["faces"].astype(np.int64), stitch_all=True
+    )
+    return _mesh(vertices, faces) | {"born": np.asarray(born, dtype=np.int32).reshape(-1)}
+
+
 def _orient(module: Any, arrays: Mapping[str, npt.NDArray[Any]], _fields: Mapping[str, Any]) -> _Arrays:
     meshes = _mesh_set(module, arrays)
     meshes.meshing_re_orient_faces_coherently()
     return _current(meshes)
 
 
-def _quadric(module: Any, arrays: Mapping[str, npt.NDArray[Any]], fields: Mapping[str, Any]) -> _Arrays:
-    meshes = _mesh_set(module, arrays)
-    meshes.meshing_decimation_quadric_edge_collapse(
-        targetfacenum=int(fields["count"]),
-        qualitythr=float(fields["shape"]),
-        preservenormal=bool(fields["keep_normals"]),
-        preservetopology=bool(fields["keep_topology"]),
-        planarquadric=bool(fields["planar"]),
-        qualityweight="quality" in arrays,
-        autoclean=True,
-    )
-    # The collapses leave gaps in the vertex list.
-    meshes.meshing_remove_unreferenced_vertices()
-    return _current(meshes)
-
-
 def _mesh_set(module: Any, arrays: Mapping[str, npt.NDArray[Any]]) -> Any:
-    quality = {"v_scalar_array": arrays["quality"]} if "quality" in arrays else {}
     meshes = module.MeshSet(verbose=False)
-    meshes.add_mesh(module.Mesh(vertex_matrix=arrays["vertices"], face_matrix=arrays["faces"], **quality))
+    meshes.add_mesh(module.Mesh(vertex_matrix=arrays["vertices"], face_matrix=arrays["faces"]))
     return meshes
 
 
@@ -131,7 +110,6 @@ _OPERATIONS: dict[Operation, Callable[[Any, Mapping[str, npt.NDArray[Any]], Mapp
     Operation.ALPHA_WRAP: _alpha_wrap,
     Operation.CLOSE_HOLES: _close_holes,
     Operation.SELF_INTERSECTIONS: _self_intersections,
+    Operation.CUT: _cut,
     Operation.ORIENT: _orient,
-    Operation.QUADRIC: _quadric,
-    Operation.FAST_QUADRIC: _fast_quadric,
 }

@@ -8,14 +8,13 @@ from enum import StrEnum
 class Library(StrEnum):
     """A mesh library, each with a child process of its own."""
 
-    FAST_SIMPLIFICATION = "fast-simplification"
     MESHLAB = "meshlab"
+    CGAL = "cgal"
 
     @property
     def install(self) -> str:
         """The command that installs it."""
-        target = "'contactbench[meshlab]'" if self is Library.MESHLAB else "fast-simplification"
-        return f"pip install {target}"
+        return "pip install 'contactbench[meshlab]'"
 
 
 class Operation(StrEnum):
@@ -24,11 +23,10 @@ class Operation(StrEnum):
     ALPHA_WRAP = "alpha wrap"
     CLOSE_HOLES = "close holes"
     SELF_INTERSECTIONS = "self-intersections"
+    CUT = "cut along crossings"
     ORIENT = "orient facets"
-    QUADRIC = "quadric simplification"
-    FAST_QUADRIC = "fast quadric simplification"
 
     @property
     def library(self) -> Library:
         """The library that does it."""
-        return Library.FAST_SIMPLIFICATION if self is Operation.FAST_QUADRIC else Library.MESHLAB
+        return Library.CGAL if self is Operation.CUT else Library.MESHLAB

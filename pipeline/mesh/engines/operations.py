@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypedDict
 import numpy as np
 
 from pipeline.mesh.engines.errors import EngineError
-from pipeline.mesh.engines.operation import Operation
+from pipeline.mesh.engines.operation import Library, Operation
 from pipeline.mesh.engines.run import run
 from pipeline.mesh.probe import check_faces, check_vertices
 
@@ -150,6 +150,48 @@ def self_intersections(
     return _mask(Operation.SELF_INTERSECTIONS, result, "selected", len(arrays["faces"]))
 
 
+def cut_along_crossings(
+    vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], npt.NDArray[np.int32]]:
+    """
+    Cut facets along the lines where they cross or touch others, exactly (CGAL, by libigl).
+
+    New vertices are rounded to doubles, so that pieces may cross again by that much.
+
+    Parameters
+    ----------
+    vertices : (n, 3) array_like
+        Any length unit.
+    faces : (m, 3) array_like
+        Vertex indices.
+    **control
+        See `run`.
+
+    Returns
+    -------
+    vertices : (k, 3) float64
+    faces : (l, 3) int32
+        Some may have no area after rounding.
+    born : (l,) int32
+        The facet that each is a piece of.
+
+    Raises
+    ------
+    MeshError
+        The arrays are no mesh.
+    EngineError, Cancelled
+        See `run`.
+    """
+    arrays = _checked(vertices, faces)
+    result = run(Operation.CUT, arrays, {}, **control)
+    new_vertices, new_faces = _mesh(Operation.CUT, result)
+    born = result.get("born")
+    right = born is not None and born.dtype == np.int32 and born.shape == (len(new_faces),)
+    if born is None or not right or born.min() < 0 or born.max() >= len(arrays["faces"]):
+        raise EngineError(f"{Library.CGAL} did not say what its facets are pieces of: use another mesh.")
+    return new_vertices, new_faces, born
+
+
 def orient_facets(vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]) -> Mesh:
     """
     Turn facets so that neighbours agree about which side is outside; which side it is may still be wrong.
@@ -176,118 +218,6 @@ def orient_facets(vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpa
         See `run`; the library refuses meshes that are not two-manifold.
     """
     return _mesh(Operation.ORIENT, run(Operation.ORIENT, _checked(vertices, faces), {}, **control))
-
-
-def quadric(
-    vertices: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    count: int,
-    *,
-    quality: npt.ArrayLike | None = None,
-    shape: float = 0.3,
-    planar: bool = False,
-    keep_normals: bool = False,
-    keep_topology: bool = False,
-    **control: Unpack[Control],
-) -> Mesh:
-    """
-    Collapse edges in the order of their quadric error (Garland & Heckbert 1997), by MeshLab.
-
-    Degenerate and duplicate facets crash the library: leave them out first.
-
-    Parameters
-    ----------
-    vertices : (n, 3) array_like
-        Scaled to about 100: the library's thresholds are absolute.
-    faces : (m, 3) array_like
-        Vertex indices.
-    count : int
-        Facets to reach.
-    quality : (n,) array_like, optional
-        Weight of each vertex's error; the library maps it so that larger means simplified less.
-    shape : float
-        0 to 1: how much slender facets are avoided.
-    planar : bool
-        Keep vertices in flat parts evenly spaced.
-    keep_normals : bool
-        Refuse collapses that would flip a facet.
-    keep_topology : bool
-        Refuse collapses that would change the number of handles and parts.
-    **control
-        See `run`.
-
-    Returns
-    -------
-    vertices : (k, 3) float64
-    faces : (l, 3) int32
-        Not always `count` of them: look.
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh.
-    EngineError, Cancelled
-        See `run`.
-    """
-    arrays = _checked(vertices, faces)
-    if quality is not None:
-        weights = np.array(quality, dtype=np.float64)
-        if weights.shape != (len(arrays["vertices"]),) or not np.isfinite(weights).all():
-            raise EngineError("quality: give one finite number per vertex.")
-        arrays["quality"] = weights
-    parameters = {
-        "count": count,
-        "shape": shape,
-        "planar": planar,
-        "keep_normals": keep_normals,
-        "keep_topology": keep_topology,
-    }
-    return _mesh(Operation.QUADRIC, run(Operation.QUADRIC, arrays, parameters, **control))
-
-
-def fast_quadric(
-    vertices: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    count: int,
-    *,
-    aggression: float = 7.0,
-    keep_border: bool = False,
-    **control: Unpack[Control],
-) -> Mesh:
-    """
-    Collapse edges whose quadric error is below a rising threshold, by fast-simplification.
-
-    Parameters
-    ----------
-    vertices : (n, 3) array_like
-        Scaled to about 100: the library's thresholds are absolute.
-    faces : (m, 3) array_like
-        Vertex indices.
-    count : int
-        Facets to reach, at most as many as there are.
-    aggression : float
-        How fast the threshold rises: less is slower and finer, and may stop short of the count.
-    keep_border : bool
-        Leave every vertex on the rim of an open mesh where it is, bit for bit.
-    **control
-        See `run`.
-
-    Returns
-    -------
-    vertices : (k, 3) float64
-    faces : (l, 3) int32
-        Not always `count` of them: look.
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh.
-    EngineError, Cancelled
-        See `run`.
-    """
-    parameters = {"count": count, "aggression": aggression, "keep_border": keep_border}
-    result = run(Operation.FAST_QUADRIC, _checked(vertices, faces), parameters, **control)
-    return _mesh(Operation.FAST_QUADRIC, result)
 
 
 def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> dict[str, npt.NDArray[Any]]:

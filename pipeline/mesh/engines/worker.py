@@ -28,9 +28,12 @@ MODULE = "pipeline.mesh.engines.worker"
 
 _NICENESS = 10
 
-# Imported by name at run time: pymeshlab is GPL-3, and stays on this side of the process boundary, where
-# nothing but the messages of this package passes.
-_MODULES = {Library.FAST_SIMPLIFICATION: "fast_simplification", Library.MESHLAB: "pymeshlab"}
+# Imported by name at run time: pymeshlab and the CGAL half of libigl are GPL-3, and stay on this side of the process
+# boundary, where nothing but the messages of this package passes.
+_MODULES = {
+    Library.MESHLAB: "pymeshlab",
+    Library.CGAL: "igl.copyleft.cgal",
+}
 
 
 def serve_if_asked(argv: Sequence[str]) -> None:

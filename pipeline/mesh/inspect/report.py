@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from pipeline.mesh.inspect.parts import Part
     from pipeline.mesh.inspect.shape import EdgeLengths, Slivers
     from pipeline.mesh.inspect.visibility import Visibility
+    from pipeline.mesh.soundness import Soundness
     from pipeline.mesh.units import UnitGuess
 
 Level = Literal["fault", "doubt", "note"]
@@ -71,6 +72,10 @@ class Inspection:
         None for a mesh that came as arrays.
     unit : UnitGuess or None
         How the file's unit was found out; None where it was given.
+    read_notes : tuple of str
+        What was repaired while the file was read, in sentences.
+    shell_made : bool
+        The file's history says that its outer shell was made: what is open or narrow was left so.
     extents_m : (3,) tuple of float
         Along the axes of the mesh's frame.
     centre_m : (3,) tuple of float
@@ -80,17 +85,17 @@ class Inspection:
         Signed; None unless all parts are closed and their facets agree.
     edges : EdgeLengths
     health : MeshHealth
+    soundness : Soundness
+        What makes the mesh unfit, checked exactly, as for every mesh that the preparation writes.
     slivers : Slivers
     back_to_back : int
-        Facets with the same three vertices as another, and the other winding.
+        Facets beyond the first with the same three vertices, and the other winding.
+    joined_edges : int
+        Edges of more than two facets, where those with the same three vertices count once.
     coincident_vertices : int
         Vertices beyond the first on exactly the same spot, not merged.
     seam_vertices : int
         Vertices of rims with a vertex of a rim right beside them: seams that only look closed.
-    self_intersections : int or None
-        Facets that cut through others; None where that was not checked.
-    not_checked : str or None
-        Why self-intersections were not checked.
     hole_count : int
     hole_perimeter_m : float
         All rims together.
@@ -111,18 +116,20 @@ class Inspection:
     facets: int
     file: FileCounts | None
     unit: UnitGuess | None
+    read_notes: tuple[str, ...]
+    shell_made: bool
     extents_m: tuple[float, float, float]
     centre_m: tuple[float, float, float]
     area_m2: float
     volume_m3: float | None
     edges: EdgeLengths
     health: MeshHealth
+    soundness: Soundness = field(compare=False)
     slivers: Slivers
     back_to_back: int
+    joined_edges: int
     coincident_vertices: int
     seam_vertices: int
-    self_intersections: int | None
-    not_checked: str | None
     hole_count: int
     hole_perimeter_m: float
     holes: tuple[Hole, ...]
@@ -158,19 +165,28 @@ class Inspection:
 
     @property
     def sound(self) -> bool:
-        """Whether nothing was found that spoils contacts."""
+        """Whether there is no fault."""
         return not any(finding.level == "fault" for finding in self.findings)
+
+    @property
+    def clear(self) -> bool:
+        """Whether there is neither a fault nor a doubt: nothing was found that would spoil contacts."""
+        return all(finding.level == "note" for finding in self.findings)
 
     def to_json(self) -> dict[str, Any]:
         """Give all numbers, and the sentences, as plain data; a number that is not finite becomes None."""
-        content = _plain(asdict(self))
+        told = (each.name for each in fields(self) if each.name != "soundness")
+        content = {name: _plain(getattr(self, name)) for name in told}
+        content["soundness"] = self.soundness.to_json()
         content["sound"] = self.sound
         content["facts"] = list(self.facts)
         content["findings"] = [asdict(finding) for finding in self.findings]
-        return dict(content)
+        return content
 
 
 def _plain(value: Any) -> Any:
+    if is_dataclass(value) and not isinstance(value, type):
+        return _plain(asdict(value))
     if isinstance(value, dict):
         return {key: _plain(item) for key, item in value.items()}
     if isinstance(value, tuple | list):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -13,10 +14,12 @@ from pipeline.mesh.health import edge_table
 from pipeline.mesh.inspect.holes import count_seam_vertices, find_holes
 from pipeline.mesh.inspect.parts import find_parts, genus_of
 from pipeline.mesh.inspect.report import FileCounts, Inspection
-from pipeline.mesh.inspect.shape import count_back_to_back, count_coincident, measure_edges, measure_slivers
+from pipeline.mesh.inspect.shape import count_coincident, find_repeats, measure_edges, measure_slivers
 from pipeline.mesh.inspect.visibility import SAMPLES, look
 from pipeline.mesh.load import read_mesh, settle
 from pipeline.mesh.probe import Probe
+from pipeline.mesh.sidecar import load_probe_file
+from pipeline.mesh.soundness import check_soundness
 
 if TYPE_CHECKING:
     import os
@@ -35,7 +38,6 @@ def inspect(
     units: Units | Literal["auto"] = "auto",
     *,
     samples: int = SAMPLES,
-    intersections: bool = True,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Inspection:
@@ -50,8 +52,6 @@ def inspect(
         What the file's numbers are; a probe is in metres.
     samples : int
         Points from which it is looked whether the outside can be seen, about; at least 100.
-    intersections : bool
-        Whether to look for facets that cut through others, which takes the optional library pymeshlab.
     progress : callable, optional
         Told the share that is done, 0 to 1.
     cancelled : callable, optional
@@ -73,7 +73,7 @@ def inspect(
     work = _Work(progress or (lambda _: None), cancelled or (lambda: False))
     work.reach(0.0)
     if isinstance(source, Probe):
-        return _inspect(source, None, None, samples, intersections, work)
+        return _inspect(source, _Origin(), samples, work)
     file = Path(source)
     read = read_mesh(file, units)
     work.reach(0.1)
@@ -87,7 +87,8 @@ def inspect(
         len(read.raw.vertices) - len(probe.vertices),
         file.suffix.lower() not in _SOUP,
     )
-    return _inspect(probe, counts, read.guess, samples, intersections, work)
+    made = read.raw.settled and _shell_made(file)
+    return _inspect(probe, _Origin(counts, read.guess, read.raw.notes, made), samples, work)
 
 
 def inspect_arrays(
@@ -96,7 +97,6 @@ def inspect_arrays(
     *,
     name: str = "mesh",
     samples: int = SAMPLES,
-    intersections: bool = True,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> Inspection:
@@ -111,7 +111,7 @@ def inspect_arrays(
         Vertex indices, counter-clockwise seen from outside.
     name : str
         For people.
-    samples, intersections, progress, cancelled
+    samples, progress, cancelled
         See `inspect`.
 
     Returns
@@ -126,9 +126,27 @@ def inspect_arrays(
         As asked for.
     """
     probe = Probe.from_arrays(vertices_m, faces, name=name, check_size=False)
-    return inspect(
-        probe, samples=samples, intersections=intersections, progress=progress, cancelled=cancelled
-    )
+    return inspect(probe, samples=samples, progress=progress, cancelled=cancelled)
+
+
+@dataclass(frozen=True)
+class _Origin:
+    """What is known of where a mesh comes from; nothing of arrays."""
+
+    counts: FileCounts | None = None
+    unit: UnitGuess | None = None
+    notes: tuple[str, ...] = ()
+    shell_made: bool = False
+
+
+def _shell_made(file: Path) -> bool:
+    """Tell whether the history beside a file that contactbench wrote says that its outer shell was made."""
+    try:
+        known = load_probe_file(file)
+    except MeshError:
+        return False  # an inspection tells of the surface, whatever state the file beside it is in
+    # A note says that the history is that of another surface.
+    return not known.notes and any(step.get("step") == "shell" for step in known.history)
 
 
 class _Work:
@@ -149,10 +167,8 @@ class _Work:
 
 def _inspect(
     probe: Probe,
-    file: FileCounts | None,
-    unit: UnitGuess | None,
+    origin: _Origin,
     samples: int,
-    intersections: bool,
     work: _Work,
 ) -> Inspection:
     vertices, faces = probe.vertices, probe.faces
@@ -165,13 +181,21 @@ def _inspect(
     work.reach(0.3)
     slivers, lengths = measure_slivers(vertices, faces), measure_edges(vertices, edges)
     seams = count_seam_vertices(vertices, edges)
-    back_to_back = count_back_to_back(faces, probe.health.duplicate_facets)
+    repeats = find_repeats(faces)
+    repeated = int(np.count_nonzero(repeats.surplus))
+    single = edge_table(faces[~repeats.surplus], len(vertices)) if repeated else edges
     work.reach(0.4)
     visibility, listed = look(
-        vertices, faces, parts, samples=samples, progress=work.between(0.4, 0.8), cancelled=work.cancelled
+        vertices,
+        faces,
+        parts,
+        repeats.both_sides,
+        samples=samples,
+        progress=work.between(0.4, 0.8),
+        cancelled=work.cancelled,
     )
     work.reach(0.8)
-    cutting, why = _self_intersections(vertices, faces, work) if intersections else (None, "it was left out.")
+    soundness = check_soundness(vertices, faces)
     work.reach(1.0)
     volumes = [part.volume_m3 for part in parts.listed]
     x, y, z = np.ptp(probe.bounds, axis=0).tolist()
@@ -180,20 +204,22 @@ def _inspect(
         name=probe.name,
         vertices=len(vertices),
         facets=len(faces),
-        file=file,
-        unit=unit,
+        file=origin.counts,
+        unit=origin.unit,
+        read_notes=origin.notes,
+        shell_made=origin.shell_made,
         extents_m=(x, y, z),
         centre_m=(u, v, w),
         area_m2=float(parts.area.sum()),
         volume_m3=_volume(volumes) if parts.count == len(volumes) else None,
         edges=lengths,
         health=probe.health,
+        soundness=soundness,
         slivers=slivers,
-        back_to_back=back_to_back,
+        back_to_back=repeated - probe.health.duplicate_facets,
+        joined_edges=int(np.count_nonzero(single.uses > 2)),
         coincident_vertices=count_coincident(vertices, faces),
         seam_vertices=seams,
-        self_intersections=cutting,
-        not_checked=why,
         hole_count=hole_count,
         hole_perimeter_m=perimeter,
         holes=holes,
@@ -208,19 +234,3 @@ def _inspect(
 def _volume(volumes: list[float | None]) -> float | None:
     known = [volume for volume in volumes if volume is not None]
     return float(sum(known)) if len(known) == len(volumes) else None
-
-
-def _self_intersections(
-    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], work: _Work
-) -> tuple[int | None, str | None]:
-    """Count facets that cut through others, or say why that was not checked."""
-    # The library is optional and runs in a child process: only an inspection that asks for it pays for it.
-    from pipeline.mesh.engines import EngineError, self_intersections
-
-    try:
-        cutting = self_intersections(
-            vertices, faces, progress=work.between(0.8, 1.0), cancelled=work.cancelled
-        )
-    except EngineError as error:
-        return None, str(error)
-    return int(np.count_nonzero(cutting)), None

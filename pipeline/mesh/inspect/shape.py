@@ -88,21 +88,43 @@ def measure_edges(vertices: npt.NDArray[np.float64], edges: EdgeTable) -> EdgeLe
     )
 
 
-def count_back_to_back(faces: npt.NDArray[np.int32], duplicates: int) -> int:
+@dataclass(frozen=True, eq=False)
+class Repeats:
     """
-    Count facets beyond the first with the same three vertices and the other winding.
+    Facets with the same three vertices.
+
+    Attributes
+    ----------
+    surplus : (m,) bool
+        Beyond the first with these vertices.
+    both_sides : (m,) bool
+        There is one with these vertices for each side: they stand back to back.
+    """
+
+    surplus: npt.NDArray[np.bool_]
+    both_sides: npt.NDArray[np.bool_]
+
+
+def find_repeats(faces: npt.NDArray[np.int32]) -> Repeats:
+    """
+    Find facets with the same three vertices, whichever way they are wound.
 
     Parameters
     ----------
     faces : (m, 3) int32
-        Indices.
-    duplicates : int
-        Facets beyond the first with the same three vertices and the same winding.
+        Indices, none twice in a row.
     """
     a, b, c = np.sort(faces, axis=1).T
     order = np.lexsort((c, b, a))
-    same = [np.diff(axis[order]) == 0 for axis in (a, b, c)]
-    return int(np.count_nonzero(same[0] & same[1] & same[2])) - duplicates
+    same = np.logical_and.reduce([np.diff(axis[order]) == 0 for axis in (a, b, c)])
+    group = np.empty(len(faces), dtype=np.int64)
+    group[order] = np.concatenate(([0], np.cumsum(~same)))
+    surplus = np.zeros(len(faces), dtype=np.bool_)
+    surplus[order[1:][same]] = True
+    # From the lowest vertex on a facet runs up to the middle one, or to the highest.
+    ascending = np.take_along_axis(faces, (np.argmin(faces, axis=1)[:, None] + 1) % 3, axis=1)[:, 0] == b
+    one, other = (np.bincount(group[side], minlength=len(faces)) for side in (ascending, ~ascending))
+    return Repeats(surplus, ((one > 0) & (other > 0))[group])
 
 
 def count_coincident(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]) -> int:

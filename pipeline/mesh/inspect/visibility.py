@@ -59,7 +59,7 @@ class Visibility:
     sheltered_share : float
         Less than a twentieth of the sky is seen from either side: inner walls behind a hole, or grooves.
     turned_share : float
-        The back sees clearly more of the outside than the front.
+        The back sees clearly more of the outside than the front, and no facet stands back to back with it.
     two_sided_share : float
         Both sides see more than a twentieth of the sky: sheets, or the wall of an open bowl.
     double_wall_share : float
@@ -83,6 +83,7 @@ class Visibility:
 class _Samples:
     points: npt.NDArray[np.float64]
     normals: npt.NDArray[np.float64]
+    facet: npt.NDArray[np.int64]
     part: npt.NDArray[np.int64]
     weight: npt.NDArray[np.float64]
 
@@ -91,6 +92,7 @@ def look(
     vertices: npt.NDArray[np.float64],
     faces: npt.NDArray[np.int32],
     parts: Parts,
+    both_sides: npt.NDArray[np.bool_],
     *,
     samples: int = SAMPLES,
     progress: Callable[[float], None],
@@ -107,6 +109,8 @@ def look(
         With an area.
     parts : Parts
         Of the mesh.
+    both_sides : (m,) bool
+        Facets that stand back to back with another: one of the two faces the right way.
     samples : int
         Points, about.
     progress : callable
@@ -138,7 +142,7 @@ def look(
         progress(min(1.0, (start + _CHUNK) / len(chosen.points)))
     thickness = _walls(index, chosen, front, back, lift / _LIFT)
     hidden = (front == 0) & (back == 0)
-    turned = back > 2 * front + _SHELTERED / 2
+    turned = (back > 2 * front + _SHELTERED / 2) & ~both_sides[chosen.facet]
     share = _Share(chosen.weight)
     doubled = np.isfinite(thickness)
     visibility = Visibility(
@@ -183,7 +187,7 @@ def _draw(
     cross = np.cross(b - a, c - a)
     normals = cross / np.linalg.norm(cross, axis=1, keepdims=True)
     points = a + (u * (1 - v))[:, None] * (b - a) + (u * v)[:, None] * (c - a)
-    return _Samples(points, normals, part, (total / np.maximum(number, 1))[part])
+    return _Samples(points, normals, facet, part, (total / np.maximum(number, 1))[part])
 
 
 def _sky(

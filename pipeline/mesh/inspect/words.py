@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pipeline.mesh.inspect.report import Finding
@@ -10,13 +11,22 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from pipeline.mesh.inspect.report import Inspection
+    from pipeline.mesh.inspect.visibility import Visibility
 
 _SHELL = "Make the outer shell before use."
+_IF_CAVITY = (
+    "Make the outer shell: it closes the mouths of cavities, and keeps grooves and tubes seen through."
+)
 
 # Shares are counted on some thousand points; less than this is a groove or chance.
 _SOME = 0.005
 _DEEP = 0.01
+_NONE = 5e-4
+_HOLLOW = 0.05
 _NAMED = 3
+
+# A wall thinner than this share of the size is a copy of the surface: 0.01 mm on a probe of 100 mm.
+_COPY = 1e-4
 
 
 def facts(found: Inspection) -> tuple[str, ...]:
@@ -30,7 +40,7 @@ def facts(found: Inspection) -> tuple[str, ...]:
         + (f" and a volume of {found.volume_m3 * 1e6:.1f} cm³." if found.volume_m3 else "."),
         f"Edges are {lengths} long, half of them under {_length(edges.median_m)}.",
     ]
-    if found.unit is not None:
+    if found.unit is not None and found.unit.certain:
         said.append(f"Units: {found.unit.units}. {found.unit.reason}")
     if found.genus:
         said.append(f"The surface has {_count(found.genus, 'handle')}: openings that go right through.")
@@ -39,9 +49,22 @@ def facts(found: Inspection) -> tuple[str, ...]:
 
 def findings(found: Inspection) -> tuple[Finding, ...]:
     """Say what is wrong, why it matters and what to do; faults first, then doubts, then notes."""
-    every = [*_openings(found), *_sides(found), *_insides(found), *_facets(found), *_vertices(found)]
+    every = [
+        *_unit(found),
+        *_openings(found),
+        *_sides(found),
+        *_insides(found),
+        *_facets(found),
+        *_rest(found),
+        *_vertices(found),
+    ]
     order = {"fault": 0, "doubt": 1, "note": 2}
     return tuple(sorted(every, key=lambda finding: order[finding.level]))
+
+
+def _unit(found: Inspection) -> Iterator[Finding]:
+    if found.unit is not None and not found.unit.certain:
+        yield Finding("doubt", found.unit.reason)
 
 
 def _openings(found: Inspection) -> Iterator[Finding]:
@@ -61,17 +84,19 @@ def _openings(found: Inspection) -> Iterator[Finding]:
             f"The surface has {_count(found.hole_count, 'hole')}. {which} {widths} wide. A line of force can pass"
             f" through a hole and end on an inner wall, far from the true contact. {_SHELL}",
         )
-    if found.health.nonmanifold_edges:
+    if found.joined_edges:
         yield Finding(
             "fault",
-            f"More than two facets meet at {_count(found.health.nonmanifold_edges, 'edge')}, so inside and outside"
-            f" cannot be told apart there: walls are joined inside the probe. {_SHELL}",
+            f"More than two facets meet at {_count(found.joined_edges, 'edge')}, so inside and outside cannot be told"
+            f" apart there: walls are joined, or bodies touch along an edge. {_SHELL}",
         )
 
 
 def _sides(found: Inspection) -> Iterator[Finding]:
     seen = found.visibility
-    if found.health.outward is False or seen.turned_share > 0.5:
+    if found.soundness.sound:
+        return  # closed and outward: rays that slip through somewhere say nothing
+    if _inside_out(found):
         yield Finding(
             "fault",
             "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
@@ -87,13 +112,12 @@ def _sides(found: Inspection) -> Iterator[Finding]:
             " program, or make the outer shell.",
         )
     if not found.health.winding_consistent:
-        outside = seen.turned_share <= _SOME
         yield Finding(
-            "doubt" if outside else "fault",
+            "fault",
             "Neighbouring facets disagree about which side is outside. "
             + (
                 "Those that can be seen show their front, so it is the hidden ones that disagree. "
-                if outside
+                if seen.turned_share <= _SOME
                 else "Contacts on those that are turned over are missed. "
             )
             + "Make the normals consistent in the CAD program, or make the outer shell.",
@@ -101,72 +125,138 @@ def _sides(found: Inspection) -> Iterator[Finding]:
     if seen.two_sided_share > 0.05:
         yield Finding(
             "doubt",
-            f"{_percent(seen.two_sided_share)} of the area can be seen from both sides, like a sheet or an open"
+            f"{_share(seen.two_sided_share)} of the area can be seen from both sides, like a sheet or an open"
             " bowl: it has no thickness. Check that the whole housing was exported, as a solid.",
         )
 
 
+def _inside_out(found: Inspection) -> bool:
+    return found.health.outward is False or found.visibility.turned_share > 0.5
+
+
 def _insides(found: Inspection) -> Iterator[Finding]:
-    seen = found.visibility
+    if not found.soundness.sound:
+        yield from _inner_walls(found)
+    elif found.shell_made:
+        little = found.visibility.hidden_share + found.visibility.sheltered_share
+        if little > _DEEP:
+            yield Finding(
+                "note",
+                f"{_share(little)} of the area sees little or nothing of the outside: grooves, bores and gaps,"
+                " which the outer shell keeps. A finger hardly reaches there.",
+            )
+    else:
+        yield from _recesses(found)
+    if found.part_count > 1:
+        largest = _percent(found.parts[0].area_m2 / found.area_m2)
+        said = f"The mesh has {found.part_count} separate parts, the largest with {largest} of the area"
+        yield (
+            Finding(
+                "note",
+                f"{said}; none lies inside another. What stands apart from the probe has to be deleted in the CAD"
+                " program.",
+            )
+            if found.soundness.sound
+            else Finding("doubt", f"{said}. Simplification treats each by itself.")
+        )
+
+
+def _inner_walls(found: Inspection) -> Iterator[Finding]:
+    """Say what lies inside a mesh that does not separate inside from outside."""
+    seen, nested = found.visibility, found.soundness.nested_parts
     if seen.hidden_share > _SOME:
         parts = sum(1 for part in found.parts if (part.hidden_share or 0) > 0.99)
         whole = f" ({parts} of the {found.part_count} parts entirely)" if parts else ""
         yield Finding(
             "fault",
-            f"{_percent(seen.hidden_share)} of the area cannot be seen from outside{whole}: inner walls or parts"
+            f"{_share(seen.hidden_share)} of the area cannot be seen from outside{whole}: inner walls or parts"
             f" that nothing can touch, but that a line of force meets. {_SHELL}",
+        )
+    elif nested:
+        yield Finding(
+            "fault",
+            f"{_count(nested, 'closed part lies', 'closed parts lie')} inside the body. Nothing can touch them, but a"
+            f" line of force meets them. {_SHELL}",
         )
     if seen.sheltered_share > _DEEP:
         yield Finding(
             "doubt",
-            f"{_percent(seen.sheltered_share)} of the area is seen from outside through narrow openings only, or"
+            f"{_share(seen.sheltered_share)} of the area is seen from outside through narrow openings only, or"
             " lies deep in grooves. If these are inner walls behind a hole, contacts can be placed on them."
             f" {_SHELL}",
         )
     if seen.double_wall_share > _DEEP and seen.wall_m is not None:
-        yield Finding(
-            "fault" if seen.double_wall_share > 0.05 else "doubt",
-            f"The probe is hollow: {_percent(seen.double_wall_share)} of the outside is a wall, typically"
-            f" {_length(seen.wall_m)} thick, with a closed space behind it. Contacts can be placed on the inner side"
-            f" of the wall, and facets are wasted on it. {_SHELL}",
+        if seen.wall_m < _COPY * found.size_m:
+            yield Finding(
+                "fault",
+                f"The surface is there twice: behind {_percent(seen.double_wall_share)} of the outside lies another,"
+                f" typically {_length(seen.wall_m)} away. A force meets two surfaces at once. {_SHELL}",
+            )
+        else:
+            yield Finding(
+                "fault" if seen.double_wall_share > _HOLLOW else "doubt", f"{_hollow(seen)} {_SHELL}"
+            )
+
+
+def _recesses(found: Inspection) -> Iterator[Finding]:
+    """Say what of a sound mesh lies in cavities, bores or grooves: one sentence, for they are not told apart here."""
+    seen = found.visibility
+    hollow = seen.double_wall_share > _HOLLOW
+    if not hollow and seen.hidden_share <= _SOME and seen.sheltered_share <= _DEEP:
+        return
+    # A closed surface without handles is no tube: the space behind its walls is reached through a mouth.
+    bottle = hollow and found.genus == 0
+    yield Finding(
+        "fault" if bottle else "doubt",
+        (f"{_hollow(seen)} " if hollow else "")
+        + " ".join(_unseen(seen))
+        + ("" if hollow else " Where these are inner walls, contacts can be placed on them.")
+        + f" {_SHELL if bottle else _IF_CAVITY}",
+    )
+
+
+def _unseen(seen: Visibility) -> Iterator[str]:
+    if seen.hidden_share > _NONE:
+        yield f"{_share(seen.hidden_share)} of the area cannot be seen from outside."
+    if seen.sheltered_share > _NONE:
+        yield (
+            f"{_share(seen.sheltered_share)} of the area sees the outside only through narrow openings or out of deep"
+            " grooves."
         )
-    if found.part_count > 1:
-        yield Finding(
-            "doubt",
-            f"The mesh has {found.part_count} separate parts, {_small(found)}. Parts inside the housing can be"
-            f" taken for the surface, and simplification treats each by itself. {_SHELL}",
-        )
-    if found.self_intersections:
-        yield Finding(
-            "doubt",
-            f"{_count(found.self_intersections, 'facet')} cut through others. Part of them lies inside, where a"
-            f" line of force meets them as well. {_SHELL}",
-        )
-    if found.not_checked is not None:
-        yield Finding("note", f"Whether facets cut through others was not checked: {found.not_checked}")
+
+
+def _hollow(seen: Visibility) -> str:
+    return (
+        f"The probe is hollow: {_percent(seen.double_wall_share)} of the outside is a wall, typically"
+        f" {_length(seen.wall_m or 0.0)} thick, with a space behind it that hardly any light reaches. Contacts can be"
+        " placed on the inner side of the wall, and facets are wasted on it."
+    )
 
 
 def _facets(found: Inspection) -> Iterator[Finding]:
     health, slivers = found.health, found.slivers
     if health.duplicate_facets:
         yield Finding(
-            "doubt",
-            f"{_count(health.duplicate_facets, 'facet')} are there more than once. They answer twice and slow the"
-            " search. Remove duplicates in the CAD program, or make the outer shell.",
+            "fault",
+            f"{_count(health.duplicate_facets, 'facet is a duplicate', 'facets are duplicates')} of another, with the"
+            " same corners and the same side. They answer twice and slow the search. Remove duplicates in the CAD"
+            " program, or make the outer shell.",
         )
     if found.back_to_back:
         yield Finding(
-            "doubt",
-            f"{_count(found.back_to_back, 'facet')} stand back to back with another: a sheet without thickness, or"
-            f" two parts that touch. One of each pair faces the wrong way. {_SHELL}",
+            "fault",
+            f"{_count(found.back_to_back, 'facet stands', 'facets stand')} back to back with another that has the same"
+            " corners: a doubled surface or sheet that shows its front on both sides, or parts that touch. A force"
+            f" meets two surfaces at once. {_SHELL}",
         )
     if slivers.count:
         share = slivers.count / found.facets
         yield Finding(
-            "doubt" if share > 0.1 else "note",
+            "doubt" if share > 0.1 and not found.shell_made else "note",
             f"{_count(slivers.count, 'facet')} ({_percent(share)}) are slivers with an angle under 1°; the worst is"
             f" {slivers.worst_aspect:,.0f} times as long as high. CAD exports have them; they make normals"
-            " uncertain and simplification worse. Simplify the mesh, or export with a limit on the aspect ratio.",
+            " uncertain and simplification worse."
+            + ("" if found.shell_made else " Simplify the mesh, or export with a limit on the aspect ratio."),
         )
     if health.dropped_facets:
         yield Finding(
@@ -176,9 +266,33 @@ def _facets(found: Inspection) -> Iterator[Finding]:
         )
 
 
+def _rest(found: Inspection) -> Iterator[Finding]:
+    """Pass on what the check of soundness says, except what is said above with more figures."""
+    sound = found.soundness
+    counted = replace(sound.health, components=1, dropped_facets=0).sentences
+    repeats = found.health.duplicate_facets + found.back_to_back
+    turned = _inside_out(found) or found.visibility.turned_share > _SOME
+    if len(sound.folded_facets):
+        yield Finding(
+            "fault",
+            f"{_count(len(sound.folded_facets), 'thin facet folds', 'thin facets fold')} back onto a neighbour."
+            " Contacts there are missed or found on the far side. "
+            + ("Prepare the mesh again with more facets." if found.shell_made else _SHELL),
+        )
+    rest = replace(
+        sound,
+        folded_facets=sound.folded_facets[:0],
+        nested_parts=0,
+        inward_parts=0 if turned else sound.inward_parts,
+        overlapping=0 if sound.overlapping <= repeats else sound.overlapping,
+    )
+    for sentence in rest.sentences:
+        if sentence not in counted:
+            yield Finding("fault" if sentence in rest.faults else "note", sentence)
+
+
 def _vertices(found: Inspection) -> Iterator[Finding]:
-    if found.unit is not None and not found.unit.certain:
-        yield Finding("doubt", found.unit.reason)
+    yield from (Finding("note", sentence) for sentence in found.read_notes)
     file = found.file
     if file is not None and file.shared and file.surplus_vertices:
         yield Finding(
@@ -186,17 +300,13 @@ def _vertices(found: Inspection) -> Iterator[Finding]:
             f"{_count(file.surplus_vertices, 'vertex', 'vertices')} in the file were double or unused and have been"
             " merged or left out.",
         )
-    if found.coincident_vertices:
+    # Where the surface is closed they are there on purpose: bodies that touch in a point or an edge.
+    if found.coincident_vertices and found.hole_count:
         yield Finding(
             "doubt",
             f"{_count(found.coincident_vertices, 'vertex', 'vertices')} lie exactly on another and are not merged:"
             " the surface falls apart there. Save the mesh to a file and read it again, which merges them.",
         )
-
-
-def _small(found: Inspection) -> str:
-    largest = found.parts[0].area_m2 / found.area_m2
-    return f"the largest with {_percent(largest)} of the area"
 
 
 def _parts(count: int) -> str:
@@ -211,6 +321,12 @@ def _percent(share: float) -> str:
     if share >= 0.995:
         return "nearly all" if share < 1 else "all"
     return f"{100 * share:.0f} %" if share >= 0.095 else f"{100 * share:.1f} %"
+
+
+def _share(share: float) -> str:
+    """Give the same at the beginning of a sentence."""
+    said = _percent(share)
+    return said[0].upper() + said[1:]
 
 
 def _length(metres: float) -> str:

@@ -73,7 +73,9 @@ class FacetGraph:
         """Where the nearest point of the surface is."""
         return SurfaceIndex(self.probe.vertices, self.probe.faces)
 
-    def pick(self, points: npt.ArrayLike) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]]:
+    def pick(
+        self, points: npt.ArrayLike, within: float | None = None
+    ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.float64]]:
         """
         Find the points of the surface that are nearest to given ones.
 
@@ -81,15 +83,29 @@ class FacetGraph:
         ----------
         points : (k, 3) array_like
             S, m.
+        within : float, optional
+            Refuse points that are further from the surface, m.
 
         Returns
         -------
         faces : (k,) int32
         points : (k, 3) float64
             On these facets.
+
+        Raises
+        ------
+        RegionError
+            A point is further away than `within`.
         """
         rows = np.ascontiguousarray(points, dtype=np.float64).reshape(-1, 3)
-        _, faces, nearest = self.index.closest(rows)
+        distances, faces, nearest = self.index.closest(rows)
+        if within is not None and not (distances <= within).all():
+            far = int(np.argmin(distances <= within))
+            place = ", ".join(f"{1e3 * value:g}" for value in rows[far])
+            raise RegionError(
+                f"the point {place} mm is {1e3 * distances[far]:.3g} mm from the surface, more than"
+                f" {1e3 * within:.3g} mm: give one on the surface, in mm and in the probe's frame."
+            )
         return faces, nearest
 
     def border_vertices(self, mask: Mask) -> npt.NDArray[np.int32]:

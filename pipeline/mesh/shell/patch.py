@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 _LONG = 2.0  # a mouth longer than this many times its width has two long rims
 _FLAT = 1e-9  # of the length
+_SUNK = 0.02  # of the spacing: some hundredths of a millimetre
 
 
 class Closing(StrEnum):
@@ -44,7 +45,11 @@ def choose(opening: Opening) -> Closing:
 
 
 def make_patch(
-    opening: Opening, closing: Closing, spacing: float
+    opening: Opening,
+    closing: Closing,
+    spacing: float,
+    collar: float = 0.0,
+    leans: tuple[float, ...] = (30.0, 70.0),
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """
     Make the surface that closes an opening.
@@ -57,6 +62,11 @@ def make_patch(
         the width, between the two long rims. HULL: the lowest surface without a dent that the rim allows.
     spacing : float
         Between vertices, metres.
+    collar : float
+        Width of strips round the patch that lead away from it, metres: where the rim misses the lip by less, one of
+        them cuts into the wall beside it. What sticks out is for the caller to cut off.
+    leans : tuple of float
+        How far each strip leans below the plane of the mouth, degrees.
 
     Returns
     -------
@@ -84,7 +94,34 @@ def make_patch(
     faces = faces[np.abs(turn) > _FLAT * opening.length**2 * 1e-3]
     turn = turn[np.abs(turn) > _FLAT * opening.length**2 * 1e-3]
     faces[turn < 0] = faces[turn < 0][:, ::-1]
-    return opening.from_plane(np.column_stack((flat, z))), faces
+    points = np.column_stack((flat, z))
+    if collar > 0:
+        # A little below a flat lip, not in its plane: what lies in one plane but for rounding crosses without end.
+        sunk = np.array([0.0, 0.0, _SUNK * spacing])
+        points, faces = _with_collar(rim - sunk, points - sunk, faces, collar, leans)
+    return opening.from_plane(points), faces
+
+
+def _with_collar(
+    rim: NDArray[np.float64],
+    points: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    width: float,
+    leans: tuple[float, ...],
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Add the strips, in the frame of the opening; the rim is the first of the points, anticlockwise."""
+    along = np.roll(rim[:, :2], -1, axis=0) - np.roll(rim[:, :2], 1, axis=0)
+    out = np.column_stack((along[:, 1], -along[:, 0]))
+    out /= np.maximum(np.linalg.norm(out, axis=1, keepdims=True), np.finfo(float).tiny)
+    here = np.arange(len(rim))
+    after = np.roll(here, -1)
+    rings, strips, first = [points], [faces], len(points)
+    for lean in np.radians(leans):
+        rings.append(rim + width * np.column_stack((np.cos(lean) * out, np.full(len(rim), -np.sin(lean)))))
+        strips.append(np.column_stack((after, here, first + here)))
+        strips.append(np.column_stack((after, first + here, first + after)))
+        first += len(rim)
+    return np.vstack(rings), np.concatenate(strips).astype(np.int32)
 
 
 def _fair(rim: NDArray[np.float64]) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

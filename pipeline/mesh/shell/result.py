@@ -12,8 +12,9 @@ if TYPE_CHECKING:
     from pipeline.mesh.regions import RegionReport
     from pipeline.mesh.shell.fit import ShellFit
     from pipeline.mesh.shell.openings import Opening
+    from pipeline.mesh.soundness import Soundness
 
-UNCHANGED, REPAIRED, WRAPPED = "unchanged", "repaired", "wrapped"
+UNCHANGED, HULL, WRAPPED = "unchanged", "hull", "wrapped"
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +68,8 @@ class Shell:
         The shell; ``probe.invented`` marks facets that close openings or bridge gaps. Its regions are those of
         the original.
     how : str
-        "unchanged" (the same object as given), "repaired" (vertices as they were) or "wrapped".
+        "unchanged" (the same object as given), "hull" (the mesh's own facets, where they border the outside) or
+        "wrapped" (new facets all over, where its own do not enclose a space).
     openings : tuple of ClosedOpening
         Largest first.
     fit : ShellFit or None
@@ -75,9 +77,19 @@ class Shell:
     alpha : float or None
         Size of the wrap's facets, metres.
     turned, dropped : int
-        Facets turned over or left out by a repair; of a wrap, those of specks beside the part.
-    crossing : int
-        Facets of a wrap that cut through others; 0 nearly always.
+        Facets turned over, and left out because they do not border the outside; of a wrap, those of specks beside it.
+    cut : int
+        Facets cut along the lines where others crossed them.
+    sheets : int
+        Facets left out because they had the outside on both sides.
+    small_holes : int
+        Holes closed that are too narrow to be listed.
+    parted : int
+        Vertices doubled because bodies only met in them.
+    why : str
+        Why the mesh had to be wrapped, in words; empty where it was not.
+    soundness : Soundness or None
+        What is wrong with the shell all the same; nothing nearly always. None before it was looked at.
     gap : float or None
         What counted as a gap, metres.
     carried : tuple of RegionReport
@@ -91,7 +103,12 @@ class Shell:
     alpha: float | None = None
     turned: int = 0
     dropped: int = 0
-    crossing: int = 0
+    cut: int = 0
+    sheets: int = 0
+    small_holes: int = 0
+    parted: int = 0
+    soundness: Soundness | None = None
+    why: str = ""
     gap: float | None = None
     carried: tuple[RegionReport, ...] = ()
 
@@ -101,15 +118,23 @@ class Shell:
         return float(self.probe.areas[self.probe.invented].sum())
 
     @property
+    def faults(self) -> tuple[str, ...]:
+        """What makes the shell unfit, in words; empty when it is sound."""
+        return () if self.soundness is None else self.soundness.faults
+
+    @property
+    def _done(self) -> tuple[int, ...]:
+        return (self.turned, self.cut, self.dropped, self.sheets, self.small_holes, self.parted)
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """What was done, in words."""
-        out = [_HOW[self.how].format(turned=self.turned, dropped=self.dropped)]
+        out = [_HOW[self.how], *([self.why] if self.why else [])]
+        if self.how == HULL:
+            out += [text.format(number) for text, number in zip(_DONE, self._done, strict=True) if number]
         if self.how == WRAPPED and self.dropped:
             out.append(f"Specks beside the part were left out (facets: {self.dropped}).")
-        if self.crossing:
-            out.append(
-                f"{self.crossing} facets cut through others: try another alpha, or look at the mesh there."
-            )
+        out += self.faults
         out += [f"Found {opening.sentence}" for opening in self.openings]
         if self.invented_area > 0:
             share = self.invented_area / self.probe.areas.sum()
@@ -125,13 +150,18 @@ class Shell:
         """Give the result as plain values, without the mesh."""
         return {
             "how": self.how,
+            "why": self.why,
             "facets": len(self.probe.faces),
             "turned": self.turned,
             "dropped": self.dropped,
+            "cut": self.cut,
+            "sheets": self.sheets,
+            "small_holes": self.small_holes,
+            "parted": self.parted,
             "openings": [opening.to_json() for opening in self.openings],
             "invented_mm2": round(1e6 * self.invented_area, 2),
             "invented_share": round(self.invented_area / float(self.probe.areas.sum()), 6),
-            "crossing": self.crossing,
+            "soundness": None if self.soundness is None else self.soundness.to_json(),
             "gap_mm": None if self.gap is None else round(1e3 * self.gap, 4),
             "alpha_mm": None if self.alpha is None else round(1e3 * self.alpha, 4),
             "fit": None if self.fit is None else self.fit.to_json(),
@@ -141,6 +171,21 @@ class Shell:
 
 _HOW = {
     UNCHANGED: "The mesh is its own outer shell: nothing was changed.",
-    REPAIRED: "Facets turned: {turned}, left out: {dropped}; every vertex is where it was.",
+    HULL: "The outer hull was made of the facets of the file; none of them was moved.",
     WRAPPED: "The outside was wrapped in a closed surface; inner walls and parts are gone.",
 }
+
+NO_SPACE = (
+    "Its own facets enclose no space, even with the holes closed: too much of it is loose, torn or a sheet."
+)
+LEAKS = "Its own facets could not be used: what closes the openings does not meet their rims everywhere."
+UNSOUND = "Its own facets could not be used: cut where they cross, they gave no sound surface."
+
+_DONE = (
+    "Facets turned to face outwards: {:,}.",
+    "Facets cut where others crossed or touched them: {:,}.",
+    "Facets left out because nothing outside reaches them, inner walls and repeats: {:,}.",
+    "Facets left out because they were sheets without thickness: {:,}.",
+    "Small holes and open seams closed: {:,}.",
+    "Vertices in which bodies only met, made separate: {:,}.",
+)

@@ -8,19 +8,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex
+from pipeline.kernel import SurfaceIndex, crossings
 from pipeline.mesh.engines import Cancelled
 from pipeline.mesh.errors import MeshError, MeshWarning
+from pipeline.mesh.health import label_parts
 from pipeline.mesh.probe import Probe
 from pipeline.mesh.regions import RegionSet, transfer
 from pipeline.mesh.shell.exposure import exposure
 from pipeline.mesh.shell.fit import measure_fit
 from pipeline.mesh.shell.openings import Opening, find_openings
+from pipeline.mesh.shell.outside import Outside, find_outside
 from pipeline.mesh.shell.patch import Closing, choose, make_patch
-from pipeline.mesh.shell.repair import is_sound, repair, turn
-from pipeline.mesh.shell.result import REPAIRED, UNCHANGED, WRAPPED, ClosedOpening, Shell
+from pipeline.mesh.shell.result import (
+    HULL,
+    LEAKS,
+    NO_SPACE,
+    UNCHANGED,
+    UNSOUND,
+    WRAPPED,
+    ClosedOpening,
+    Shell,
+)
 from pipeline.mesh.shell.rim import find_lip
 from pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
+from pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
 from pipeline.mesh.triangles import cross_products, join, parts, twins
 
 if TYPE_CHECKING:
@@ -28,7 +39,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.shell.wrap import Wrapped
+    from pipeline.mesh.shell.wrap import Surface, Wrapped
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
 # size of the shell's facets.
@@ -38,6 +49,10 @@ _FINEST = 1 / 1000
 _SPECK = 0.01  # of the largest part's area: what is smaller is not the probe
 _MOSTLY = 0.5  # of the area: a shell that is invented to this extent says nothing
 _GLANCES, _NIGHT, _MUCH = 4_000, 0.05, 0.01  # facets looked at, light and share of the area of a hollow mesh
+_VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part of the shape
+_NO_SPACE = 1e-6  # of the volume of a body with that area, about
+# Degrees; strips that graze a wall cross it in slivers, and others then do not.
+_LEANS = ((30.0, 70.0), (45.0,))
 _LIP = 0.2  # of the width of a mouth
 _NARROWEST = 1.5  # coarse alphas: mouths under this are bridged by the wrap itself
 
@@ -83,7 +98,8 @@ def make_shell(
     """
     Make the closed surface that a finger could touch.
 
-    A mesh that needs nothing is given back as it is; one that needs no new surface keeps its vertices.
+    A mesh that needs nothing is given back as it is. Otherwise the shell is the outer hull of its own facets, where
+    they enclose a space once holes, seams and mouths are closed; and where they do not, a wrap all round.
 
     Parameters
     ----------
@@ -109,40 +125,157 @@ def make_shell(
     MeshError
         A length that makes no sense, an opening that cannot be closed, or a result that is not closed.
     EngineError
-        pymeshlab is missing or failed.
+        pymeshlab or libigl is missing or failed.
     Cancelled
     """
     alpha = FINE * probe.size if alpha is None else alpha
     coarse = max(COARSE * probe.size, alpha) if coarse is None else coarse
     _check_lengths(alpha, coarse, probe.size)
     steps = Steps(progress, cancelled)
-    mended = _mended(probe, steps.upto(0.05))
-    wrap = wrap_soup(probe.vertices, probe.faces, coarse, progress=steps.upto(0.1), cancelled=cancelled)
+    exact = _Exact(probe, alpha, coarse, steps)
+    steps.upto(0.2)
+    outside = exact.find()
+    base = (probe.vertices, probe.faces) if outside is None else (outside.vertices, outside.faces)
+    wrap = wrap_soup(*base, coarse, progress=steps.upto(0.3), cancelled=cancelled)
     smallest = _NARROWEST * coarse
-    found = _at_their_lips(find_openings(*wrap, smallest=smallest, tick=steps.upto(0.15)), probe, smallest)
+    found = _at_their_lips(find_openings(*wrap, smallest=smallest, tick=steps.upto(0.35)), base, smallest)
+    anything = bool(found)
+    if outside is not None:
+        found = _mouths(found, outside)
     wanted = _wanted(found, closings)
-    if (
-        mended is not None
-        and not found
-        and _is_hollow(probe.vertices, turn(probe.faces, mended[1])[mended[0]])
-    ):
-        mended = None
-    if mended is not None and all(closing is Closing.OPEN for closing in wanted):
-        left = tuple(ClosedOpening(opening, Closing.OPEN) for opening in found)
-        return _as_it_was(probe, *mended, left)
-    whole, specks = _without_specks(probe, wrap)
+    why = NO_SPACE
+    if outside is not None:
+        shell = exact.closed(outside, found, wanted, narrow=not anything)
+        why = LEAKS
+        if shell is not None:
+            steps.upto(1.0)
+            shell = _examined(_without(shell, _beside(shell.probe, wrap) | _empty(shell.probe)), probe)
+            if not shell.faults:
+                return shell
+            why = UNSOUND
+    specks = _beside(probe, wrap)
+    whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
         ClosedOpening(opening, choose(opening) if closing is Closing.AUTO else closing)
         for opening, closing in zip(found, wanted, strict=True)
     ]
-    return replace(_wrapped(whole, tuple(closed), alpha, coarse, steps), dropped=specks)
+    return replace(_wrapped(whole, tuple(closed), alpha, coarse, steps), dropped=int(specks.sum()), why=why)
 
 
-def _at_their_lips(found: Sequence[Opening], probe: Probe, reach: float) -> list[Opening]:
+class _Exact:
+    """A shell of the mesh's own facets: what is invented only closes its holes and mouths."""
+
+    def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Steps) -> None:
+        self._probe, self._alpha, self._coarse, self._steps = probe, alpha, coarse, steps
+
+    def find(self, added: Sequence[Surface] = ()) -> Outside | None:
+        """Find the closed outside, with surfaces added that close mouths; None where there is none."""
+        return find_outside(
+            self._probe.vertices,
+            self._probe.faces,
+            added,
+            smallest=_NARROWEST * self._coarse,
+            spacing=self._alpha,
+            progress=self._steps.tick,
+            cancelled=self._steps.cancelled,
+        )
+
+    def closed(
+        self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing], *, narrow: bool
+    ) -> Shell | None:
+        """
+        Close the mouths, where there are some; None where what closes them leaks.
+
+        Where there is no opening at all, `narrow`, a cavity can only lie behind gaps too narrow to find.
+        """
+        closings = self._chosen(outside, found, wanted)
+        self._steps.upto(0.6)
+        done = outside
+        if any(each.closing is not Closing.OPEN for each in closings):
+            emptied = self._emptied(outside, closings)
+            if emptied is None:
+                return None
+            done = emptied
+        self._steps.upto(0.8)
+        if narrow and _has_cavity(done.vertices, done.faces, self._coarse):
+            # Behind gaps and bores too narrow to find a mouth of.
+            plugged = self._with_plug(outside, ())
+            if plugged is None:
+                return None
+            done = plugged
+        return self._shell(done, tuple(closings))
+
+    def _emptied(self, outside: Outside, closings: Sequence[ClosedOpening]) -> Outside | None:
+        """Close mouths, so that much of the space is inside; None where the patches leak."""
+        patches: list[Surface] = []
+        for leans in _LEANS:
+            patches = [
+                make_patch(each.opening, each.closing, self._alpha, self._coarse, leans)
+                for each in closings
+                if each.closing is not Closing.OPEN
+            ]
+            tried = self.find(patches)
+            if tried is not None and _volume(tried) > (1 + _VOID) * _volume(outside):
+                if not crossings(tried.vertices, tried.faces)[2][[CROSSING, OVERLAP]].any():
+                    return tried
+            elif tried is not None:
+                break
+        return self._with_plug(outside, patches)
+
+    def _with_plug(self, outside: Outside, patches: Sequence[Surface]) -> Outside | None:
+        """Do the same with a lining under the surface, at which what leaks through cracks and bores ends."""
+        stop = self._steps.cancelled
+        vertices, faces = join([(outside.vertices, outside.faces), *patches])
+        plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
+        tried = self.find([*patches, plug])
+        return tried if tried is not None and _volume(tried) > (1 + _VOID) * _volume(outside) else None
+
+    def _chosen(
+        self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing]
+    ) -> list[ClosedOpening]:
+        """Leave a tube open: one looks through it from either end. Through a housing one sees a hole at most."""
+        index = SurfaceIndex(outside.vertices, outside.faces)
+        tube = all(_seen_through(opening, index) > _MOSTLY for opening in found)
+        auto = [Closing.OPEN if tube else choose(opening) for opening in found]
+        return [
+            ClosedOpening(opening, usual if closing is Closing.AUTO else closing)
+            for opening, closing, usual in zip(found, wanted, auto, strict=True)
+        ]
+
+    def _shell(self, done: Outside, openings: tuple[ClosedOpening, ...]) -> Shell:
+        probe = self._probe
+        own = done.born >= 0
+        as_it_was = probe.vertices[probe.faces]
+        alike = own.all() and not done.parted and np.array_equal(done.vertices[done.faces], as_it_was)
+        if alike:
+            return Shell(probe, UNCHANGED, openings)
+        new = Probe.from_arrays(
+            done.vertices,
+            done.faces,
+            np.where(own, probe.region[done.born], 0),
+            invented=np.where(own, probe.invented[done.born], True),
+            name=probe.name,
+            check_size=False,
+            untouchable=probe.untouchable,
+        )
+        closed = tuple(ClosedOpening(hole, choose(hole)) for hole in done.holes)
+        return Shell(
+            new,
+            HULL,
+            (*closed, *openings),
+            turned=done.turned,
+            dropped=done.inner,
+            cut=done.cut,
+            sheets=done.sheets,
+            small_holes=done.small_holes,
+            parted=done.parted,
+            gap=self._coarse,
+        )
+
+
+def _at_their_lips(found: Sequence[Opening], surface: Surface, reach: float) -> list[Opening]:
     # The darkness of a cavity begins the deeper below its lip the wider the mouth is.
-    lips = [
-        find_lip(opening, probe.vertices, probe.faces, max(reach, _LIP * opening.width)) for opening in found
-    ]
+    lips = [find_lip(opening, *surface, max(reach, _LIP * opening.width)) for opening in found]
     return sorted((lip for lip in lips if not lip.is_dent), key=lambda lip: -lip.area)
 
 
@@ -162,7 +295,7 @@ def _wrapped(
     )
     shell = _checked(wrapped, probe.name)
     fit = measure_fit(probe, patches, wrapped, alpha, steps.upto(1.0))
-    done = Shell(shell, WRAPPED, openings, fit, alpha, crossing=wrapped.crossing, gap=coarse)
+    done = _examined(Shell(shell, WRAPPED, openings, fit, alpha, gap=coarse), probe, patches)
     if not probe.region.any():
         return done
     with warnings.catch_warnings():
@@ -189,13 +322,20 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
     return shell
 
 
-def _without_specks(probe: Probe, wrap: tuple[NDArray[np.float64], NDArray[np.int32]]) -> tuple[Probe, int]:
-    """Leave out what stands beside the part and is small; gives the rest, and how many facets were left out."""
+def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
+    """
+    Mark the facets of specks that stand beside the part, (m,).
+
+    Raises
+    ------
+    MeshError
+        There are several large parts.
+    """
     vertices, faces = wrap
     label = parts(faces, np.ones(len(faces), dtype=bool), twins(faces))
     areas = np.bincount(label, np.linalg.norm(cross_products(vertices, faces), axis=1))
     if len(areas) == 1:
-        return probe, 0
+        return np.zeros(len(probe.faces), dtype=bool)
     large = areas > _SPECK * areas.max()
     if np.count_nonzero(large) > 1:
         one, two = (vertices[faces[label == part]].mean(axis=(0, 1)) for part in np.argsort(-areas)[:2])
@@ -205,15 +345,29 @@ def _without_specks(probe: Probe, wrap: tuple[NDArray[np.float64], NDArray[np.in
             " bridge the gap between them by a larger one (gap)."
         )
     _, nearest, _ = SurfaceIndex(vertices, faces).closest(probe.vertices[probe.faces].mean(axis=1))
-    keep = large[label[nearest]]
-    return _some_facets(probe, probe.faces, np.flatnonzero(keep)), int(np.count_nonzero(~keep))
+    return np.asarray(~large[label[nearest]])
 
 
-def _some_facets(probe: Probe, faces: NDArray[np.int32], kept: NDArray[np.int64]) -> Probe:
-    """Give a probe some of its facets only, with what is known of them; `faces` may be turned over."""
+def _empty(probe: Probe) -> NDArray[np.bool_]:
+    """Mark the facets of parts that enclose no space, (m,): what is left of facets that lie on each other."""
+    label = label_parts(probe.faces, len(probe.vertices))
+    corners = probe.vertices[probe.faces] - probe.vertices[probe.faces[0, 0]]
+    six = np.bincount(label, np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])))
+    return np.asarray((six < _NO_SPACE * np.bincount(label, probe.areas) ** 1.5)[label])
+
+
+def _without(shell: Shell, specks: NDArray[np.bool_]) -> Shell:
+    if not specks.any():
+        return shell
+    rest = _some_facets(shell.probe, np.flatnonzero(~specks))
+    return replace(shell, probe=rest, how=HULL, dropped=shell.dropped + int(specks.sum()))
+
+
+def _some_facets(probe: Probe, kept: NDArray[np.int64]) -> Probe:
+    """Give a probe some of its facets only, with what is known of them."""
     return Probe.from_arrays(
         probe.vertices,
-        faces[kept],
+        probe.faces[kept],
         probe.region[kept],
         invented=probe.invented[kept],
         name=probe.name,
@@ -222,36 +376,47 @@ def _some_facets(probe: Probe, faces: NDArray[np.int32], kept: NDArray[np.int64]
     )
 
 
-def _mended(
-    probe: Probe, tick: Callable[[float], None]
-) -> tuple[NDArray[np.int64], NDArray[np.bool_]] | None:
-    """Facets to keep and to turn for a mesh that needs no wrap, or None when that does not do."""
-    faces = probe.faces
-    kept, turned = np.arange(len(faces)), np.zeros(len(faces), dtype=bool)
-    if not is_sound(probe.vertices, faces):
-        kept, turned = repair(probe.vertices, faces, tick)
-    return (kept, turned) if is_sound(probe.vertices, turn(faces, turned)[kept]) else None
+def _examined(shell: Shell, base: Probe, patches: Sequence[Surface] = ()) -> Shell:
+    """Look at a shell as if it came from a stranger, and compare it with what it was made of."""
+    original = None if shell.how == UNCHANGED else join([(base.vertices, base.faces), *patches])
+    made = shell.probe
+    found = check_soundness(made.vertices, made.faces, original, invented=made.invented)
+    return replace(shell, soundness=found)
 
 
-def _is_hollow(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> bool:
-    """Tell whether much of the surface lies where next to no light comes: in bores too narrow to find a mouth of."""
-    areas = np.linalg.norm(cross_products(vertices, faces), axis=1)
-    rng = np.random.default_rng(0)
-    some = faces[rng.choice(len(faces), _GLANCES, p=areas / areas.sum())]
-    return bool(np.mean(exposure(vertices, some, SurfaceIndex(vertices, faces), count=64) < _NIGHT) > _MUCH)
+def _mouths(found: Sequence[Opening], outside: Outside) -> list[Opening]:
+    """Keep the openings that much space lies behind: grooves, slots and dents are part of the shape."""
+    whole = _volume(outside)
+    behind = [opening.area * opening.depth for opening in found]
+    return [opening for opening, space in zip(found, behind, strict=True) if space > _VOID * (whole + space)]
 
 
-def _as_it_was(
-    probe: Probe,
-    kept: NDArray[np.int64],
-    turned: NDArray[np.bool_],
-    openings: tuple[ClosedOpening, ...],
-) -> Shell:
-    if len(kept) == len(probe.faces) and not turned.any():
-        return Shell(probe, UNCHANGED, openings)
-    repaired = _some_facets(probe, turn(probe.faces, turned), kept)
-    dropped = len(probe.faces) - len(kept)
-    return Shell(repaired, REPAIRED, openings, turned=int(turned[kept].sum()), dropped=dropped)
+def _seen_through(opening: Opening, index: SurfaceIndex) -> float:
+    """Tell through which share of a mouth light comes straight from the other side, 0 to 1."""
+    shares = np.array([0.2, 0.5, 0.8])[:, None, None]
+    points = (
+        opening.centre + shares * (opening.rim[:: max(1, len(opening.rim) // 24)] - opening.centre)
+    ).reshape(-1, 3)
+    return float(np.mean(index.escapes(points, np.tile(-opening.axes[2], (len(points), 1)))))
+
+
+def _volume(surface: Outside) -> float:
+    corners = surface.vertices[surface.faces] - surface.vertices[surface.faces[0, 0]]
+    return float(np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6
+
+
+def _has_cavity(vertices: NDArray[np.float64], faces: NDArray[np.int32], gap: float) -> bool:
+    """Tell whether much of the surface sees next to no light, but a wall far opposite: no groove is so wide."""
+    cross = cross_products(vertices, faces)
+    areas = np.linalg.norm(cross, axis=1)
+    pick = np.random.default_rng(0).choice(len(faces), _GLANCES, p=areas / areas.sum())
+    index = SurfaceIndex(vertices, faces)
+    dark = pick[exposure(vertices, faces[pick], index, count=64) < _NIGHT]
+    if len(dark) < _MUCH * _GLANCES:
+        return False
+    normals = cross[dark] / areas[dark, None]
+    opposite, _ = index.first_hit(vertices[faces[dark]].mean(axis=1) + 1e-3 * gap * normals, normals)
+    return bool(np.median(opposite) > 2 * gap)
 
 
 def _wanted(found: Sequence[Opening], closings: Closing | Sequence[Closing]) -> list[Closing]:

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.engines import alpha_wrap, self_intersections
+from pipeline.mesh.engines import Cancelled, alpha_wrap
 from pipeline.mesh.shell.settle import settle
+from pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
 from pipeline.mesh.triangles import cross_products, join
 
 if TYPE_CHECKING:
@@ -33,8 +34,7 @@ OFFSET = 0.1
 # How deep the plug lies under the coarse wrap, in its alphas: the offset, and more than the wrap's sag.
 _DRAWN_IN = OFFSET + 0.3
 _SHORT_OF = OFFSET + 0.05
-_PUT_BACK, _PATIENCE = 12, 3
-_NUDGE = 1e-8  # of the size
+_PUT_BACK = 8
 
 SURFACE, PATCH, PLUG = 0, 1, 2
 
@@ -54,15 +54,12 @@ class Wrapped:
         SURFACE, PATCH or PLUG.
     held_back : int
         Vertices that kept a part of the offset, because a facet would have folded.
-    crossing : int
-        Facets that still cut through others.
     """
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int32]
     rests_on: NDArray[np.int8]
     held_back: int
-    crossing: int = 0
 
 
 def wrap_soup(
@@ -129,40 +126,33 @@ def fine_wrap(
     index = SurfaceIndex(vertices, faces)
     settled, share = settle(wrap, wrap_faces, index.closest(wrap)[2])
     cancelled = control.get("cancelled")
-    settled, share, crossing = _uncross(wrap, settled, wrap_faces, share, cancelled)
+    settled, share = _mended(wrap, settled, wrap_faces, share, (vertices, faces), cancelled)
     _, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
-    return Wrapped(settled, wrap_faces, kind[nearest], int(np.count_nonzero(share < 1)), crossing)
+    return Wrapped(settled, wrap_faces, kind[nearest], int(np.count_nonzero(share < 1)))
 
 
-def _uncross(
+def _mended(
     wrap: NDArray[np.float64],
     settled: NDArray[np.float64],
     faces: NDArray[np.int32],
     share: NDArray[np.float64],
+    original: Surface,
     cancelled: Callable[[], bool] | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.float64], int]:
-    """
-    Put back the corners of facets that cut through others, and nudge those that only seem to.
-
-    CGAL's wrap never crosses itself, but the library that looks for crossings takes two facets that lie in one
-    plane to the last bit for crossing, even far apart: moved by a nanometre they no longer do
-    (test_what_seems_to_cross_in_the_wrap_itself_is_nudged).
-    """
-    nudge = _NUDGE * float(np.ptp(wrap, axis=0).max())
-    rng = np.random.default_rng(0)
-    doubtful = np.zeros(len(faces), dtype=bool)
-    for attempt in range(_PUT_BACK):
-        crossing = self_intersections(settled, faces, cancelled=cancelled)
-        if not crossing.any() or attempt == _PUT_BACK - 1:
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Put back the corners of facets that cross others or have folded: the wrap itself does neither."""
+    for attempt in range(_PUT_BACK + 1):
+        if cancelled is not None and cancelled():
+            raise Cancelled("the shell was cancelled: the mesh is as it was.")
+        found = check_soundness(settled, faces, original)
+        wrong = np.unique(
+            np.concatenate((found.facets_of(CROSSING, OVERLAP, TOUCHING).ravel(), found.folded_facets))
+        )
+        corners = np.unique(faces[wrong])
+        if len(corners) == 0 or attempt == _PUT_BACK:
             break
-        seeming = np.unique(faces[crossing & doubtful])
-        settled[seeming] += rng.normal(0.0, nudge, (len(seeming), 3))
-        corners = np.unique(faces[crossing & ~doubtful])
         # A corner that is put back may make its neighbours cross, so the later the wider.
         for _ in range(attempt // 2):
             corners = np.unique(faces[np.isin(faces, corners).any(axis=1)])
         settled[corners] = wrap[corners]
         share[corners] = 0.0
-        if attempt == _PATIENCE:
-            doubtful = self_intersections(wrap, faces, cancelled=cancelled)
-    return settled, share, int(np.count_nonzero(crossing))
+    return settled, share

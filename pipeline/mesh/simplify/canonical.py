@@ -1,4 +1,4 @@
-"""The mesh as the engines get it: centred, 100 units long, on a grid, and clean."""
+"""The mesh as the edge collapse gets it: centred, 100 units long, on a grid, and clean."""
 
 from __future__ import annotations
 
@@ -15,11 +15,10 @@ if TYPE_CHECKING:
 
     from pipeline.mesh.probe import Probe
 
-# The engines compare errors with absolute thresholds that suit a mesh of about this size.
 _LENGTH = 100.0
 
-# A metre and a millimetre file of one part differ by rounding, and a difference in the last bit can send an
-# engine down another path. On a grid of 6e-8 of the size both become the same but for one mesh in hundreds.
+# A metre and a millimetre file of one part differ by rounding, and a difference in the last bit can send the
+# collapse down another path. On a grid of 6e-8 of the size both become the same but for one mesh in hundreds.
 _GRID = _LENGTH * 2.0**-24
 
 # CAD coordinates are often round numbers: without this shift many would lie halfway between grid points.
@@ -31,7 +30,7 @@ _MERGE = 1e-7 * _LENGTH
 @dataclass(frozen=True, eq=False)
 class Canonical:
     """
-    A mesh in the engines' unit.
+    A mesh in the collapse's unit.
 
     Attributes
     ----------
@@ -51,16 +50,16 @@ class Canonical:
     unit: float
 
     def back(self, vertices: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Return engine coordinates in metres in S."""
+        """Return coordinates in metres in S."""
         return vertices * self.unit + self.centre
 
 
 def make_canonical(probe: Probe) -> Canonical:
     """
-    Scale, centre and clean a probe for the engines.
+    Scale, centre and clean a probe.
 
-    An engine takes unmerged vertices for holes and dies on duplicate facets, so both are mended where the probe
-    has them.
+    Unmerged vertices would be taken for holes, and duplicate facets for a third one at an edge, so both are mended
+    where the probe has them.
 
     Parameters
     ----------

@@ -4,57 +4,56 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from pipeline.mesh.soundness import check_soundness
+
 if TYPE_CHECKING:
-    from pipeline.mesh.deviation import Comparison
+    from collections.abc import Callable
+
     from pipeline.mesh.probe import Probe
-
-# What a count may be exceeded by where no engine reaches it, as when many edges are held.
-OVER = 1.05
-
-# An engine that stops a little short has done its work; closed meshes lose two facets at a time.
-_SHORT, _SPARE = 0.9, 4
-
-# Of the area. On thin walls and sharp edges the nearest original facet may be on the other side.
-_FLIPPED = 0.002
-
-# A surface with so many facets that is so far off, as a share of its size, has been ruined.
-_RUINED_COUNT, _RUINED = 200, 0.02
+    from pipeline.mesh.soundness import Soundness
 
 
-def find_faults(original: Probe, made: Probe, count: int, comparison: Comparison) -> list[str]:
+def find_faults(made: Probe, original: Probe, original_soundness: Callable[[], Soundness]) -> tuple[str, ...]:
     """
-    List the reasons not to use what an engine made.
+    List the reasons not to use a simplified mesh.
+
+    A surface that is open or crosses may stay so, where the original does, but no worse.
 
     Parameters
     ----------
-    original, made : Probe
-        Before and after.
-    count : int
-        The facets asked for.
-    comparison : Comparison
-        Of the two.
+    made, original : Probe
+        After and before.
+    original_soundness : callable
+        Checks the original by itself; called only when it counts, for it takes long on a large mesh.
 
     Returns
     -------
-    list of str
-        Empty when it can be used.
+    tuple of str
+        Sentences; empty when it can be used.
     """
-    before, after, got = original.health, made.health, len(made.faces)
-    checks = {
-        f"stopped at {got} facets instead of {count}": got > count,
-        f"left {got} facets instead of {count}": got < min(_SHORT * count, count - _SPARE),
-        "opened the surface": before.watertight and not after.watertight,
-        "joined more than two facets at an edge": after.nonmanifold_edges > before.nonmanifold_edges,
-        "turned facets over": before.winding_consistent
-        and (not after.winding_consistent or comparison.flipped_share > _FLIPPED),
-        "turned the surface inside out": before.outward is True and after.outward is not True,
-        "made facets twice": after.duplicate_facets > before.duplicate_facets,
-        "broke the surface into parts": after.components > before.components,
-        "ruined the shape": got >= _RUINED_COUNT and _relative_rms(original, comparison) > _RUINED,
+    after = check_soundness(
+        made.vertices, made.faces, (original.vertices, original.faces), invented=made.invented
+    )
+    if after.sound:
+        return ()
+    before, now = _counts(original_soundness()), _counts(after)
+    return after.faults if any(now[what] > before[what] for what in now) else ()
+
+
+def _counts(soundness: Soundness) -> dict[str, int]:
+    health = soundness.health
+    return {
+        "openings": health.boundary_edges,
+        "nonmanifold edges": health.nonmanifold_edges,
+        "winding": int(not health.winding_consistent),
+        "inside out": int(health.outward is False),
+        "repeated": health.duplicate_facets,
+        "inward parts": soundness.inward_parts,
+        "nested parts": soundness.nested_parts,
+        "pinched": len(soundness.pinched_vertices),
+        "crossing": soundness.crossing,
+        "overlapping": soundness.overlapping,
+        "unchecked": int(not soundness.every_pair_checked),
+        "folded": len(soundness.folded_facets),
+        "without area": len(soundness.flat_facets),
     }
-    return [fault for fault, found in checks.items() if found]
-
-
-def _relative_rms(original: Probe, comparison: Comparison) -> float:
-    deviation = comparison.deviation()
-    return 0.0 if deviation is None else deviation.rms / original.size

@@ -1,4 +1,4 @@
-"""One simplification under way: reach a count by one recipe or the next, check what came out, remember it."""
+"""One simplification under way: reach a count, check what came out, remember it."""
 
 from __future__ import annotations
 
@@ -9,18 +9,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh import engines
+from pipeline.kernel import collapse_edges
+from pipeline.mesh.engines import Cancelled
 from pipeline.mesh.errors import MeshError
 from pipeline.mesh.probe import Probe
 from pipeline.mesh.simplify.canonical import make_canonical
-from pipeline.mesh.simplify.faults import OVER, find_faults
-from pipeline.mesh.simplify.split import inside_count, simplify_apart
+from pipeline.mesh.simplify.faults import find_faults
+from pipeline.mesh.soundness import Soundness, check_soundness
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy.typing as npt
 
     from pipeline.mesh.deviation import Comparison, Deviation, Reference
-    from pipeline.mesh.simplify.recipe import Mesh, Recipe
+
+# Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
+_STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)
+
+ENGINE, UNCHANGED = "edge collapse", "none"
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,14 +43,11 @@ class Attempt:
         With the original.
     deviation : Deviation
         Over the whole surface.
-    engine : str
-        The recipe that made it.
     """
 
     probe: Probe
     comparison: Comparison
     deviation: Deviation
-    engine: str
 
 
 class Job:
@@ -56,36 +60,30 @@ class Job:
         The original.
     reference : Future[Reference]
         The original made ready for comparing, when it is.
-    recipes : tuple of Recipe
-        In the order in which to try them.
-    pick_best : bool
-        Try all recipes and keep the smallest Hausdorff distance, instead of the first that passes.
     ratio : float
         Facets per area in the regions over that in the rest.
-    control : Control
-        For the engines.
+    progress : callable
+        Takes the fraction done of one attempt.
+    cancelled : callable, optional
+        Asked whether to stop.
     """
 
     def __init__(
         self,
         probe: Probe,
         reference: Future[Reference],
-        recipes: tuple[Recipe, ...],
-        *,
-        pick_best: bool,
         ratio: float,
-        control: engines.Control,
+        progress: Callable[[float], None],
+        cancelled: Callable[[], bool] | None,
     ) -> None:
         self.probe = probe
         self.steps: list[str] = []
         self._reference = reference
-        self._recipes = recipes
-        self._pick_best = pick_best
         self._ratio = ratio
-        self._control = control
+        self._progress = progress
+        self._cancelled = cancelled
         self._mesh = make_canonical(probe)
         self._made: dict[int, Attempt | MeshError] = {}
-        self._over: list[Attempt] = []  # sound, but with a few facets more than asked for
 
     @property
     def reference(self) -> Reference:
@@ -94,9 +92,39 @@ class Job:
 
     def unchanged(self) -> Attempt:
         """Return the original as an attempt."""
-        return self._compared(self.probe, "none")
+        return self._compared(self.probe)
 
     def reach(self, count: int) -> Attempt:
+        """
+        Simplify to a count, or to the nearest larger one tried that gives a sound surface.
+
+        Parameters
+        ----------
+        count : int
+            Facets, fewer than the original has.
+
+        Raises
+        ------
+        MeshError
+            No count that was tried gave a sound surface.
+        Cancelled
+            The caller cancelled.
+        """
+        failed = ""
+        for step in _STEPS:
+            wanted = round(step * count)
+            if wanted >= len(self.probe.faces):
+                break
+            try:
+                return self.attempt(wanted)
+            except MeshError as error:
+                failed = str(error)
+        raise MeshError(
+            f"the surface cannot be simplified to {count:,} facets, nor to a few times as many: {failed} Ask for more"
+            " facets, or repair the mesh first."
+        )
+
+    def attempt(self, count: int) -> Attempt:
         """
         Simplify to a count, or return what was made for it before.
 
@@ -105,83 +133,72 @@ class Job:
         count : int
             Facets, fewer than the original has.
 
-        Returns
-        -------
-        Attempt
-
         Raises
         ------
         MeshError
-            No recipe gave a usable mesh; says why each did not.
+            What came out is not sound; says what is wrong.
         Cancelled
             The caller cancelled.
         """
-        if count not in self._made:
+        made = self._made.get(count)
+        if made is None:
             try:
-                self._made[count] = self._reach(count)
+                made = self._attempt(count)
+                done = f"within {made.deviation.hausdorff * 1e3:.4g} mm of the original"
+                self.steps.append(f"{count:,} facets asked for: {len(made.probe.faces):,} facets, {done}.")
             except MeshError as error:
-                self._made[count] = error
-        made = self._made[count]
+                made = error
+                self.steps.append(f"{count:,} facets asked for: {error}")
+            self._made[count] = made
         if isinstance(made, MeshError):
             raise made
         return made
 
-    def _reach(self, count: int) -> Attempt:
-        made: list[Attempt] = []
-        failed: list[str] = []
-        self._over = []
-        for recipe in self._recipes:
-            attempt = self._try(recipe, count)
-            if isinstance(attempt, str):
-                failed.append(attempt)
-                self.steps.append(attempt)
-                continue
-            made.append(attempt)
-            self.steps.append(
-                f"{recipe.name}: {len(attempt.probe.faces)} facets, within"
-                f" {attempt.deviation.hausdorff * 1e3:.4g} mm of the original."
-            )
-            if not self._pick_best:
-                break
-        if not made and self._over:
-            made = [min(self._over, key=lambda attempt: len(attempt.probe.faces))]
-            self.steps.append(
-                f"{made[0].engine}: {len(made[0].probe.faces)} facets, the nearest to {count} that is sound."
-            )
-        if not made:
-            raise MeshError(
-                f"the surface cannot be simplified to {count} facets: {' '.join(failed)} Ask for more facets, or"
-                " repair the mesh first."
-            )
-        return min(made, key=lambda attempt: attempt.deviation.hausdorff)
+    def _attempt(self, count: int) -> Attempt:
+        self._go_on(0.0)
+        vertices, faces = self._collapsed(count)
+        made = Probe.from_arrays(self._mesh.back(vertices), faces, name=self.probe.name, check_size=False)
+        attempt = self._compared(made)
+        if faults := find_faults(attempt.probe, self.probe, lambda: self._soundness):
+            raise MeshError(" ".join(faults))
+        return attempt
 
-    def _try(self, recipe: Recipe, count: int) -> Attempt | str:
-        """Make an attempt, or say why it failed."""
-        try:
-            vertices, faces = self._simplified(recipe, count)
-            made = Probe.from_arrays(self._mesh.back(vertices), faces, name=self.probe.name, check_size=False)
-        except engines.EngineError as error:
-            return f"{error}"
-        except MeshError as error:
-            return f"{recipe.name} made a mesh that is none ({error})"
-        attempt = self._compared(made, recipe.name)
-        faults = find_faults(self.probe, made, count, attempt.comparison)
-        if not faults:
-            return attempt
-        if len(faults) == 1 and count < len(made.faces) <= OVER * count:
-            self._over.append(attempt)
-        return f"{recipe.name} {' and '.join(faults)} (asked for {count})."
-
-    def _simplified(self, recipe: Recipe, count: int) -> Mesh:
+    def _collapsed(self, count: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
         mesh = self._mesh
-        if count >= len(mesh.faces):
-            return mesh.vertices, mesh.faces
-        inside = inside_count(count, self._ratio, self._region_share)
-        if self._ratio == 1 or not 0 < inside < count:
-            return recipe.simplify(mesh.vertices, mesh.faces, count, **self._control)
-        return simplify_apart(recipe, mesh, count, inside, self._in_region, **self._control)
+        chosen = self._chosen
+        inside = min(inside_count(count, self._ratio, self._region_share), int(np.count_nonzero(chosen)))
+        # What the regions do not use goes to the rest, and the other way round.
+        outside = min(count - inside, int(np.count_nonzero(~chosen)))
+        wanted = (outside, count - outside if chosen.any() else 0)
+        return collapse_edges(mesh.vertices, mesh.faces, wanted, chosen, self._go_on)
 
-    def _compared(self, made: Probe, engine: str) -> Attempt:
+    def _go_on(self, fraction: float) -> None:
+        if self._cancelled is not None and self._cancelled():
+            raise Cancelled("the simplification was cancelled: nothing was changed.")
+        self._progress(fraction)
+
+    @cached_property
+    def _chosen(self) -> npt.NDArray[np.bool_]:
+        """The facets that are to stay denser; none when all are to be treated alike."""
+        faces = self._mesh.faces
+        if self._ratio == 1 or not 0 < self._region_share < 1:
+            return np.zeros(len(faces), dtype=np.bool_)
+        if faces is self.probe.faces:
+            return np.ascontiguousarray(self.probe.preferred)
+        # Merged and cleaned: no longer facet by facet the same.
+        return np.ascontiguousarray(
+            self.probe.preferred[self._nearest_facet(self._mesh.back(self._mesh.vertices), faces)]
+        )
+
+    @cached_property
+    def _region_share(self) -> float:
+        return float(self.probe.areas[self.probe.preferred].sum() / self.probe.areas.sum())
+
+    @cached_property
+    def _soundness(self) -> Soundness:
+        return check_soundness(self.probe.vertices, self.probe.faces)
+
+    def _compared(self, made: Probe) -> Attempt:
         if made is not self.probe and (self.probe.region.any() or self.probe.invented.any()):
             nearest = self._nearest_facet(made.vertices, made.faces)
             made = made.with_region(self.probe.region[nearest], self.probe.untouchable)
@@ -190,22 +207,29 @@ class Job:
         deviation = comparison.deviation()
         if deviation is None:
             raise AssertionError("a surface without a mask always has samples")
-        return Attempt(made, comparison, deviation, engine)
-
-    @cached_property
-    def _region_share(self) -> float:
-        return float(self.probe.areas[self.probe.preferred].sum() / self.probe.areas.sum())
-
-    def _in_region(
-        self, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
-    ) -> npt.NDArray[np.bool_]:
-        return self.probe.preferred[self._nearest_facet(self._mesh.back(vertices), faces)]
+        return Attempt(made, comparison, deviation)
 
     def _nearest_facet(
         self, vertices_m: npt.NDArray[np.float64], faces: npt.NDArray[np.int32]
     ) -> npt.NDArray[np.int32]:
         """For each facet the original one that its centre is nearest to: it takes over what that one is."""
         return self.reference.nearest_facet(vertices_m[faces].mean(axis=1))
+
+
+def inside_count(count: int, ratio: float, share: float) -> int:
+    """
+    Compute how many of `count` facets the regions get: count r a / (r a + 1 - a).
+
+    Parameters
+    ----------
+    count : int
+        All facets.
+    ratio : float
+        r: facets per area in the regions over that in the rest.
+    share : float
+        a: the regions' share of the area, 0 to 1.
+    """
+    return round(count * ratio * share / (ratio * share + 1 - share))
 
 
 def check_ratio(ratio: float) -> None:

@@ -1,4 +1,4 @@
-"""The fewest facets that keep an error within its limit, in few engine calls."""
+"""The fewest facets that keep an error within its limit, in few attempts."""
 
 from __future__ import annotations
 
@@ -13,21 +13,24 @@ if TYPE_CHECKING:
 
     from pipeline.mesh.simplify.job import Attempt, Job
 
-_MOST_CALLS = 12
+MOST_ATTEMPTS = 12
 _FIRST_GUESS = 500
 
-# Engines reach about this: the next count down may do as well by chance as this one.
+# The next count down may do as well by chance as this one.
 _CLOSE = 1.05
+
+# Where a count fails, one nearby is likely to fail too.
+_AFTER_FAILURE = 2.0
 
 
 def fewest_facets(
     job: Job, error: Callable[[Attempt], float], limit: float, progress: Callable[[float], None]
-) -> Attempt:
+) -> Attempt | None:
     """
     Search the count on a logarithmic scale, guided by the errors met so far.
 
-    The error of an engine does not fall strictly with the count, so a smaller count may exist; the one returned is
-    within the limit, and within 5 % of one that is not, or that no engine reached.
+    The error does not fall strictly with the count, so a smaller count may exist. After twelve attempts the best
+    one so far is taken.
 
     Parameters
     ----------
@@ -38,12 +41,12 @@ def fewest_facets(
     limit : float
         The largest error that will do.
     progress : callable
-        Takes the fraction done, 0 to 1, before every call of an engine.
+        Takes the fraction done, 0 to 1, before every attempt.
 
     Returns
     -------
-    Attempt
-        The original itself when nothing else keeps the limit.
+    Attempt or None
+        None when none of those tried keeps the limit, but the original does.
 
     Raises
     ------
@@ -55,24 +58,33 @@ def fewest_facets(
     low, high = FEWEST - 1, len(job.probe.faces)
     best: Attempt | None = None
     met: list[tuple[float, float]] = []
-    for call in range(_MOST_CALLS):
+    failed = False
+    for number in range(MOST_ATTEMPTS):
         if high <= max(low * _CLOSE, low + 2):
             break
-        progress(call / _MOST_CALLS)
-        count = _next(low, high, met)
+        progress(number / MOST_ATTEMPTS)
+        count = _after_failure(low, high) if failed else _next(low, high, met)
         try:
-            attempt = job.reach(count)
+            attempt, failed = job.attempt(count), False
         except MeshError:
-            low = count
+            low, failed = count, True
             continue
         value = error(attempt)
-        if value > 0 and math.isfinite(value):
+        failed = not math.isfinite(value)  # says nothing of how far the limit is
+        if value > 0 and not failed:
             met.append((math.log(count), math.log(value / limit)))
         if value <= limit:
             best, high = attempt, count
         else:
             low = count
-    return best if best is not None else _original(job, error, limit)
+    if best is None:
+        _check_original(job, error, limit)
+    return best
+
+
+def _after_failure(low: int, high: int) -> int:
+    """Go up by a factor, or halfway on the logarithmic scale where that would be too far."""
+    return min(max(round(min(_AFTER_FAILURE * low, math.sqrt(low * high))), low + 1), high - 1)
 
 
 def _next(low: int, high: int, met: list[tuple[float, float]]) -> int:
@@ -93,12 +105,9 @@ def _next(low: int, high: int, met: list[tuple[float, float]]) -> int:
     return min(max(round(math.exp(min(max(guess, bottom + margin), top - margin))), low + 1), high - 1)
 
 
-def _original(job: Job, error: Callable[[Attempt], float], limit: float) -> Attempt:
-    original = job.unchanged()
-    value = error(original)
+def _check_original(job: Job, error: Callable[[Attempt], float], limit: float) -> None:
+    value = error(job.unchanged())
     if not value <= limit:
         raise MeshError(
             f"the error of the full mesh is {value:.4g} already, above the limit of {limit:.4g}: raise the limit."
         )
-    job.steps.append("No fewer facets keep the limit: the surface is left as it is.")
-    return original

@@ -1,24 +1,25 @@
-"""Fewer facets for the same shape, measured."""
+"""Fewer facets for the same shape, measured and checked."""
 
 from __future__ import annotations
 
+import math
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pipeline.mesh.deviation import Deviation, Reference
 from pipeline.mesh.probe import Probe
-from pipeline.mesh.simplify.job import Attempt, Job, check_ratio
-from pipeline.mesh.simplify.recipe import ORDER, Engine
-from pipeline.mesh.simplify.search import fewest_facets
-from pipeline.mesh.simplify.target import Count, MaxDeviation, Target
+from pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, Job, check_ratio
+from pipeline.mesh.simplify.search import MOST_ATTEMPTS, fewest_facets
+from pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-# For a count the deviation is only reported, and is to take less time than the engine; for a limit it decides.
+# For a count the deviation is only reported, and is to take less time than the collapse; for a limit it decides.
 _COARSE = {"uniform": 3_000, "most": 2_500}
 _THOROUGH = {"uniform": 20_000, "most": 200_000}
 
@@ -31,17 +32,21 @@ class Simplified:
     Attributes
     ----------
     probe : Probe
-        Valid, in the original's frame and unit, with the regions of the nearest original facets.
+        Sound where the original is, in its frame and unit, with the regions of the nearest original facets.
     count : int
         Its facets; not always those asked for.
     deviation : Deviation
         From the original, over the whole surface.
     regions : mapping of int to Deviation
         The same per priority region, and at 0 for the rest; empty when there are no regions.
-    engine : str
+    engine : {"edge collapse", "none"}
         What made it; "none" when the original was left as it is.
     steps : tuple of str
         What was tried, in order, and why it was not used.
+    short : str
+        Why it has more facets than wanted; empty when it has not.
+    warnings : tuple of str
+        What was asked for in vain.
     """
 
     probe: Probe
@@ -50,11 +55,14 @@ class Simplified:
     regions: Mapping[int, Deviation]
     engine: str
     steps: tuple[str, ...]
+    short: str = ""
+    warnings: tuple[str, ...] = ()
 
     @property
     def sentences(self) -> tuple[str, ...]:
         """What was reached, and what had to be tried for it, in words."""
-        out = [f"{self.count:,} facets by {self.engine}: {self.deviation.sentence}."]
+        short = f", {self.short}" if self.short else ""
+        out = [f"{self.count:,} facets{short}: {self.deviation.sentence}.", *self.warnings]
         for priority, part in self.regions.items():
             where = f"In region {priority}" if priority else "Outside every region"
             out.append(f"{where}: {part.sentence}.")
@@ -75,9 +83,10 @@ def simplify(
     """
     Give a probe fewer facets.
 
-    The engines get the mesh centred and scaled to 100 units, so a probe in any unit is simplified alike. What comes
-    back is compared with the original. An engine that stops short of the count, opens or tears the surface, turns
-    facets over, or makes facets without area is not used: the next one is, and the result says so.
+    Edges are collapsed in the order of their quadric error, on the mesh centred and scaled to 100 units, so a probe in
+    any unit is simplified alike. No step is done that would open, fold or cross the surface. What comes out is checked
+    as if a stranger had made it, and compared with the original; where it is not sound, more facets are kept, and the
+    first sentence says so.
 
     Parameters
     ----------
@@ -86,16 +95,15 @@ def simplify(
     target : Count, MaxDeviation or MaxError
         So many facets, or the fewest found within a limit.
     engine : {"auto", "fast-simplification", "meshlab", "best"}
-        What to try first. "best" tries every engine, at several sizes, and keeps the smallest Hausdorff distance; it
-        takes some thirty times as long.
+        All the same; a library that sessions of earlier versions name is told to be gone.
     region_ratio : float
         Facets per area in the priority regions (region above 0) over that in the rest, 1 to 100. A ratio r for a share
-        a of the area gives the regions r a / (r a + 1 - a) of the facets. 1 leaves the spread to the engine, which
+        a of the area gives the regions r a / (r a + 1 - a) of the facets. 1 leaves the spread to the collapse, which
         goes by curvature.
     progress : callable, optional
         Takes the fraction done, 0 to 1, never falling; in the calling thread.
     cancelled : callable, optional
-        Asked every 0.05 s while an engine works.
+        Asked every few milliseconds.
 
     Returns
     -------
@@ -104,41 +112,60 @@ def simplify(
     Raises
     ------
     MeshError
-        No engine gave a usable surface, or not even the original keeps the limit, or a bad ratio.
+        No count that was tried gave a sound surface, or not even the original keeps the limit, or a bad ratio.
     Cancelled
         `cancelled` answered True.
     """
     check_ratio(region_ratio)
     tell = _Told(progress)
     density = _COARSE if isinstance(target, Count) else _THOROUGH
-    # The search tree is built without the interpreter while the engine works in its process.
+    # The search tree is built without the interpreter while the edges are collapsed.
     with ThreadPoolExecutor(1) as pool:
-        job = Job(
-            probe,
-            pool.submit(Reference, probe, **density),
-            ORDER[engine],
-            pick_best=engine == "best",
-            ratio=region_ratio,
-            control={"progress": tell.within, "cancelled": cancelled},
-        )
-        attempt = _reach(job, target, tell)
+        job = Job(probe, pool.submit(Reference, probe, **density), region_ratio, tell.within, cancelled)
+        attempt, short = _reach(job, target, tell)
     tell(1.0)
-    return _summed_up(job, attempt)
+    return _summed_up(job, attempt, short, _warnings(probe, engine, region_ratio))
 
 
-def _reach(job: Job, target: Target, tell: _Told) -> Attempt:
+def _reach(job: Job, target: Target, tell: _Told) -> tuple[Attempt, str]:
+    have = len(job.probe.faces)
     if isinstance(target, Count):
-        if target.facets >= len(job.probe.faces):
-            job.steps.append(f"The surface has {len(job.probe.faces)} facets already: it is left as it is.")
-            return job.unchanged()
-        return job.reach(target.facets)
+        if target.facets >= have:
+            job.steps.append(f"The surface has {have} facets already: it is left as it is.")
+            return job.unchanged(), ""
+        attempt = job.reach(target.facets)
+        if len(attempt.probe.faces) <= target.facets:
+            return attempt, ""
+        wanted = f"{target.facets:,}"
+        return (
+            attempt,
+            f"more than the {wanted} asked for, because no smaller number that was tried gave a sound surface",
+        )
     if isinstance(target, MaxDeviation):
-        return fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell)
-    measure = target.measure
-    return fewest_facets(job, lambda attempt: measure(attempt.probe), target.limit, tell)
+        found = fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell.attempts)
+    else:
+        found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts)
+    if found is not None:
+        return found, ""
+    job.steps.append("No fewer facets keep the limit: the surface is left as it is.")
+    return job.unchanged(), "as many as before, because no smaller number that was tried keeps the limit"
 
 
-def _summed_up(job: Job, attempt: Attempt) -> Simplified:
+def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> tuple[str, ...]:
+    told = []
+    if engine != "auto":
+        told.append(
+            f"The engine {engine} is gone: contactbench collapses the edges itself, and facets differ."
+        )
+    if region_ratio != 1 and not probe.preferred.any():
+        told.append(
+            f"The region ratio is {region_ratio:g}, but the mesh has no region: facets are spread evenly. Mark one"
+            " first (contactbench region add)."
+        )
+    return tuple(told)
+
+
+def _summed_up(job: Job, attempt: Attempt, short: str, warnings: tuple[str, ...]) -> Simplified:
     before, after = job.probe.region, attempt.probe.region
     regions: dict[int, Deviation] = {}
     if before.any():
@@ -151,23 +178,35 @@ def _summed_up(job: Job, attempt: Attempt) -> Simplified:
         len(attempt.probe.faces),
         attempt.deviation,
         regions,
-        attempt.engine,
+        UNCHANGED if attempt.probe is job.probe else ENGINE,
         tuple(job.steps),
+        short,
+        warnings,
     )
 
 
+def _error(target: MaxError, attempt: Attempt) -> float:
+    return math.inf if attempt.deviation.hausdorff > target.farthest else target.measure(attempt.probe)
+
+
 class _Told:
-    """Progress that never falls, whatever number of engine calls it is made of."""
+    """Progress that never falls, whatever number of attempts it is made of."""
 
     def __init__(self, progress: Callable[[float], None] | None) -> None:
         self._progress = progress
         self._highest = 0.0
+        self._low, self._share = 0.0, 1.0
 
     def __call__(self, fraction: float) -> None:
         self._highest = max(self._highest, fraction)
         if self._progress is not None:
             self._progress(self._highest)
 
-    def within(self, _fraction: float) -> None:
-        """Take an engine's sign of life."""
-        self(self._highest)
+    def attempts(self, begun: float) -> None:
+        """Take where the next attempt begins."""
+        self._low, self._share = begun, 1 / MOST_ATTEMPTS
+        self(begun)
+
+    def within(self, fraction: float) -> None:
+        """Take how far the present attempt is."""
+        self(self._low + self._share * fraction)

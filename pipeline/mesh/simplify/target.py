@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from pipeline.mesh.errors import MeshError
 
@@ -75,6 +75,9 @@ class MaxError:
         Takes a simplified probe, returns its error; 0 or more, and on the whole smaller for more facets.
     limit : float
         In the measure's unit, above 0.
+    farthest : float
+        Hausdorff distance from the original that no facet count may exceed, metres: a measure over the whole
+        surface may not see a small part of it vanish, such as letters.
 
     Raises
     ------
@@ -84,12 +87,16 @@ class MaxError:
 
     measure: Callable[[Probe], float]
     limit: float
+    farthest: float = math.inf
 
     def __post_init__(self) -> None:
         _refuse_unless_positive(self.limit, "the largest error")
 
 
 Target = Count | MaxDeviation | MaxError
+
+# Sessions and histories of earlier versions name the library that they chose; there is only one way now.
+Engine = Literal["auto", "fast-simplification", "meshlab", "best"]
 
 
 def _refuse_unless_positive(value: float, what: str) -> None:

@@ -6,6 +6,7 @@ A case is a number: the same seed and number give the same bytes.
 from __future__ import annotations
 
 import io
+import json
 import random
 import struct
 import zipfile
@@ -15,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.mesh_fuzz.large import archive, swollen
+from pipeline.study.mesh_fuzz.large import archive, glb, swollen
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +28,7 @@ PIECES = (
     b"0", b"-1", b"3", b"4", b"9999999999", b"4294967295", b"1e308", b"1e-320", b"nan", b"inf", b"\n", b"\r",
     b" ", b"#", b"/", b"vertex", b"facet", b"endsolid", b"solid", b"element", b"property", b"list", b"end_header",
     b"f ", b"v ", b"OFF", b"<", b"/>", b"&", b"\0", b"\xff" * 4, b"\0" * 4, b"\x7f\xf0\0\0", b"\0\0\xc0\x7f", b"uint",
-    b"int64", b"ascii", b"binary_big_endian", b"\\\n",
+    b"int64", b"ascii", b"binary_big_endian", b"\\\n", b",", b"null", b"[]", b"{}", b"[0]", b'"mode":5,',
 )  # fmt: skip
 
 _LARGE = 1_000_000
@@ -87,15 +88,19 @@ def make_case(seed: int, number: int) -> FuzzCase:
 def sound_files() -> dict[str, bytes]:
     """Sound files of every format, by a name that ends in the suffix; a ball of 48 facets."""
     vertices, faces = _ball()
+    polygons = _polygons(faces)
     return {
         "binary.stl": _binary_stl(vertices, faces),
         "text.stl": _text_stl(vertices, faces),
         "little.ply": _binary_ply(vertices, faces, "<"),
         "big.ply": _binary_ply(vertices, faces, ">"),
         "text.ply": _text_ply(vertices, faces),
+        "mixed.ply": _mixed_ply(vertices, polygons),
         "mesh.obj": _obj(vertices, faces),
+        "polygons.obj": _polygon_obj(vertices, polygons),
         "mesh.off": _off(vertices, faces),
         "mesh.3mf": archive(_xml(vertices, faces)),
+        "mesh.glb": _glb(vertices, faces),
     }
 
 
@@ -123,6 +128,20 @@ def _ball() -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
         last = 1 + (rings - 2) * around
         faces.append((last + k, len(vertices) - 1, last + after))
     return vertices, np.array(faces)
+
+
+def _polygons(faces: npt.NDArray[np.int64]) -> list[list[int]]:
+    """Join facets two by two to quads that are not flat, and leave every third pair apart."""
+    joined: list[list[int]] = []
+    for pair, (one, two) in enumerate(zip(faces[::2].tolist(), faces[1::2].tolist(), strict=True)):
+        shared = [corner for corner in one if corner in two]
+        if pair % 3 == 0 or len(shared) != 2:
+            joined += [one, two]
+            continue
+        (tip,) = set(two) - set(shared)
+        at = next(k for k in range(3) if {one[k], one[(k + 1) % 3]} == set(shared))
+        joined.append([*one[: at + 1], tip, *one[at + 1 :]])
+    return joined
 
 
 def _binary_stl(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> bytes:
@@ -155,6 +174,12 @@ def _binary_ply(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64],
     return head + vertices.astype(order + "f4").tobytes() + rows.tobytes()
 
 
+def _mixed_ply(vertices: npt.NDArray[np.float64], polygons: list[list[int]]) -> bytes:
+    head = _PLY.format("binary_little_endian", len(vertices), len(polygons)).encode()
+    rows = [struct.pack(f"<B{len(p) + 1}i", len(p), *p, k % 3) for k, p in enumerate(polygons)]
+    return head + vertices.astype("<f4").tobytes() + b"".join(rows)
+
+
 def _text_ply(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> bytes:
     head = _PLY.format("ascii", len(vertices), len(faces))
     return (head + _rows(vertices, "{:g} {:g} {:g}\n") + _rows(faces, "3 {} {} {} 1\n")).encode()
@@ -164,6 +189,33 @@ def _obj(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> byt
     return (
         "# sound\n" + _rows(vertices, "v {:g} {:g} {:g}\n") + _rows(faces + 1, "f {} {}/1 {}//2\n")
     ).encode()
+
+
+def _polygon_obj(vertices: npt.NDArray[np.float64], polygons: list[list[int]]) -> bytes:
+    rows = ["f " + " ".join(str(corner + 1) for corner in polygon) + "\n" for polygon in polygons]
+    return (_rows(vertices, "v {:g} {:g} {:g}\n") + "".join(rows)).encode()
+
+
+def _glb(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> bytes:
+    content = faces.astype("<u2").tobytes() + vertices.astype("<f4").tobytes()
+    scene = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"children": [1], "translation": [0, 0, 9]}, {"mesh": 0, "scale": [1, 1, 1]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 1}, "indices": 0, "mode": 4}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5123, "count": faces.size, "type": "SCALAR"},
+            {"bufferView": 1, "componentType": 5126, "count": len(vertices), "type": "VEC3"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteLength": 2 * faces.size},
+            {"buffer": 0, "byteOffset": 2 * faces.size, "byteLength": 12 * len(vertices)},
+        ],
+        "buffers": [{"byteLength": len(content)}],
+    }
+    text = json.dumps(scene).encode()
+    return glb(text + b" " * (-len(text) % 4), content)
 
 
 def _off(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int64]) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import struct
 import zipfile
 from typing import TYPE_CHECKING
@@ -49,10 +50,16 @@ def swollen(name: str, chance: random.Random) -> tuple[str, bytes]:
             return "large: few facets many times", b"solid\n" + b"".join(few) * (size // 4000) + b"endsolid\n"
         case "little.ply" | "big.ply":
             return _large_binary_ply(name, size, chance)
+        case "mixed.ply":
+            return _large_mixed_ply(size, chance)
         case "text.ply":
             return _large_text_ply(size, chance)
         case "mesh.obj":
             return _large_obj(size, chance)
+        case "polygons.obj":
+            return _large_polygons(size, chance)
+        case "mesh.glb":
+            return _large_glb(size, chance)
         case "mesh.off":
             rows = size // 8
             head = b"OFF\n9 %d 0\n" % rows + _corners(b"")
@@ -67,6 +74,14 @@ def archive(model: bytes) -> bytes:
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as packed:
         packed.writestr(zipfile.ZipInfo("3D/3dmodel.model"), model, zipfile.ZIP_DEFLATED)
     return out.getvalue()
+
+
+def glb(text: bytes, content: bytes) -> bytes:
+    """Pack a scene and its numbers as a GLB file."""
+    chunks = (
+        struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(content), b"BIN\0") + content
+    )
+    return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
 
 
 def _corners(word: bytes) -> bytes:
@@ -87,6 +102,55 @@ def _large_binary_ply(name: str, size: int, chance: random.Random) -> tuple[str,
     head = _PLY.format(kind, 9, rows, "uchar", "uchar").encode()
     row = b"\x09" + bytes(range(9))
     return "large: polygons of a byte per corner", head + b"".join(corners) + row * rows
+
+
+def _large_mixed_ply(size: int, chance: random.Random) -> tuple[str, bytes]:
+    """Rows that differ in length, so that each is looked for."""
+    points = b"".join(struct.pack("<3f", i, i * i, i**3 // 10) for i in range(9))
+    if chance.random() < 0.5:
+        rows = [b"\x03\0\1\2", b"\x04\0\1\2\3"] * (size // 9)
+        kind = "large: triangles and quads of a byte per corner"
+    else:
+        rows = [bytes([3 + i % 250, *(k % 9 for k in range(3 + i % 250))]) for i in range(size // 128)]
+        kind = "large: polygons of many lengths"
+    head = _PLY.format("binary_little_endian", 9, len(rows), "uchar", "uchar").encode()
+    return kind, head + points + b"".join(rows)
+
+
+def _large_polygons(size: int, chance: random.Random) -> tuple[str, bytes]:
+    """Polygons that no fan covers: many small ones, or one that crosses itself everywhere."""
+    if chance.random() < 0.5:
+        notch = b"v 0 0 0\nv 40 0 0\nv 10 10 0\nv 0 40 0\n" + b"f 2 3 4 1\n" * (size // 10)
+        return "large: polygons that are not convex", notch
+    many = size // 20
+    points = b"".join(b"v %d %d 0\n" % (i * i * 7919 % 1009, i * i * 104729 % 1013) for i in range(many))
+    return "large: one polygon that crosses itself", points + b"f " + b" ".join(
+        b"%d" % (i + 1) for i in range(many)
+    )
+
+
+def _large_glb(size: int, chance: random.Random) -> tuple[str, bytes]:
+    """Little data that many nodes, pieces or overlapping rows make much of."""
+    content = b"".join(struct.pack("<3f", i, i * i, i**3 // 10) for i in range(9)) + bytes(size)
+    count, stride, nodes, pieces = 9, 12, 1, 1
+    match chance.randrange(4):
+        case 0:
+            kind, nodes = "large: one mesh at many nodes", size // 100
+        case 1:
+            kind, nodes, pieces = "large: many nodes of many pieces", 5000, size // 1000
+        case 2:
+            kind, count, stride = "large: rows that overlap", size // 4, 4
+        case _:
+            kind, count = "large: one spot", 9 + size // 12
+    scene = {
+        "asset": {"version": "2.0"},
+        "nodes": [{"mesh": 0}] * nodes,
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 5}] * pieces}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(content), "byteStride": stride}],
+        "buffers": [{"byteLength": len(content)}],
+    }
+    return kind, glb(json.dumps(scene).encode(), content)
 
 
 def _large_text_ply(size: int, chance: random.Random) -> tuple[str, bytes]:

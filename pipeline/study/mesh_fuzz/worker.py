@@ -123,7 +123,7 @@ def _warm_up(folder: Path) -> None:
     for name, data in sound_files().items():
         path = folder / name
         path.write_bytes(data)
-        load_probe(path)
+        load_probe(path, "mm")
 
 
 def _limit_memory() -> None:

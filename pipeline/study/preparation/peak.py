@@ -19,7 +19,7 @@ import numpy as np
 
 import assets
 from pipeline.errors import InputError
-from pipeline.mesh import Probe, engines
+from pipeline.mesh import Probe
 from pipeline.mesh.simplify import Count, simplify
 from pipeline.study.preparation.shapes import bumpy_sphere
 
@@ -35,20 +35,19 @@ class Peak:
     ----------
     facets : int
         Of the mesh given.
-    own, engine : float
-        Largest resident memory of the process and of its engine's, bytes.
+    memory : float
+        Largest resident memory of the process, bytes.
     seconds : float
     """
 
     facets: int
-    own: float
-    engine: float
+    memory: float
     seconds: float
 
 
 def measure_peak(facets: int, count: int, folder: Path) -> Peak:
     """
-    Simplify a bundled probe in a fresh process and take both processes' peaks.
+    Simplify a bundled probe in a fresh process and take its peak.
 
     Parameters
     ----------
@@ -87,38 +86,29 @@ def _make(facets: int, file: str) -> dict[str, Any]:
 
 
 def _measure(count: int, file: str) -> dict[str, Any]:
-    simplify(bumpy_sphere(2_000), Count(500))  # starts the engine; making a bundled probe would take memory
+    simplify(bumpy_sphere(2_000), Count(500))  # loads all that there is to load
     with np.load(file, allow_pickle=False) as arrays:
         probe = Probe.from_arrays(arrays["vertices"], arrays["faces"])
     began = time.perf_counter()
     simplify(probe, Count(count))
     seconds = time.perf_counter() - began
-    own, engine = _peaks()
-    return {"facets": len(probe.faces), "own": own, "engine": engine, "seconds": seconds}
+    return {"facets": len(probe.faces), "memory": _peak(), "seconds": seconds}
 
 
-def _peaks() -> tuple[float, float]:
-    """Give the peaks of this process and of its engines, bytes."""
-    pids = [engines.engine_pid(library) for library in engines.Library]
+def _peak() -> float:
+    """Give the peak of this process, bytes."""
     try:
         # What getrusage tells of a process is never less than its parent had when it started it; this is.
-        return _resident("self"), sum(_resident(str(pid)) for pid in pids if pid is not None)
-    except OSError:  # no /proc
-        import resource  # not on Windows
+        for line in Path("/proc/self/status").read_text(encoding="ascii", errors="replace").splitlines():
+            if line.startswith("VmHWM:"):
+                return 1024 * float(line.split()[1])
+    except OSError:
+        pass
+    import resource  # not on Windows
 
-        engines.stop_engines()  # a child's peak is known when it has ended
-        unit = 1 if sys.platform == "darwin" else 1024
-        own, engine = (
-            resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
-        )
-        return unit * own, unit * engine
-
-
-def _resident(pid: str) -> float:
-    for line in Path(f"/proc/{pid}/status").read_text(encoding="ascii", errors="replace").splitlines():
-        if line.startswith("VmHWM:"):
-            return 1024 * float(line.split()[1])
-    raise OSError(f"/proc/{pid}/status does not tell the peak")
+    return float(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) * (
+        1 if sys.platform == "darwin" else 1024
+    )
 
 
 if __name__ == "__main__":

@@ -12,9 +12,9 @@ import numpy as np
 import assets
 from pipeline.kernel import SurfaceIndex
 from pipeline.mesh import load_probe
-from pipeline.mesh.engines import self_intersections
 from pipeline.mesh.shell import Closing, make_shell
 from pipeline.mesh.shell.fit import sample_surface
+from pipeline.mesh.soundness import check_soundness
 from pipeline.study.preparation.housing import housing
 from pipeline.study.preparation.report import Figure, Report
 
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from pipeline.mesh.shell import Shell
 
 _NEAR_MM = 0.3
-_QUICK_ALPHA, _QUICK_GAP = 1 / 60, 1 / 30
 _SAMPLES = 60_000
 
 
@@ -69,7 +68,7 @@ def run(
     facets : int
         Of each bundled probe.
     quick : bool
-        Only one housing, and a shell of coarse facets.
+        Only one housing.
     seed : int
         Of the points that are measured.
     progress : callable
@@ -78,25 +77,25 @@ def run(
     Raises
     ------
     InputError
-        A file cannot be read or made a shell of, or pymeshlab is not installed.
+        A file cannot be read or made a shell of, or pymeshlab or libigl is not installed.
     """
     figures: list[Figure] = []
     for case in _cases(files, facets, quick):
         progress(f"{case.name}: {len(case.probe.faces):,} facets")
-        figures += judge(case, np.random.default_rng(seed), quick=quick)
+        figures += judge(case, np.random.default_rng(seed))
     settings = {
         "meshes": len(files) or "bundled housings",
-        "shell": "coarse" if quick else "as usual",
         "seed": seed,
     }
     note = (
-        "Distances are from what is visible of the original to the shell, except at invented facets; inner hits are"
-        " half-lines from all round outside that land on an inner wall."
+        "Hulls and unchanged meshes are made of the facets of the file, so only what was wrapped has distances from"
+        " what is visible of the original, except at invented facets, and inner hits: half-lines from all round"
+        " outside that land on an inner wall."
     )
     return Report("Outer shell", settings, tuple(figures), (note,))
 
 
-def judge(case: Case, rng: np.random.Generator, *, quick: bool = False) -> list[Figure]:
+def judge(case: Case, rng: np.random.Generator) -> list[Figure]:
     """
     Make a shell and measure it.
 
@@ -105,25 +104,24 @@ def judge(case: Case, rng: np.random.Generator, *, quick: bool = False) -> list[
     case : Case
     rng : numpy.random.Generator
         Of the points that are measured.
-    quick : bool
-        With coarse facets, whose distances have no target.
 
     Raises
     ------
     MeshError, EngineError
         See `make_shell`.
     """
-    size = case.probe.size
-    alpha, gap = (_QUICK_ALPHA * size, _QUICK_GAP * size) if quick else (None, None)
     began = time.perf_counter()
-    shell = make_shell(case.probe, alpha=alpha, coarse=gap)
+    shell = make_shell(case.probe)
     seconds = time.perf_counter() - began
     return [
         Figure(
-            case.name, f"time, {len(case.probe.faces):,} to {len(shell.probe.faces):,} facets", seconds, "s"
+            case.name,
+            f"time, {len(case.probe.faces):,} to {len(shell.probe.faces):,} facets, {shell.how}",
+            seconds,
+            "s",
         ),
         *_soundness(case.name, shell),
-        *_fit(case, shell, rng, None if quick else _NEAR_MM),
+        *_fit(case, shell, rng),
         *_openings(case, shell),
     ]
 
@@ -139,39 +137,41 @@ def _cases(files: Sequence[str | os.PathLike[str]], facets: int, quick: bool) ->
 
 
 def _soundness(name: str, shell: Shell) -> list[Figure]:
-    health = shell.probe.health
-    crossing = int(np.count_nonzero(self_intersections(shell.probe.vertices, shell.probe.faces)))
+    sound = check_soundness(shell.probe.vertices, shell.probe.faces)
+    health = sound.health
     defects = {
         "rim edges (closed: 0)": health.boundary_edges,
         "edges of more than two facets (manifold: 0)": health.nonmanifold_edges,
         "faces inwards, or both ways (outward: 0)": int(not (health.outward and health.winding_consistent)),
-        "parts beyond the first": health.components - 1,
-        "facets that cross others": crossing,
+        "parts inside others": sound.nested_parts,
+        "pairs of facets that cross or overlap": sound.crossing + sound.overlapping,
+        "facets folded back": len(sound.folded_facets),
     }
-    return [Figure(name, what, float(count), most=0.0) for what, count in defects.items()]
+    figures = [Figure(name, what, float(count), most=0.0) for what, count in defects.items()]
+    return [*figures, Figure(name, "parts", float(health.components))]  # a file may have several
 
 
-def _fit(case: Case, shell: Shell, rng: np.random.Generator, most: float | None) -> list[Figure]:
+def _fit(case: Case, shell: Shell, rng: np.random.Generator) -> list[Figure]:
     figures = []
     if shell.fit is not None:
         fit = shell.fit
         figures += [
-            Figure(case.name, "visible outside to shell, 95 %", 1e3 * fit.visible_p95, "mm", most=most),
+            Figure(case.name, "visible outside to shell, 95 %", 1e3 * fit.visible_p95, "mm", most=_NEAR_MM),
             Figure(case.name, "visible outside to shell, largest", 1e3 * fit.visible_max, "mm"),
             Figure(case.name, f"inner hits of {fit.lines:,} lines", float(fit.inner_hits), most=0.0),
         ]
     if case.outside is not None:
-        figures.append(_truth(case, case.outside, shell, rng, most))
+        figures.append(_truth(case, case.outside, shell, rng))
     return figures
 
 
-def _truth(case: Case, outside: Probe, shell: Shell, rng: np.random.Generator, most: float | None) -> Figure:
+def _truth(case: Case, outside: Probe, shell: Shell, rng: np.random.Generator) -> Figure:
     """Measure from the true outer surface to the shell: no figure of the shell's own."""
     points = sample_surface(outside.vertices, outside.faces, _SAMPLES, rng)
     distance, _, _ = SurfaceIndex(shell.probe.vertices, shell.probe.faces).closest(points)
     middle, p95, worst = (1e3 * np.percentile(distance, [50, 95, 100])).tolist()
     what = f"true outside to shell, 95 % (median {middle:.2g} mm)"
-    return Figure(case.name, what, p95, "mm", most=most, worst=worst)
+    return Figure(case.name, what, p95, "mm", most=_NEAR_MM, worst=worst)
 
 
 def _openings(case: Case, shell: Shell) -> list[Figure]:
@@ -180,6 +180,6 @@ def _openings(case: Case, shell: Shell) -> list[Figure]:
     left = len(shell.openings) - closed
     return [
         Figure(case.name, "openings closed", float(closed), least=case.openings, most=case.openings),
-        Figure(case.name, "openings left open", float(left), most=0.0),
+        Figure(case.name, "openings left open", float(left), most=None if case.openings is None else 0.0),
         Figure(case.name, "invented, of the shell's area", invented, "%"),
     ]

@@ -25,11 +25,10 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from pipeline.mesh.simplify import Engine
 
 SHAPES = (*assets.PROBE_NAMES, BUMPY)
 
-_SLOWER = 1.5
+_SLOWER = 1.0
 _FARTHER = 1.1
 _SAME = 1e-6
 _PAINTED, _RATIO = 0.1, 8.0
@@ -63,7 +62,7 @@ def run(
     rounds : int
         Timed calls of each, in turn.
     memory : bool
-        Also simplify a million facets and take the processes' peaks: half a minute.
+        Also simplify a million facets and take the process's peak: half a minute.
     seed : int
         Of where the regions are painted.
     progress : callable
@@ -132,7 +131,7 @@ def _time(probe: Probe, count: int, rounds: int, rivals: list[Rival]) -> list[Fi
     ours = np.array(taken["ours"])
     figures = [Figure.of(probe.name, "time", 1e3 * ours, "ms")]
     for rival in rivals:
-        most = _SLOWER if rival.library == "fast-simplification" else None
+        most = _SLOWER if rival.library == "pymeshlab" else None
         ratios = ours / np.array(taken[rival.library])
         figures.append(Figure.of(probe.name, f"time over {rival.library}, bare", ratios, most=most))
     return figures
@@ -149,12 +148,8 @@ def _distance(probe: Probe, count: int, rivals: list[Rival]) -> list[Figure]:
             bare[f"{rival.library} in {unit}"] = _hausdorff(reference, rough)
     best = min(bare, key=lambda name: bare[name])
     figures = [Figure(probe.name, f"Hausdorff of the best rival, {best}", 1e3 * bare[best], "mm")]
-    engines: tuple[Engine, ...] = ("auto", "best")
-    for engine in engines:
-        ours = _hausdorff(reference, simplify(probe, Count(count), engine=engine).probe)
-        name = f"Hausdorff over it, engine {engine!r}"
-        figures.append(Figure(probe.name, name, ours / bare[best], most=_FARTHER))
-    return figures
+    ours = _hausdorff(reference, simplify(probe, Count(count)).probe)
+    return [*figures, Figure(probe.name, "Hausdorff over it", ours / bare[best], most=_FARTHER)]
 
 
 def _units(probe: Probe, count: int) -> Figure:
@@ -188,8 +183,7 @@ def _memory(count: int, folder: Path) -> list[Figure]:
     peak = measure_peak(_MEMORY_FACETS, count, folder)
     of = f"{peak.facets:,} facets"
     return [
-        Figure(of, "peak memory, both processes", (peak.own + peak.engine) / 1e6, "MB", most=_MEMORY / 1e6),
-        Figure(of, "of it the engine's", peak.engine / 1e6, "MB"),
+        Figure(of, "peak memory", peak.memory / 1e6, "MB", most=_MEMORY / 1e6),
         Figure(of, "time", peak.seconds, "s"),
     ]
 

@@ -7,11 +7,15 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from pipeline.calibration.calibrate import DOWN_W
+from pipeline.mesh.save import encode_probe
 from pipeline.study.bundle_example import example_config
 from pipeline.study.bundle_mutations import seal
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import NDArray
 
     from pipeline.config.runtime import RuntimeConfig
 
@@ -41,6 +45,13 @@ def example_bundle(
     config = example(facets, rate=rate, verified=verified, clamped=clamped)
     config.write(folder)
     return config
+
+
+def with_invented(config: RuntimeConfig, invented: NDArray[np.bool_]) -> dict[str, bytes]:
+    """Return the files of a bundle whose mesh file lacked some facets (m,)."""
+    colours = [region.colour for region in config.model.regions]
+    surface = encode_probe(config.probe.with_invented(invented), colours)
+    return seal({**config.encoded(), "probe.ply": surface})
 
 
 OLD_GAINS = {

@@ -44,47 +44,45 @@ def _gone(pid: int, within_s: float = 10.0) -> bool:
 def _crash(ball: Ball) -> None:
     """A vertex index far out of range, past the functions that would refuse it: the library segfaults."""
     arrays = {"vertices": ball[0], "faces": ball[1] + np.int32(10**8)}
-    engines.run(
-        engines.Operation.FAST_QUADRIC, arrays, {"count": 100, "aggression": 7.0, "keep_border": False}
-    )
+    engines.run(engines.Operation.CUT, arrays, {})
 
 
 def test_the_second_call_finds_the_engine_warm(ball: Ball) -> None:
-    first = engines.fast_quadric(*ball, 300)
-    pid = engines.engine_pid(engines.Library.FAST_SIMPLIFICATION)
-    second = engines.fast_quadric(*ball, 300)
+    first = engines.orient_facets(*ball)
+    pid = engines.engine_pid(engines.Library.MESHLAB)
+    second = engines.orient_facets(*ball)
     assert pid is not None
-    assert engines.engine_pid(engines.Library.FAST_SIMPLIFICATION) == pid
+    assert engines.engine_pid(engines.Library.MESHLAB) == pid
     np.testing.assert_array_equal(first[0], second[0])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names a signal")
 def test_a_crash_is_an_error_that_names_the_engine_and_the_next_call_works(ball: Ball) -> None:
-    expected = engines.fast_quadric(*ball, 300)
-    with pytest.raises(engines.EngineError, match=r"fast-simplification died \(SIG.*1280 facets.*repair"):
+    expected = engines.cut_along_crossings(*ball)
+    with pytest.raises(engines.EngineError, match=r"cgal died \(SIG.*1280 facets.*repair"):
         _crash(ball)
-    assert engines.engine_pid(engines.Library.FAST_SIMPLIFICATION) is None
-    np.testing.assert_array_equal(engines.fast_quadric(*ball, 300)[0], expected[0])
+    assert engines.engine_pid(engines.Library.CGAL) is None
+    np.testing.assert_array_equal(engines.cut_along_crossings(*ball)[0], expected[0])
 
 
 def test_duplicate_and_degenerate_facets_do_not_take_the_parent_with_them(ball: Ball) -> None:
     faces = np.vstack([ball[1], ball[1], ball[1][:, [0, 0, 1]]])
     try:
-        engines.quadric(ball[0], faces, 100)
+        engines.self_intersections(ball[0], faces)
     except engines.EngineError as error:
         assert "meshlab" in str(error)  # noqa: PT017 -- whether it crashes is the library's affair
-    assert len(engines.quadric(*ball, 100)[1]) == 100
+    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
 
 
 @pytest.mark.parametrize("wait", [True, False])
 def test_an_engine_killed_while_idle_is_replaced_silently(ball: Ball, wait: bool) -> None:
-    engines.fast_quadric(*ball, 300)
-    pid = engines.engine_pid(engines.Library.FAST_SIMPLIFICATION)
+    engines.orient_facets(*ball)
+    pid = engines.engine_pid(engines.Library.MESHLAB)
     assert pid is not None
     os.kill(pid, signal.SIGTERM)
     # Without the wait the child still looks alive, and is gone before it answers.
     assert not wait or _gone(pid)
-    assert len(engines.fast_quadric(*ball, 300)[1]) == 300
+    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names a signal")
@@ -112,25 +110,25 @@ def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> 
     assert pids
     assert all(_gone(pid) for pid in pids if pid is not None)
     assert told == sorted(told)
-    assert len(engines.quadric(*ball, 300)[1]) == 300
+    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
 
 
 def test_cancelled_before_it_began_starts_nothing(ball: Ball) -> None:
     engines.stop_engines()
     with pytest.raises(engines.Cancelled):
-        engines.fast_quadric(*ball, 300, cancelled=lambda: True)
-    assert engines.engine_pid(engines.Library.FAST_SIMPLIFICATION) is None
+        engines.orient_facets(*ball, cancelled=lambda: True)
+    assert engines.engine_pid(engines.Library.MESHLAB) is None
 
 
 def test_a_timeout_is_an_error_that_says_how_long(ball: Ball) -> None:
-    engines.quadric(*ball, 300)
+    engines.orient_facets(*ball)
     with pytest.raises(engines.EngineError, match=r"longer than 0\.2 s for 'alpha wrap'"):
         engines.alpha_wrap(*ball, *ENDLESS, timeout_s=0.2)
 
 
 def test_progress_rises_to_one_and_what_it_raises_reaches_the_caller(ball: Ball) -> None:
     told: list[float] = []
-    engines.fast_quadric(*ball, 300, progress=told.append)
+    engines.orient_facets(*ball, progress=told.append)
     assert told[0] == 0
     assert told[-1] == 1
     assert told == sorted(told)
@@ -139,18 +137,18 @@ def test_progress_rises_to_one_and_what_it_raises_reaches_the_caller(ball: Ball)
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        engines.fast_quadric(*ball, 300, progress=fail)
-    assert len(engines.fast_quadric(*ball, 300)[1]) == 300
+        engines.orient_facets(*ball, progress=fail)
+    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
 
 
 def test_threads_get_their_own_results(ball: Ball) -> None:
-    counts = [100, 200, 300, 400, 500, 600]
-    alone = [engines.fast_quadric(*ball, count) for count in counts]
+    sizes = [10.0, 15.0, 20.0, 25.0]
+    alone = [engines.alpha_wrap(*ball, size, 1.0) for size in sizes]
     with ThreadPoolExecutor(4) as pool:
-        together = list(pool.map(lambda count: engines.fast_quadric(*ball, count), counts * 3))
+        together = list(pool.map(lambda size: engines.alpha_wrap(*ball, size, 1.0), sizes * 3))
     for index, (vertices, faces) in enumerate(together):
-        np.testing.assert_array_equal(vertices, alone[index % len(counts)][0])
-        np.testing.assert_array_equal(faces, alone[index % len(counts)][1])
+        np.testing.assert_array_equal(vertices, alone[index % len(sizes)][0])
+        np.testing.assert_array_equal(faces, alone[index % len(sizes)][1])
 
 
 def test_one_library_works_while_the_other_does(ball: Ball) -> None:
@@ -163,7 +161,7 @@ def test_one_library_works_while_the_other_does(ball: Ball) -> None:
     with ThreadPoolExecutor(1) as pool:
         wrapping = pool.submit(wrap)
         try:
-            assert len(engines.fast_quadric(*ball, 300)[1]) == 300
+            assert len(engines.cut_along_crossings(*ball)[1]) == len(ball[1])
             assert not wrapping.done()
         finally:
             finished.set()
@@ -183,7 +181,7 @@ def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
         calls = iter([False, False, True])
         try:
             with pytest.raises(engines.Cancelled):
-                engines.quadric(*ball, 300, cancelled=lambda: next(calls))
+                engines.orient_facets(*ball, cancelled=lambda: next(calls))
             assert not wrapping.done()
         finally:
             finished.set()
@@ -262,13 +260,10 @@ def test_a_bundled_application_is_its_own_engine(
     assert subprocess.run([app], capture_output=True, text=True, check=True).stdout == "the window opens\n"
     monkeypatch.setattr(sys, "frozen", True, raising=False)
     monkeypatch.setattr(sys, "executable", str(app))
-    child = Child(engines.Library.FAST_SIMPLIFICATION)
+    child = Child(engines.Library.MESHLAB)
     arrays = {"vertices": ball[0], "faces": ball[1]}
-    request = Message(
-        "fast quadric simplification", {"count": 300, "aggression": 7.0, "keep_border": False}, arrays
-    )
     try:
-        assert len(child.call(request, Watch()).arrays["faces"]) == 300
+        assert len(child.call(Message("orient facets", {}, arrays), Watch()).arrays["faces"]) == len(ball[1])
     finally:
         child.stop()
 

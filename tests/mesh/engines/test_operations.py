@@ -15,37 +15,6 @@ def _mesh(vertices: np.ndarray, faces: np.ndarray) -> trimesh.Trimesh:
     return trimesh.Trimesh(vertices, faces, process=False)
 
 
-def test_fast_quadric_reaches_the_count_and_stays_near(ball: Ball) -> None:
-    vertices, faces = engines.fast_quadric(*ball, 300)
-    assert len(faces) == 300
-    assert vertices.dtype == np.float64
-    assert faces.dtype == np.int32
-    assert _mesh(vertices, faces).is_watertight
-    assert np.abs(np.linalg.norm(vertices, axis=1) - 50).max() < 2
-
-
-def test_quadric_reaches_the_count_and_stays_near(ball: Ball) -> None:
-    vertices, faces = engines.quadric(*ball, 300)
-    assert len(faces) == 300
-    assert len(vertices) == len(np.unique(faces))
-    assert _mesh(vertices, faces).is_watertight
-    assert np.abs(np.linalg.norm(vertices, axis=1) - 50).max() < 2
-
-
-def test_quality_keeps_vertices_where_it_is_high(ball: Ball) -> None:
-    upper = ball[0][:, 2] > 0
-    vertices, _ = engines.quadric(*ball, 300, quality=np.where(upper, 8.0, 1.0))
-    even, _ = engines.quadric(*ball, 300)
-    assert np.mean(vertices[:, 2] > 0) > 1.5 * np.mean(even[:, 2] > 0)
-
-
-def test_quality_must_be_one_finite_number_per_vertex(ball: Ball) -> None:
-    with pytest.raises(engines.EngineError, match="one finite number per vertex"):
-        engines.quadric(*ball, 300, quality=[1.0, 2.0])
-    with pytest.raises(engines.EngineError, match="one finite number per vertex"):
-        engines.quadric(*ball, 300, quality=np.full(len(ball[0]), np.nan))
-
-
 def test_alpha_wrap_takes_absolute_lengths(ball: Ball) -> None:
     open_ball = ball[1][50:]
     vertices, faces = engines.alpha_wrap(ball[0], open_ball, 20.0, 2.0)
@@ -110,16 +79,11 @@ def test_a_refusal_is_told_and_leaves_the_engine_warm(ball: Ball) -> None:
     assert engines.engine_pid(engines.Library.MESHLAB) == pid
 
 
-@pytest.mark.parametrize("operation", [engines.fast_quadric, engines.quadric])
+@pytest.mark.parametrize("operation", [engines.orient_facets, engines.cut_along_crossings])
 def test_what_would_crash_a_library_is_refused_at_the_door(ball: Ball, operation: object) -> None:
     with pytest.raises(MeshError, match="refers to vertex"):
-        operation(ball[0], ball[1] + 1, 300)
+        operation(ball[0], ball[1] + 1)
     holed = ball[0].copy()
     holed[5, 1] = np.nan
     with pytest.raises(MeshError, match="row 5"):
-        operation(holed, ball[1], 300)
-
-
-def test_a_bad_parameter_is_told_by_the_library(ball: Ball) -> None:
-    with pytest.raises(engines.EngineError, match="must be less than the number of faces"):
-        engines.fast_quadric(*ball, 5000)
+        operation(holed, ball[1])

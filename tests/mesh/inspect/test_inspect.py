@@ -11,9 +11,11 @@ from contact_cases import REAL_PROBES, bundled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.mesh import MeshError, Probe, engines
-from pipeline.mesh.engines import Cancelled, EngineError
+from pipeline.mesh import MeshError, Probe
+from pipeline.mesh.engines import Cancelled
 from pipeline.mesh.inspect import Inspection, inspect, inspect_arrays
+from pipeline.mesh.regions import RegionSet
+from pipeline.mesh.sidecar import ProbeFile, save_probe_file
 
 BOX = trimesh.creation.box(extents=(0.06, 0.04, 0.02))
 
@@ -31,7 +33,7 @@ def joined(*meshes: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarr
 
 
 def look(vertices, faces, **options) -> Inspection:
-    return inspect_arrays(vertices, faces, intersections=False, samples=2000, **options)
+    return inspect_arrays(vertices, faces, samples=2000, **options)
 
 
 def texts(found: Inspection, level: str) -> str:
@@ -69,7 +71,7 @@ def test_a_sound_box():
 
 @pytest.mark.parametrize("name", ["linear", "convex", "t-shape"])
 def test_bundled_probes_have_nothing_to_say(name):
-    found = inspect(bundled(name, 2000), intersections=False, samples=2000)
+    found = inspect(bundled(name, 2000), samples=2000)
     assert [f for f in found.findings if f.level != "note"] == []
     assert found.genus == 0
     assert found.volume_m3 == pytest.approx(100e-6, rel=0.2)
@@ -217,7 +219,7 @@ def test_disagreement_that_is_hidden_is_a_doubt():
     vertices, faces = arrays(trimesh.creation.box(extents=(0.02, 0.02, 0.01)))
     faces[0] = faces[0, ::-1]
     found = look(*joined(arrays(BOX), (vertices, faces)))
-    assert "it is the hidden ones that disagree" in texts(found, "doubt")
+    assert "it is the hidden ones that disagree" in texts(found, "fault")
 
 
 # ---------------------------------------------------------------- facets and vertices
@@ -229,8 +231,124 @@ def test_duplicate_and_back_to_back_facets():
     )
     found = look(BOX.vertices, faces)
     assert (found.health.duplicate_facets, found.back_to_back) == (2, 3)
-    assert "2 facets are there more than once" in texts(found, "doubt")
-    assert "3 facets stand back to back" in texts(found, "doubt")
+    assert "2 facets are duplicates of another" in texts(found, "fault")
+    assert "3 facets stand back to back" in texts(found, "fault")
+    # Repeated facets have edges of more than two, and lie on each other: it is said once what they are.
+    assert "More than two facets meet" not in " ".join(found.sentences)
+    assert "lie on top of each other" not in " ".join(found.sentences)
+
+
+def test_a_doubled_shell_is_not_inside_out():
+    found = look(BOX.vertices, np.vstack((BOX.faces, BOX.faces[:, ::-1])))
+    assert found.back_to_back == 12
+    assert found.visibility.turned_share == 0
+    assert not found.sound
+    assert "inside out" not in " ".join(found.sentences)
+    assert "12 facets stand back to back" in texts(found, "fault")
+
+
+def test_a_copy_just_beneath_is_called_that():
+    inner = BOX.vertices * (1 - 1e-5)
+    found = look(*joined(arrays(BOX), (inner, np.array(BOX.faces))))
+    assert "The surface is there twice" in texts(found, "fault")
+    assert "hollow" not in texts(found, "fault")
+
+
+def test_closed_parts_beside_each_other_are_no_fault():
+    vertices, faces = arrays(BOX)
+    found = look(*joined((vertices, faces), (vertices + [0.07, 0, 0], faces)))
+    assert found.sound
+    assert found.clear
+    assert "2 separate parts" in texts(found, "note")
+    nested = look(*joined((vertices, faces), (0.5 * vertices, faces)))
+    assert not nested.sound
+
+
+def test_parts_that_meet_in_a_point_or_lie_on_each_other_are_faults():
+    vertices, faces = arrays(BOX)
+    beside = look(*joined((vertices, faces), (0.5 * vertices + [0.045, 0.003, 0.002], faces)))
+    assert beside.soundness.overlapping > 0
+    assert "Facets lie on top of each other" in texts(beside, "fault")
+    one = trimesh.Trimesh(*joined((vertices, faces), (vertices + [0.06, 0.04, 0.02], faces)))
+    pinched = look(one.vertices, one.faces)
+    assert "meets itself in single points (vertices: 1)" in texts(pinched, "fault")
+
+
+def bottle() -> trimesh.Trimesh:
+    """A box with a mouth that is narrower than the cavity behind it."""
+    mouth = trimesh.creation.box(extents=(0.004, 0.004, 0.02))
+    mouth.apply_translation([0, 0, 0.01])
+    inside = trimesh.creation.box(extents=(0.056, 0.036, 0.016))
+    return trimesh.boolean.difference([BOX, mouth, inside])
+
+
+def tube() -> trimesh.Trimesh:
+    return trimesh.creation.annulus(r_min=0.001, r_max=0.0013, height=0.06)
+
+
+def test_a_mouth_into_a_cavity_is_a_fault_and_a_tube_is_not():
+    pytest.importorskip("manifold3d")
+    with_mouth = look(*arrays(bottle()))
+    assert with_mouth.soundness.sound
+    assert not with_mouth.sound
+    assert "The probe is hollow" in texts(with_mouth, "fault")
+    open_at_both_ends = look(*arrays(tube()))
+    assert open_at_both_ends.visibility.double_wall_share > 0.5
+    assert open_at_both_ends.sound
+    assert "The probe is hollow" in texts(open_at_both_ends, "doubt")
+    assert not open_at_both_ends.clear
+    assert "closed space" not in " ".join(open_at_both_ends.sentences)
+
+
+def test_what_sees_little_of_the_outside_is_told_with_its_share():
+    vertices, faces = arrays(BOX)
+    found = look(*joined((vertices, faces), (vertices + [0, 0, 0.0207], faces)))
+    share = found.visibility.sheltered_share
+    assert share > 0.1
+    assert f"{100 * share:.0f} % of the area sees the outside only through narrow openings" in texts(
+        found, "doubt"
+    )
+
+
+def test_a_file_whose_shell_was_made_is_not_sent_back_for_one(tmp_path):
+    probe = Probe.from_arrays(*arrays(tube()))
+    made = ProbeFile(probe, RegionSet.from_labels(probe.region)).after("shell", probe, {}, {})
+    save_probe_file(made, tmp_path / "made.ply")
+    found = inspect(tmp_path / "made.ply", samples=2000)
+    assert found.shell_made
+    assert found.clear
+    assert "sees little or nothing of the outside" in texts(found, "note")
+    (tmp_path / "made.json").unlink()
+    assert not inspect(tmp_path / "made.ply", samples=2000).shell_made
+    # A made shell that is not sound is a fault all the same.
+    holed = Probe.from_arrays(probe.vertices, probe.faces[1:])
+    save_probe_file(made.after("shell", holed, {}, {}), tmp_path / "holed.ply")
+    assert not inspect(tmp_path / "holed.ply", samples=2000).sound
+
+
+@settings(max_examples=40, derandomize=True, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), kind=st.integers(0, 5))
+def test_never_sound_where_the_check_has_faults(seed, kind):
+    random = np.random.default_rng(seed)
+    mesh = trimesh.creation.icosphere(subdivisions=1, radius=0.05)
+    vertices, faces = np.array(mesh.vertices), np.array(mesh.faces)
+    one = random.integers(len(faces))
+    match kind:
+        case 0:
+            faces = np.delete(faces, one, axis=0)
+        case 1:
+            faces[one] = faces[one, ::-1]
+        case 2:
+            faces = np.vstack((faces, faces[[one]]))
+        case 3:
+            faces = np.vstack((faces, faces[[one], ::-1]))
+        case 4:
+            vertices[random.integers(len(vertices))] *= -random.random() - 0.5
+        case _:
+            vertices, faces = joined((vertices, faces), (vertices + random.normal(0, 0.03, 3), faces))
+    found = inspect_arrays(vertices, faces, samples=200)
+    assert found.sound <= found.soundness.sound
+    assert found.soundness.sound or texts(found, "fault")
 
 
 def test_slivers():
@@ -256,7 +374,7 @@ def test_any_mesh_gives_finite_numbers(seed, keep, flip, scale):
     faces = np.where(random.random(len(faces))[:, None] < flip, faces[:, ::-1], faces)
     if not len(faces):
         return
-    found = inspect_arrays(scale * mesh.vertices, faces, intersections=False, samples=200)
+    found = inspect_arrays(scale * mesh.vertices, faces, samples=200)
     content = json.loads(json.dumps(found.to_json(), allow_nan=False))
     shares = [value for key, value in content["visibility"].items() if key.endswith("share")]
     assert all(0 <= share <= 1 + 1e-9 for share in shares)
@@ -275,7 +393,7 @@ def test_file_with_surplus_vertices(tmp_path):
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces.tolist()]
     path = tmp_path / "box.obj"
     path.write_text("\n".join(lines))
-    found = inspect(path, intersections=False, samples=200)
+    found = inspect(path, samples=200)
     assert (found.file.vertices, found.file.facets, found.file.surplus_vertices) == (10, 12, 2)
     assert "2 vertices in the file were double or unused" in texts(found, "note")
     assert found.name == "box"
@@ -286,11 +404,14 @@ def test_file_with_surplus_vertices(tmp_path):
 def test_uncertain_units_are_a_doubt(tmp_path):
     path = tmp_path / "box.stl"
     path.write_bytes(trimesh.Trimesh(BOX.vertices * 100, BOX.faces, process=False).export(file_type="stl"))
-    found = inspect(path, intersections=False, samples=200)
+    found = inspect(path, samples=200)
     assert found.unit.units == "cm"
     assert "60 mm if they are centimetres" in texts(found, "doubt")
+    assert not any("centimetres" in fact for fact in found.facts)
+    assert found.sound
+    assert not found.clear
     assert "double or unused" not in " ".join(found.sentences)
-    assert inspect(path, "in", intersections=False, samples=200).unit is None
+    assert inspect(path, "in", samples=200).unit is None
 
 
 def test_unreadable_file_and_bad_arguments(tmp_path):
@@ -304,7 +425,7 @@ def test_unreadable_file_and_bad_arguments(tmp_path):
 
 def test_progress_rises_to_one():
     told: list[float] = []
-    inspect(bundled("linear", 500), intersections=False, samples=2000, progress=told.append)
+    inspect(bundled("linear", 500), samples=2000, progress=told.append)
     assert told == sorted(told)
     assert (told[0], told[-1]) == (0.0, 1.0)
     assert len(told) > 8
@@ -314,36 +435,22 @@ def test_progress_rises_to_one():
 def test_cancel_stops_it(after):
     asked = iter(range(100))
     with pytest.raises(Cancelled):
-        inspect(bundled("linear", 500), intersections=False, cancelled=lambda: next(asked) >= after)
-
-
-def test_self_intersections_that_cannot_be_checked(monkeypatch):
-    def missing(*_, **__):
-        raise EngineError("pymeshlab is not installed: pip install contactbench[meshlab]")
-
-    monkeypatch.setattr(engines, "self_intersections", missing)
-    found = inspect_arrays(*arrays(BOX), samples=200)
-    assert found.self_intersections is None
-    assert "not checked: pymeshlab is not installed" in texts(found, "note")
-    assert found.sound
+        inspect(bundled("linear", 500), cancelled=lambda: next(asked) >= after)
 
 
 def test_self_intersections():
-    pytest.importorskip("pymeshlab", reason="the check takes the extra 'meshlab'")
     vertices, faces = arrays(BOX)
-    found = inspect_arrays(*joined((vertices, faces), (vertices + [0.03, 0.013, 0.007], faces)), samples=200)
-    assert found.self_intersections > 0
-    assert "cut through others" in texts(found, "doubt")
-    assert inspect_arrays(vertices, faces, samples=200).self_intersections == 0
+    found = look(*joined((vertices, faces), (vertices + [0.03, 0.013, 0.007], faces)))
+    assert found.soundness.crossing > 0
+    assert "Facets cut through each other (pairs:" in texts(found, "fault")
+    assert not found.sound
+    assert look(vertices, faces).soundness.crossing == 0
 
 
 def test_probe_and_arrays_give_the_same():
     probe = bundled("linear", 500)
-    arrays_of = inspect_arrays(probe.vertices, probe.faces, name=probe.name, intersections=False)
-    assert (
-        inspect(Probe.from_arrays(probe.vertices, probe.faces, name=probe.name), intersections=False)
-        == arrays_of
-    )
+    arrays_of = inspect_arrays(probe.vertices, probe.faces, name=probe.name)
+    assert inspect(Probe.from_arrays(probe.vertices, probe.faces, name=probe.name)) == arrays_of
 
 
 @pytest.mark.parametrize(
@@ -354,7 +461,7 @@ def test_real_probes_are_found_hollow(name, parts, wall_mm):
     path = REAL_PROBES / name
     if not path.is_file():
         pytest.skip(f"the real probe mesh {name} is not beside the repository")
-    found = inspect(path, intersections=False, samples=2000)
+    found = inspect(path, samples=2000)
     assert not found.sound
     assert found.unit.units == "mm"
     assert found.unit.certain

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mesh.shell.housings import box
 
+from pipeline import kernel
 from pipeline.mesh import MeshError
 from pipeline.mesh.shell import wrap
 from pipeline.mesh.shell.exposure import exposure
@@ -180,35 +181,16 @@ def test_settling_stops_short_of_a_fold():
     assert np.array_equal(moved[share == 1][1:], targets[share == 1][1:])
 
 
-def test_what_crosses_is_put_back(monkeypatch):
+def test_what_crosses_or_folds_is_put_back():
     probe = ball(320)
-    settled, share = 0.9 * probe.vertices, np.ones(len(probe.vertices))
-    first = np.arange(320) == 7
-    answers = [first, np.zeros(320, dtype=bool)]
-    monkeypatch.setattr(wrap, "self_intersections", lambda *_, **__: answers.pop(0).copy())
-    wrap._uncross(probe.vertices, settled, probe.faces, share)
-    back = np.isin(np.arange(len(share)), probe.faces[7])
-    assert np.array_equal(settled[back], probe.vertices[back])
-    assert np.array_equal(settled[~back], 0.9 * probe.vertices[~back])
-    assert np.array_equal(share == 0, back)
-
-
-def test_what_seems_to_cross_in_the_wrap_itself_is_nudged(monkeypatch):
-    probe = ball(320)
-    settled, share = 0.9 * probe.vertices, np.ones(len(probe.vertices))
-    seeming = np.arange(320) < 2
-    corners = np.isin(np.arange(len(share)), probe.faces[:2])
-
-    def until_they_move(vertices, _, **__):
-        here = vertices[corners]
-        moved = not any(np.array_equal(here, scale * probe.vertices[corners]) for scale in (0.9, 1.0))
-        return np.zeros(320, dtype=bool) if moved else seeming
-
-    monkeypatch.setattr(wrap, "self_intersections", until_they_move)
-    wrap._uncross(probe.vertices, settled, probe.faces, share)
-    moved = np.linalg.norm(settled - probe.vertices, axis=1)[corners]
-    assert (moved > 0).all()
-    assert moved.max() < 1e-6 * probe.size
+    settled, share = probe.vertices.copy(), np.ones(len(probe.vertices))
+    corner = probe.faces[7, 0]
+    settled[corner] = -1.5 * settled[corner] + 2.5 * probe.vertices.mean(axis=0)  # through the far side
+    mended, share = wrap._mended(probe.vertices, settled, probe.faces, share, (probe.vertices, probe.faces))
+    assert not kernel.crossings(mended, probe.faces)[2].any()
+    assert share[corner] == 0
+    assert np.array_equal(mended[share == 0], probe.vertices[share == 0])
+    assert np.count_nonzero(share == 0) < 100
 
 
 # ---- connectivity ----------------------------------------------------------------------------------

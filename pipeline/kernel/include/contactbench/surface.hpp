@@ -1,4 +1,4 @@
-// Where on a triangle mesh is nearest to a point, and what a ray meets first.
+// Where on a triangle mesh is nearest to a point, what a ray meets first, and which facets are near each other.
 //
 // Contract: the mesh is copied; coordinates are finite, in any unit, indices in range (the binding checks).
 // Facets need not be closed, oriented or free of degenerate ones. Queries are const, allocate nothing, and
@@ -10,6 +10,7 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "vec.hpp"
@@ -130,6 +131,73 @@ public:
         return best;
     }
 
+    struct Alignment {
+        double cosine = -1.0;
+        std::int32_t face = -1;
+    };
+
+    // The facet within `radius` of p whose `normal(facet)` has the largest dot product with `direction`; once that is
+    // `enough`, no further ones are looked at.
+    template <class Normal>
+    Alignment best_aligned(const Vec3& p, const Vec3& direction, double radius, const Normal& normal, double enough) const {
+        const double radius2 = radius * radius;
+        Alignment best;
+        std::array<std::int32_t, stack_size> stack;
+        std::size_t top = 0;
+        stack[top++] = 0;
+        while (top > 0 && best.cosine < enough) {
+            const Node& node = nodes_[std::size_t(stack[--top])];
+            if (box_distance2(node, p) > radius2) continue;
+            if (node.count == 0) {
+                stack[top++] = node.first;
+                stack[top++] = node.first + 1;
+            }
+            for (std::int32_t i = 0; i < node.count; ++i) {
+                const std::int32_t face = face_[std::size_t(node.first + i)];
+                const double cosine = dot(normal(face), direction);
+                if (best.face >= 0 && cosine <= best.cosine) continue;
+                const auto& t = corners_[std::size_t(node.first + i)];
+                if (norm2(p - nearest_on_triangle(p, t[0], t[1], t[2])) <= radius2) best = {cosine, face};
+            }
+        }
+        return best;
+    }
+
+    // Calls visit(f, g), f < g, for every two facets whose boxes meet, once and in no order that means anything,
+    // until it answers false.
+    template <class Visit>
+    void each_close_pair(const Visit& visit) const {
+        std::vector<Node> box(size());
+        for (std::size_t i = 0; i < size(); ++i) {
+            box[i].first = std::int32_t(i), box[i].count = 1;
+            bound(box[i]);
+        }
+        const auto see = [&](std::int32_t i, std::int32_t j) {
+            if (!meets(box[std::size_t(i)], box[std::size_t(j)])) return true;
+            const auto [low, high] = std::minmax(face_[std::size_t(i)], face_[std::size_t(j)]);
+            return visit(low, high);
+        };
+        std::vector<std::pair<std::int32_t, std::int32_t>> stack{{0, 0}};
+        while (!stack.empty()) {
+            const auto [i, j] = stack.back();
+            stack.pop_back();
+            const Node &a = nodes_[std::size_t(i)], &b = nodes_[std::size_t(j)];
+            if (!meets(a, b)) continue;
+            if (a.count > 0 && b.count > 0) {
+                for (std::int32_t s = a.first; s < a.first + a.count; ++s)
+                    for (std::int32_t t = i == j ? s + 1 : b.first; t < b.first + b.count; ++t)
+                        if (!see(s, t)) return;
+            } else if (i == j) {
+                for (std::int32_t k : {0, 1}) stack.emplace_back(a.first + k, a.first + k);
+                stack.emplace_back(a.first, a.first + 1);
+            } else {
+                // The larger one is opened, so that boxes of like size are compared.
+                const bool first = b.count > 0 || (a.count == 0 && norm2(a.high - a.low) >= norm2(b.high - b.low));
+                for (std::int32_t k : {0, 1}) stack.push_back(first ? std::pair{a.first + k, j} : std::pair{i, b.first + k});
+            }
+        }
+    }
+
 private:
     static constexpr std::size_t leaf_size = 4;
     // Halving 2^31 facets down to leaves takes under 32 levels, and each leaves at most one node waiting.
@@ -182,6 +250,11 @@ private:
             const Node& child = nodes_[std::size_t(node.first) + k];
             include(child.low, child.high);
         }
+    }
+
+    static bool meets(const Node& a, const Node& b) {
+        return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+               a.low.z <= b.high.z && b.low.z <= a.high.z;
     }
 
     static double box_distance2(const Node& node, const Vec3& p) {

@@ -119,8 +119,9 @@ void print(const cb_contact& c, const cb_zero& zero) {
     print_array("force_S_N", c.force, 3);
     print_array("torque_S_Nm", c.torque, 3);
     print_array("covariance_S_m2", c.covariance, 9);
-    std::printf(",\"face\":%d,\"vertex\":%d,\"region\":%d,\"candidates\":%d", int(c.face), int(c.vertex),
-                int(c.region), int(c.candidates));
+    constexpr const char* marks[] = {"null", "\"measured\"", "\"invented\"", "\"untouchable\""};
+    std::printf(",\"face\":%d,\"vertex\":%d,\"region\":%d,\"on\":%s,\"candidates\":%d", int(c.face), int(c.vertex),
+                int(c.region), marks[c.on - CB_ON_NOTHING], int(c.candidates));
     print_one("confidence", c.confidence);
     print_one("misfit", c.misfit);
     print_one("left_over_Nm", c.left_over);

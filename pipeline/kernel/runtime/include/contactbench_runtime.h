@@ -29,7 +29,7 @@
 extern "C" {
 #endif
 
-#define CB_RUNTIME_VERSION "2.1.0"
+#define CB_RUNTIME_VERSION "2.2.0"
 #define CB_BUNDLE_VERSION 4 /* of contactbench.json; older ones are read, too */
 
 typedef struct cb_runtime cb_runtime;
@@ -78,6 +78,14 @@ enum {
     CB_HEALTH_FLAGGED = 4, /* the sensor itself says that the reading is no good */
     CB_HEALTH_NO_POSE = 8, /* cb_update_sample: no pose is young enough */
     CB_HEALTH_CLOCK = 16   /* CB_FLAG_CLOCK: when this was measured is a guess */
+};
+
+/* What the facet of a contact is: cb_contact.on. It changes no contact, and says nothing of `accepted`. */
+enum {
+    CB_ON_NOTHING = -1,    /* no facet */
+    CB_ON_MEASURED = 0,    /* of the mesh file */
+    CB_ON_INVENTED = 1,    /* made up where the mesh file had an opening: the place is a guess */
+    CB_ON_UNTOUCHABLE = 2  /* of a region that nothing can touch */
 };
 
 /* Bits of cb_sample.flags: what the sensor says of a reading. */
@@ -129,6 +137,8 @@ typedef struct {
     double second[3];    /* of CB_TWO_TOUCHES, the touch that joined */
     double pose_age;     /* s: how much older than the sample the last pose before it is */
     double latency;      /* s: arrival less time */
+    int32_t on;          /* CB_ON_*: what the facet is. Since 2.2 */
+    int32_t reserved;
 } cb_contact;
 
 /* A raw reading Fx Fy Fz Mx My Mz. Start as CB_SAMPLE_INIT. */
@@ -154,7 +164,7 @@ typedef struct {
 #define CB_CONTACT_INIT                                                                                             \
     {                                                                                                               \
         sizeof(cb_contact), CB_NO_ANSWER, 0, -1, -1, 0, 0, 0, 0.0, {0.0}, {0.0}, 0.0, {0.0}, {0.0}, {0.0}, {0.0},   \
-            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0                                                              \
+            0.0, 0.0, 0.0, 0.0, {0.0}, {0.0}, 0.0, 0.0, CB_ON_NOTHING, 0                                            \
     }
 #define CB_SAMPLE_INIT {sizeof(cb_sample), 0, {0.0}, 0.0, (double)NAN}
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <vector>
 
 #include "bundle.hpp"
 #include "processor.hpp"
@@ -17,6 +18,7 @@ using namespace contactbench::runtime;
 struct cb_runtime {
     Runtime runtime;
     Config config;
+    std::vector<std::uint8_t> marks;  // of each facet: CB_ON_*
 };
 
 namespace {
@@ -100,7 +102,7 @@ void copy_text(char (&to)[N], const std::string& from) noexcept {
 void copy(double* to, const double* from, int n) noexcept { std::copy(from, from + n, to); }
 
 // Member by member: each of the two structs may grow on its own.
-void fill(cb_contact* contact, const RuntimeContact& c) noexcept {
+void fill(cb_contact* contact, const cb_runtime& runtime, const RuntimeContact& c) noexcept {
     cb_contact out = CB_CONTACT_INIT;
     out.reason = c.reason, out.accepted = c.accepted;
     out.face = c.face, out.vertex = c.vertex;
@@ -113,6 +115,7 @@ void fill(cb_contact* contact, const RuntimeContact& c) noexcept {
     out.misfit = c.misfit, out.left_over = c.left_over, out.arm = c.arm, out.confidence = c.confidence;
     copy(out.runner_up, c.runner_up, 3), copy(out.second, c.second, 3);
     out.pose_age = c.pose_age, out.latency = c.latency;
+    if (c.face >= 0) out.on = runtime.marks[std::size_t(c.face)];
     hand_over(out, contact);
 }
 
@@ -154,7 +157,7 @@ cb_runtime* cb_open(const char* folder, cb_error* error) {
     attempt(folder, error, [&] {
         Bundle bundle = load_bundle(folder);
         Runtime runtime(bundle.model, bundle.config.settings);
-        made = new cb_runtime{std::move(runtime), std::move(bundle.config)};
+        made = new cb_runtime{std::move(runtime), std::move(bundle.config), std::move(bundle.marks)};
     });
     return made;
 }
@@ -165,7 +168,7 @@ int cb_selftest(const char* folder, cb_error* error) {
 
 int cb_update(cb_runtime* runtime, const double wrench[6], const double R_WS[9], double time, cb_contact* contact) {
     if (!runtime || !wrench || !R_WS || !fits(contact)) return nothing(contact);
-    fill(contact, runtime->runtime.update(wrench, R_WS, time));
+    fill(contact, *runtime, runtime->runtime.update(wrench, R_WS, time));
     return CB_OK;
 }
 
@@ -179,7 +182,7 @@ int cb_update_sample(cb_runtime* runtime, const cb_sample* sample, cb_contact* c
     contactbench::RuntimeSample given{};
     copy(given.wrench, sample->wrench, 6);
     given.time = sample->time, given.arrival = sample->arrival, given.flags = sample->flags;
-    fill(contact, runtime->runtime.update(given));
+    fill(contact, *runtime, runtime->runtime.update(given));
     return CB_OK;
 }
 
@@ -187,7 +190,7 @@ int cb_check(const cb_runtime* runtime, double now, cb_contact* contact) {
     if (!runtime || !fits(contact)) return nothing(contact);
     RuntimeContact found;
     if (!runtime->runtime.silent(now, found)) found.reason = CB_NO_ANSWER;
-    fill(contact, found);
+    fill(contact, *runtime, found);
     return CB_OK;
 }
 

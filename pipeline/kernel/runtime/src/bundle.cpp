@@ -81,6 +81,16 @@ std::vector<double> bonus_of(const ProbeMesh& mesh, const Config& c) {
     return bonus;
 }
 
+// Of each facet, CB_ON_*, as pipeline.contact.facet_marks has it.
+std::vector<std::uint8_t> marks_of(const ProbeMesh& mesh, const Config& c) {
+    std::vector<std::uint8_t> marks(mesh.region.size(), CB_ON_MEASURED);
+    for (std::size_t f = 0; f < marks.size(); ++f) {
+        if (mesh.invented[f]) marks[f] = CB_ON_INVENTED;
+        if (mesh.region[f] > 0 && c.regions[std::size_t(mesh.region[f]) - 1].untouchable) marks[f] = CB_ON_UNTOUCHABLE;
+    }
+    return marks;
+}
+
 // Of a closed surface: positive when its facets face outwards. About the middle of the box, for the digits.
 double signed_volume(const ProbeMesh& mesh, const Config& c) {
     const Vec3 middle = 0.5 * (c.low + c.high);
@@ -104,7 +114,7 @@ Bundle load_bundle(const std::string& folder) {
     if (spelled != text)
         refuse_file(CB_ERROR_JSON, config_name,
                     "byte " + std::to_string(first_difference(text, spelled)) + " is not as contactbench writes it");
-    Bundle bundle{read_config(text), nullptr};
+    Bundle bundle{read_config(text), nullptr, {}};
     check_verified(root);
     check_hashes(files, bundle.config);
     if (bundle.config.self_test != (files.count(self_test_name) ? self_test_name : ""))
@@ -118,6 +128,7 @@ Bundle load_bundle(const std::string& folder) {
     const double size = largest_extent(bundle.config);
     const bool outward = signed_volume(mesh, bundle.config) > flat * size * size * size;
     const std::vector<double> bonus = bonus_of(mesh, bundle.config);
+    bundle.marks = marks_of(mesh, bundle.config);
     try {
         bundle.model = std::make_shared<const Model>(make_model(std::move(mesh.vertices), mesh.faces,
                                                                 std::move(mesh.region), bonus, bundle.config.mesh));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "config.hpp"
 
@@ -11,6 +12,7 @@ namespace contactbench::runtime {
 struct Bundle {
     Config config;
     std::shared_ptr<const Model> model;
+    std::vector<std::uint8_t> marks;  // of each facet: CB_ON_*
 };
 
 // Throws LoadError, or std::bad_alloc.

@@ -82,6 +82,7 @@ private:
     void read_faces(ProbeMesh& mesh) {
         mesh.faces.resize(config_.facets);
         mesh.region.resize(config_.facets);
+        mesh.invented.resize(config_.facets);
         for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
             const std::string facet = "facet " + std::to_string(f);
             if (take<unsigned char>() != 3) fail(facet + " is not a triangle");
@@ -92,7 +93,7 @@ private:
             const std::int32_t region = mesh.region[f] = take<std::int32_t>();
             if (region < 0 || std::size_t(region) >= colours_.size())
                 fail(facet + " has region " + std::to_string(region) + ", which regions does not list");
-            const unsigned char invented = take<unsigned char>();
+            const std::uint8_t invented = mesh.invented[f] = take<std::uint8_t>();
             if (invented > 1) fail(facet + ": invented is neither 0 nor 1");
             for (std::size_t i = 0; i < 3; ++i)
                 if (take<unsigned char>() != shade(std::size_t(region), invented, i)) fail(facet + " has another colour");

@@ -15,6 +15,7 @@ struct ProbeMesh {
     std::vector<Vec3> vertices;  // S, m
     std::vector<Triangle> faces;
     std::vector<std::int32_t> region;
+    std::vector<std::uint8_t> invented;  // 1: the original had no such facet
 };
 
 // The mesh that `config` describes; `colours` are those of its regions, like #1f77b4. Nothing is allocated for a count

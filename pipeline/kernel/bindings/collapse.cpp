@@ -1,0 +1,65 @@
+// Fewer facets for the same shape.
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
+#include "bindings.hpp"
+#include "contactbench/collapse.hpp"
+
+namespace contactbench::bindings {
+
+namespace {
+
+using Bools = nb::ndarray<const bool, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+nb::tuple collapse_edges(const Rows3& vertices, const Faces& faces, std::pair<std::int64_t, std::int64_t> wanted,
+                         const Bools& second, const nb::callable& progress) {
+    std::vector<Vec3> points(vertices.shape(0));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double* p = vertices.data() + 3 * i;
+        points[i] = {p[0], p[1], p[2]};
+        for (double Vec3::*axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+            if (!fit_for_exact(points[i].*axis) || !(std::fabs(points[i].*axis) <= 1e6))
+                throw nb::value_error(("vertices: row " + std::to_string(i) + " is not within a million units").c_str());
+    }
+    std::vector<Collapse::Facet> facets(faces.shape(0));
+    for (std::size_t f = 0; f < facets.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int32_t v = facets[f][k] = faces.data()[3 * f + k];
+            if (v < 0 || std::size_t(v) >= points.size())
+                throw nb::value_error(("faces: row " + std::to_string(f) + " refers to a vertex that is not there").c_str());
+        }
+        const auto [a, b, c] = facets[f];
+        if (!(norm2(cross(points[std::size_t(b)] - points[std::size_t(a)], points[std::size_t(c)] - points[std::size_t(a)])) > 0.0))
+            throw nb::value_error(("faces: row " + std::to_string(f) + " has no area").c_str());
+    }
+    if (second.shape(0) != facets.size()) throw nb::value_error("second: not one per facet");
+    if (wanted.first < 0 || wanted.second < 0) throw nb::value_error("wanted: less than no facets");
+    const std::vector<std::uint8_t> groups(second.data(), second.data() + second.shape(0));
+    std::pair<std::vector<Vec3>, std::vector<Collapse::Facet>> made;
+    {
+        nb::gil_scoped_release release;
+        Collapse collapse(std::move(points), std::move(facets), groups);
+        collapse.run({wanted.first, wanted.second}, [&](double fraction) {
+            nb::gil_scoped_acquire acquire;
+            progress(fraction);
+        });
+        made = collapse.result();
+    }
+    std::vector<double> coordinates;
+    coordinates.reserve(3 * made.first.size());
+    for (const Vec3& p : made.first) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+    std::vector<std::int32_t> corners;
+    corners.reserve(3 * made.second.size());
+    for (const auto& t : made.second) corners.insert(corners.end(), t.begin(), t.end());
+    return nb::make_tuple(make_array(std::move(coordinates), {made.first.size(), 3}),
+                          make_array(std::move(corners), {made.second.size(), 3}));
+}
+
+}  // namespace
+
+void bind_collapse(nb::module_& m) {
+    m.def("collapse_edges", &collapse_edges, nb::arg("vertices"), nb::arg("faces"), nb::arg("wanted"), nb::arg("second"),
+          nb::arg("progress"));
+}
+
+}  // namespace contactbench::bindings

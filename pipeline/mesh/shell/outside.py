@@ -1,0 +1,223 @@
+"""The closed outside of a soup of facets, made of its own facets where they are, and of new ones only across holes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from pipeline.mesh.errors import MeshError
+from pipeline.mesh.health import edge_table
+from pipeline.mesh.polygons import triangulate
+from pipeline.mesh.shell.cut import cut_crossings
+from pipeline.mesh.shell.hull import outer_hull
+from pipeline.mesh.shell.openings import Opening, describe
+from pipeline.mesh.shell.patch import choose, make_patch
+from pipeline.mesh.shell.sew import ROUNDING, distinct, holes, open_edges, sew
+from pipeline.mesh.triangles import cross_products, join
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Unpack
+
+    from numpy.typing import NDArray
+
+    from pipeline.mesh.engines import Control
+
+    Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
+    Soup = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]
+
+# Vertices of open edges nearer than this, as a share of the size, belong together: 0.01 mm on a probe.
+SEAM = 1e-4
+_FLAT = 0.01  # of the width: a hole with such a rim needs no vertices inside
+_SEAMS = 0.7  # of the open edges: sewing that joins fewer nibbles at the rims of holes
+_FILLINGS = 4
+_FRAYED = 0.005  # open edges a facet that are left: so many are no fins, but a surface in rags
+_SHEETS = 0.01  # of the hull's area: with more that has the outside on both sides the surface is not closed
+
+
+@dataclass(frozen=True, eq=False)
+class Outside:
+    """
+    A closed surface, and what was done for it.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+        Outward; each edge belongs to two facets.
+    born : (m,) int64
+        The facet of the soup that each is, or is a piece of; -1 for a new one across a hole.
+    turned, cut, inner, sheets : int
+        Facets of the soup that were turned over, cut, left out because they do not border the outside, and left out
+        because they border it on both sides.
+    holes : tuple of Opening
+        Holes that were closed and are wide enough to be named, largest first.
+    small_holes : int
+        Those that are not.
+    parted : int
+        Vertices that were doubled, because bodies only met in them.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    born: NDArray[np.int64]
+    turned: int
+    cut: int
+    inner: int
+    sheets: int
+    holes: tuple[Opening, ...] = ()
+    small_holes: int = 0
+    parted: int = 0
+
+
+def find_outside(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    added: Sequence[Surface] = (),
+    *,
+    smallest: float,
+    spacing: float,
+    **control: Unpack[Control],
+) -> Outside | None:
+    """
+    Find the closed outside of a soup of facets.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+        Metres.
+    faces : (m, 3) int32
+    added : sequence of (vertices, faces)
+        Surfaces that close it; what of them is not needed is cut off.
+    smallest : float
+        Width from which a hole is named, and closed as a mouth is; metres.
+    spacing : float
+        Of the vertices of what closes such a hole, metres.
+    **control
+        See `pipeline.mesh.engines.run`.
+
+    Returns
+    -------
+    Outside or None
+        None where the facets do not enclose a space.
+
+    Raises
+    ------
+    EngineError, Cancelled
+        See `pipeline.mesh.engines.run`.
+    """
+    size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
+    soup = _trimmed(_sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size))
+    named: list[Opening] = []
+    small = 0
+    for _ in range(_FILLINGS):  # what closes a hole may leave a smaller one where the rim meets itself
+        patches, found = _patches(*soup[:2], smallest, spacing)
+        if not patches:
+            break
+        named += found
+        small += len(patches) - len(found)
+        soup = sew(*_with(soup, patches), ROUNDING * size)
+    if len(open_edges(soup[1], len(soup[0]))) > _FRAYED * len(soup[1]):
+        return None
+    soup = _with(soup, added)
+    cut = cut_crossings(*soup[:2], **control)
+    hull = outer_hull(cut.vertices, cut.faces)
+    areas = np.linalg.norm(cross_products(cut.vertices, cut.faces), axis=1)
+    of = soup[2][cut.born]
+    sheets = hull.sheets[of[hull.sheets] >= 0]
+    if len(hull.faces) == 0 or areas[sheets].sum() > _SHEETS * areas[hull.born].sum():
+        return None
+    if len(open_edges(hull.faces, len(hull.vertices))):
+        return None
+    origin = of[hull.born]
+    own, pieces = np.unique(of[of >= 0], return_counts=True)
+    kept = np.unique(origin[origin >= 0])
+    return Outside(
+        hull.vertices,
+        hull.faces,
+        origin,
+        turned=len(np.unique(origin[hull.turned & (origin >= 0)])),
+        cut=int(np.count_nonzero(pieces[np.isin(own, kept)] > 1)),
+        inner=len(faces) - len(kept) - len(np.unique(of[sheets])),
+        sheets=len(np.unique(of[sheets])),
+        holes=tuple(sorted(named, key=lambda opening: -opening.area)),
+        small_holes=small,
+        parted=len(hull.vertices) - len(np.unique(hull.vertices, axis=0)),
+    )
+
+
+def _uses(faces: NDArray[np.int32]) -> NDArray[np.int64]:
+    """How many facets each facet's edges have, (m, 3)."""
+    start, end = faces.astype(np.int64), np.roll(faces, -1, axis=1).astype(np.int64)
+    key = np.minimum(start, end) * (int(faces.max()) + 1) + np.maximum(start, end)
+    _, number, count = np.unique(key, return_inverse=True, return_counts=True)
+    return np.asarray(count[number].reshape(-1, 3))
+
+
+def _with(soup: Soup, added: Sequence[Surface]) -> Soup:
+    """Add surfaces that no facet of the file is in."""
+    points, triangles = join([soup[:2], *added])
+    return distinct(points, triangles, np.concatenate((soup[2], np.full(len(triangles) - len(soup[2]), -1))))
+
+
+def _trimmed(soup: Soup) -> Soup:
+    """Leave out facets that hang on an edge of two others, and lone ones: they are no part of a surface."""
+    vertices, faces, born = soup
+    for _ in range(_FILLINGS):
+        uses = _uses(faces)
+        hanging = (uses == 1).any(axis=1) & ((uses > 2).any(axis=1) | (uses == 1).all(axis=1))
+        if not hanging.any() or hanging.sum() > _FRAYED * len(faces):
+            break
+        faces, born = faces[~hanging], born[~hanging]
+    return distinct(vertices, faces, born)
+
+
+def _sewn(soup: Soup, tolerance: float) -> Soup:
+    """Sew as wide as helps: where facets are smaller than the seams it makes more open edges than it joins."""
+    best, fewest = soup, len(open_edges(soup[1], len(soup[0])))
+    for share in (1e-4, 1e-2, 1.0):
+        tried = sew(*best, share * tolerance)
+        left = len(open_edges(tried[1], len(tried[0])))
+        if left < _SEAMS * fewest and len(tried[1]) <= len(soup[1]) + fewest:
+            best, fewest = tried, left
+    return best
+
+
+def _patches(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    smallest: float,
+    spacing: float,
+) -> tuple[list[Surface], list[Opening]]:
+    """Close every hole: the wide ones as mouths, which are given too, the others by the fewest facets."""
+    patches: list[Surface] = []
+    named: list[Opening] = []
+    middle = vertices.mean(axis=0)
+    for loop in holes(faces, len(vertices)):
+        rim = vertices[loop]
+        if np.ptp(rim, axis=0).max() >= smallest:
+            opening = describe(rim, middle[None])
+            if opening.width >= smallest:
+                named.append(opening)
+                flat = np.ptp(opening.to_plane(rim)[:, 2]) < _FLAT * opening.width
+                if not flat and (made := _patch(opening, spacing)) is not None:
+                    patches.append(made)
+                    continue
+        few = triangulate(rim, np.arange(len(loop)), np.array([len(loop)]))
+        patches.append((rim, few.faces.astype(np.int32)))
+    return patches, named
+
+
+def _patch(opening: Opening, spacing: float) -> Surface | None:
+    """Make a patch; None where the rim crosses itself seen from outside, or the patch does not follow it."""
+    try:
+        vertices, faces = make_patch(opening, choose(opening), spacing)
+    except MeshError:
+        return None
+    count = len(opening.rim)
+    rim = np.column_stack((np.arange(count), np.roll(np.arange(count), -1)))
+    edges = edge_table(faces, len(vertices))
+    have = np.isin(edges.low * len(vertices) + edges.high, rim.min(axis=1) * len(vertices) + rim.max(axis=1))
+    return (vertices, faces) if np.count_nonzero(have) == count else None

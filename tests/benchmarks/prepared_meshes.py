@@ -1,0 +1,312 @@
+"""Prepare many mesh files as a user would, and look at what comes out as a stranger would.
+
+Run by ``packaging/run benchmark prepared_meshes --out DIR [--shapes NAME,...] [--json]``. Every shape goes through
+the public commands `probe inspect`, `shell` and `prepare` in processes of their own. Exit code 1: a figure is missed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from dataclasses import asdict, dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import shapes
+from .contact_error import ContactError, distances, draw_touches, locate, visible_points
+from .solids import Mesh, joined
+from .stranger import look, normal_deviations, read_prepared, sample
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from .shapes import Shape
+    from .stranger import Prepared
+
+_COMMAND = Path(sys.executable).with_name("contactbench")
+_PATIENCE_S = 600
+_SAMPLES = 60_000
+_TOUCHES = 4_000
+
+# A small process runs the command: what is measured of a child begins with the memory of the process that forked it.
+_WATCH = """
+import json, pathlib, resource, subprocess, sys, time
+began = time.perf_counter()
+code = subprocess.run(sys.argv[2:]).returncode
+used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+pathlib.Path(sys.argv[1]).write_text(json.dumps([code, time.perf_counter() - began, used]))
+"""
+
+# The figures that are to be reached.
+MOST_FOLD_DEG = 60.0
+MOST_P95_MM = 0.02
+MOST_OVER_BOUND = 1.10
+MOST_GROWTH = 1.02
+# Of the touches that are sure on the exact original, so many may be doubtful on what was made of it.
+MOST_LOST = 0.02
+MOST_ASTRAY = 0.001
+# Of what the file says all about: rounding of areas, no more.
+MOST_INVENTED = 1e-9
+
+
+@dataclass(frozen=True)
+class Ran:
+    """A command that was run: its exit code (124: it took too long), words, JSON, seconds and peak memory."""
+
+    exit: int
+    words: str
+    found: dict[str, Any] = field(repr=False)
+    seconds: float
+    peak_mb: float
+
+
+@dataclass(frozen=True)
+class Judged:
+    """
+    A written mesh against its original.
+
+    Attributes
+    ----------
+    facets : int
+    wrong : str
+        What the stranger saw; "" when nothing.
+    parts : int
+    invented : float
+        Share of its area.
+    p95_mm, most_mm : float
+        From the visible outside to the mesh.
+    back_mm : float
+        From what the mesh did not invent to the outside, largest.
+    fold_deg : float
+        Largest deviation of a normal from the original's own, where it did not invent.
+    folded : int
+        Facets beyond what is allowed.
+    """
+
+    facets: int
+    sound: bool
+    wrong: str
+    parts: int
+    invented: float
+    p95_mm: float
+    most_mm: float
+    back_mm: float
+    fold_deg: float
+    folded: int
+
+
+@dataclass(frozen=True)
+class Row:
+    """All that was measured of one shape; `faults` are the figures that it misses, in words."""
+
+    name: str
+    closed: bool
+    body: bool
+    inspected: Ran
+    shelled: Ran
+    prepared: Ran
+    checked: Ran | None
+    shell: Judged | None
+    result: Judged | None
+    exact: ContactError | None
+    contact: ContactError | None
+    faults: tuple[str, ...] = ()
+
+
+def run(arguments: Sequence[str | Path], command: Path = _COMMAND) -> Ran:
+    """Run a command of contactbench in a process of its own."""
+    with tempfile.TemporaryDirectory() as scratch:
+        used = Path(scratch) / "used.json"
+        line = [sys.executable, "-c", _WATCH, used, "timeout", "-k", "5", _PATIENCE_S, command, *arguments]
+        done = subprocess.run(
+            [str(word) for word in line],
+            capture_output=True,
+            env={**os.environ, "COLUMNS": "10000"},
+            check=True,
+        )
+        exit_code, seconds, peak_mb = json.loads(used.read_text())
+    told, words = (text.decode(errors="replace").strip() for text in (done.stdout, done.stderr))
+    return Ran(exit_code, words, json.loads(told) if told.startswith("{") else {}, seconds, peak_mb)
+
+
+def measure(shape: Shape, folder: Path, command: Path = _COMMAND) -> Row:
+    """Prepare a shape and judge the result; its files stay in the folder."""
+    file = shape.write(folder)
+    shell_file, result_file = folder / f"{shape.name}-shell.ply", folder / f"{shape.name}-prepared.ply"
+    for old in (shell_file, result_file):
+        old.unlink(missing_ok=True)
+    units = ("--units", "mm")
+    inspected = run(["probe", "inspect", file, *units, "--json"], command)
+    shelled = run(["probe", "shell", file, *units, "--out", shell_file, "--json"], command)
+    prepared = run(["probe", "prepare", file, *units, "--out", result_file, "--json"], command)
+    checked = run(["probe", "inspect", result_file, "--json"], command) if result_file.exists() else None
+    shell = _judge(shape, read_prepared(shell_file)) if shell_file.exists() else None
+    result = exact = contact = None
+    touches = draw_touches(shape, _TOUCHES)
+    if shape.solid is not None:
+        exact = locate(shape.solid, touches, shape.outside)
+    if result_file.exists():
+        made = read_prepared(result_file)
+        result = _judge(shape, made)
+        contact = locate(made.mesh, touches, shape.outside)
+    row = Row(
+        shape.name,
+        shape.closed,
+        shape.body,
+        inspected,
+        shelled,
+        prepared,
+        checked,
+        shell,
+        result,
+        exact,
+        contact,
+    )
+    return replace(row, faults=tuple(_faults(row)))
+
+
+def _judge(shape: Shape, made: Prepared) -> Judged:
+    seen = look(made.mesh)
+    there = distances(visible_points(shape, _SAMPLES), made.mesh)
+    # Of what the outside is not known all over, only distances to the result can be told.
+    own = made.mesh.chosen(~made.invented & (not shape.partly))
+    outside = _both_ways(shape.outside) if not shape.known else shape.outside
+    back = distances(sample(own, _SAMPLES, np.random.default_rng(3))[0], outside) if len(own.faces) else there
+    # A lip or a step of some micrometres that the file has is no fold.
+    own_normals = isinstance(shape.file, Mesh) and shape.oriented and shape.known
+    fold = normal_deviations(own, joined(outside, shape.file) if own_normals else outside)
+    areas = made.mesh.areas
+    return Judged(
+        facets=len(made.mesh.faces),
+        sound=seen.sound,
+        wrong=seen.words(),
+        parts=seen.parts,
+        invented=float(areas[made.invented].sum() / areas.sum()),
+        p95_mm=float(np.percentile(there, 95)),
+        most_mm=float(there.max()),
+        back_mm=float(back.max()),
+        fold_deg=float(fold.max(initial=0.0)),
+        folded=int((fold > MOST_FOLD_DEG).sum()),
+    )
+
+
+def _both_ways(mesh: Mesh) -> Mesh:
+    return mesh._replace(faces=np.concatenate([mesh.faces, mesh.faces[:, ::-1]]))
+
+
+def _faults(row: Row) -> list[str]:
+    found = []
+    for name, ran in (("inspect", row.inspected), ("shell", row.shelled), ("prepare", row.prepared)):
+        refused = not row.body and ran.exit == 2
+        if (ran.exit not in (0, 1) and not refused) or "Traceback" in ran.words:
+            found.append(f"{name} ended with {ran.exit}: {ran.words.splitlines()[-1] if ran.words else ''}")
+    if not row.body:
+        return found if row.prepared.exit in (1, 2) else [*found, "prepare calls ready what has no inside"]
+    if row.prepared.exit == 1 and row.result and row.result.sound and row.result.parts == 1:
+        found.append("prepare ended with 1, yet nothing is wrong")
+    if row.shell and row.shelled.exit == 0:
+        found += _unsound("shell", row.shell)
+    if row.shell and row.closed:
+        if row.shell.invented > MOST_INVENTED:
+            found.append(f"shell: {100 * row.shell.invented:.2g} % invented of a closed input")
+        if row.shell.p95_mm > MOST_P95_MM:
+            found.append(f"shell: visible p95 {row.shell.p95_mm:.3f} mm")
+    return found + (_shipped(row) if row.prepared.exit == 0 else [])
+
+
+def _shipped(row: Row) -> list[str]:
+    """Name what is wrong with a mesh that prepare calls ready."""
+    found = _unsound("prepared", row.result) if row.result else ["prepare wrote nothing"]
+    if row.checked and row.checked.exit != 0:
+        found.append("inspect complains about what prepare shipped")
+    if row.contact:
+        # Between thin walls and in grooves the exact original itself errs by more than its bound.
+        most = max(MOST_OVER_BOUND, MOST_GROWTH * row.exact.over_bound if row.exact else 0.0)
+        if not row.contact.over_bound <= most:
+            found.append(f"contact error {row.contact.over_bound:.2f} times the bound")
+        if row.exact and row.contact.sure < row.exact.sure - MOST_LOST:
+            found.append(
+                f"{100 * row.contact.sure:.0f} % sure, {100 * row.exact.sure:.0f} % on the exact original"
+            )
+        if row.contact.astray > max(MOST_ASTRAY, row.exact.astray if row.exact else 0.0):
+            found.append(f"{100 * row.contact.astray:.2g} % sure and more than 10 mm off")
+    return found
+
+
+def _unsound(name: str, judged: Judged) -> list[str]:
+    found = [] if judged.sound else [f"{name}: {judged.wrong}"]
+    if judged.folded:
+        found.append(f"{name}: {judged.folded} facets turned, up to {judged.fold_deg:.0f}°")
+    return found
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Write all rows as a Markdown table."""
+    head = (
+        "shape", "exit", "facets", "s", "MB", "sound", "invented %", "shell p95 mm", "shell back mm",
+        "prepared max mm", "turned °", "error/bound", "on exact", "sure %", "on exact", "astray %", "misses",
+    )  # fmt: skip
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(_cells(row)) + " |" for row in rows]
+    missed = sum(bool(row.faults) for row in rows)
+    return "\n".join(
+        [*lines, "", f"{len(rows)} shapes, {len(rows) - missed} reach all figures, {missed} do not."]
+    )
+
+
+def _cells(row: Row) -> list[str]:
+    shell, result, contact, exact = row.shell, row.result, row.contact, row.exact
+    none = "-"
+    return [
+        row.name + ("" if row.closed else " (open)"),
+        str(row.prepared.exit),
+        f"{result.facets:,}" if result else none,
+        f"{row.prepared.seconds:.1f}",
+        f"{row.prepared.peak_mb:.0f}",
+        ("yes" if result.sound else "no") if result else none,
+        f"{100 * shell.invented:.2f}" if shell else none,
+        f"{shell.p95_mm:.4f}" if shell else none,
+        f"{shell.back_mm:.3f}" if shell else none,
+        f"{result.most_mm:.2f}" if result else none,
+        f"{result.fold_deg:.0f}" if result else none,
+        f"{contact.over_bound:.3f}" if contact else none,
+        f"{exact.over_bound:.3f}" if exact else none,
+        f"{100 * contact.sure:.1f}" if contact else none,
+        f"{100 * exact.sure:.1f}" if exact else none,
+        f"{100 * contact.astray:.2f}" if contact else none,
+        "; ".join(row.faults) or "",
+    ]
+
+
+def main() -> int:
+    """Measure the shapes that were asked for."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--out", type=Path, required=True, help="Folder to write: files, table.md, rows.json."
+    )
+    parser.add_argument("--shapes", help="Names, with commas between them [all].")
+    parser.add_argument("--json", action="store_true", help="Print all figures as JSON.")
+    parser.add_argument("--command", type=Path, default=_COMMAND, help="The contactbench to measure.")
+    options = parser.parse_args()
+    options.out.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for name in options.shapes.split(",") if options.shapes else shapes.names():
+        row = measure(shapes.make(name), options.out, options.command)
+        rows.append(row)
+        print(f"{name}: {'; '.join(row.faults) or 'all figures reached'}", file=sys.stderr, flush=True)  # noqa: T201
+        (options.out / "rows.json").write_text(json.dumps([asdict(row) for row in rows], indent=1))
+        (options.out / "table.md").write_text(table(rows) + "\n")
+    print(json.dumps([asdict(row) for row in rows]) if options.json else table(rows))  # noqa: T201
+    return int(any(row.faults for row in rows))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,152 @@
+"""The outer hull of a soup of facets, cut where they cross and closed where they leave holes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from mesh.shell.housings import box
+
+from pipeline.kernel import crossings
+from pipeline.mesh.health import edge_table, measure_health
+from pipeline.mesh.shell.cut import cut_crossings
+from pipeline.mesh.shell.hull import outer_hull
+from pipeline.mesh.shell.outside import find_outside
+from pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
+
+pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
+
+LENGTHS = {"smallest": 0.5, "spacing": 0.1}
+
+
+def soup(*bodies):
+    first = np.cumsum([0, *(len(vertices) for vertices, _ in bodies)])
+    return (
+        np.concatenate([vertices for vertices, _ in bodies]),
+        np.concatenate([faces + start for (_, faces), start in zip(bodies, first, strict=False)]).astype(
+            np.int32
+        ),
+    )
+
+
+def volume(vertices, faces):
+    corners = vertices[faces]
+    return np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+
+
+UNIT = box([0, 0, 0], [1, 1, 1])
+
+
+@pytest.mark.parametrize(
+    ("other", "whole"),
+    [
+        (box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]), 2 - 0.125),  # through each other
+        (box([1, 0.2, 0.2], [1.5, 0.7, 0.7]), 1.125),  # standing on a face
+        (box([0.2, 0.2, 0.2], [0.5, 0.5, 0.5]), 1.0),  # inside
+        (box([0.2, 0.2, 0.5], [0.5, 0.5, 1.0]), 1.0),  # inside, and flush with a face
+        (box([1, 1, 0], [2, 2, 1]), 2.0),  # an edge in common
+        (box([1, 1, 1], [2, 2, 2]), 2.0),  # a corner in common
+        (box([1.01, 0, 0], [2, 1, 1]), 1.99),  # beside
+    ],
+)
+@pytest.mark.parametrize("turned", [False, True])
+def test_two_bodies_become_their_union_to_the_digit(other, whole, turned):
+    vertices, faces = soup(UNIT, (other[0], other[1][:, ::-1] if turned else other[1]))
+    found = find_outside(vertices, faces, **LENGTHS)
+    health = measure_health(found.vertices, found.faces)
+    assert health.watertight
+    assert health.winding_consistent
+    assert health.nonmanifold_edges == 0
+    assert volume(found.vertices, found.faces) == pytest.approx(whole, abs=1e-8)
+    assert not crossings(found.vertices, found.faces)[2][[0, 2]].any()
+    assert (found.born >= 0).all()
+
+
+@pytest.mark.parametrize(
+    "faces",
+    [
+        UNIT[1][:, ::-1],
+        np.concatenate((UNIT[1], UNIT[1])),
+        np.concatenate((UNIT[1], UNIT[1][:, ::-1])),
+        np.where(np.arange(12)[:, None] % 3 == 0, UNIT[1][:, ::-1], UNIT[1]),
+    ],
+)
+def test_winding_and_repeats_do_not_matter(faces):
+    hull = outer_hull(
+        *distinct(UNIT[0], np.ascontiguousarray(faces, dtype=np.int32), np.arange(len(faces)))[:2]
+    )
+    assert len(hull.faces) == 12
+    assert volume(hull.vertices, hull.faces) == pytest.approx(1)
+
+
+def test_a_sheet_is_no_body():
+    vertices, faces = UNIT
+    hull = outer_hull(vertices, faces[:-1])
+    assert len(hull.faces) == 0
+    assert len(hull.sheets) == 11
+
+
+def test_a_hole_is_closed_on_its_own_rim():
+    vertices, faces = UNIT
+    found = find_outside(vertices, faces[:-1], **LENGTHS)
+    assert len(found.faces) == 12
+    assert np.count_nonzero(found.born < 0) == 1
+    assert len(found.holes) + found.small_holes == 1
+    assert volume(found.vertices, found.faces) == pytest.approx(1)
+
+
+def test_seams_are_sewn_and_an_edge_split_where_another_ends_on_it():
+    vertices, faces = UNIT
+    corners = vertices[faces].reshape(-1, 3) + np.random.default_rng(0).uniform(-2e-5, 2e-5, (36, 3))
+    found = find_outside(corners, np.arange(36, dtype=np.int32).reshape(-1, 3), **LENGTHS)
+    assert len(found.faces) == 12
+    assert (found.born >= 0).all()
+    # One side in two halves: a T-junction in the middle of an edge.
+    a, b, c = faces[0]
+    middle = (vertices[a] + vertices[b]) / 2
+    split = np.concatenate((faces[1:], [[a, 8, c], [8, b, c]])).astype(np.int32)
+    sewn = sew(np.vstack((vertices, middle)), split, np.arange(13), 1e-4)
+    assert len(open_edges(sewn[1], len(sewn[0]))) == 0
+
+
+def test_rims_are_walked_round_once():
+    vertices, faces = UNIT
+    assert [sorted(loop.tolist()) for loop in holes(faces[:-2], len(vertices))] == [[4, 5, 6, 7]]
+    assert holes(faces, len(vertices)) == []
+
+
+def test_cutting_leaves_facets_that_meet_nothing_alone():
+    vertices, faces = soup(UNIT, box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]), box([5, 5, 5], [6, 6, 6]))
+    cut = cut_crossings(vertices, faces)
+    assert cut.left == 0
+    assert np.count_nonzero(cut.born >= 24) == 12
+    assert edge_table(cut.faces, len(cut.vertices)).uses.min() == 2
+    areas = np.linalg.norm(
+        np.cross(*(cut.vertices[cut.faces[:, k]] - cut.vertices[cut.faces[:, 0]] for k in (1, 2))), axis=1
+    )
+    whole = np.linalg.norm(np.cross(*(vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2))), axis=1)
+    assert np.bincount(cut.born, areas) == pytest.approx(whole, rel=1e-7)
+
+
+def test_random_crossing_bodies_enclose_what_any_of_them_does():
+    rng = np.random.default_rng(3)
+    for _ in range(4):
+        bodies = []
+        for _ in range(4):
+            vertices, faces = box(*np.sort(rng.uniform(0, 1, (2, 3)), axis=0))
+            turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+            bodies.append((vertices @ (turn * np.sign(np.linalg.det(turn))).T, faces))
+        found = find_outside(*soup(*bodies), **LENGTHS)
+        points = rng.uniform(-1.5, 1.5, (400, 3))
+        inside = np.zeros(len(points), dtype=bool)
+        for vertices, faces in bodies:
+            normals = np.cross(*(vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2)))
+            heights = np.einsum("pfi,fi->pf", points[:, None] - vertices[faces[:, 0]], normals)
+            inside |= (heights < 0).all(axis=1)
+        corners = found.vertices[found.faces][None] - points[:, None, None]
+        lengths = np.linalg.norm(corners, axis=3)
+        a, b, c = (corners[:, :, k] for k in range(3))
+        x, y, z = (lengths[:, :, k] for k in range(3))
+        over = np.einsum("pfi,pfi->pf", a, np.cross(b, c))
+        under = x * y * z + (a * b).sum(2) * z + (b * c).sum(2) * x + (c * a).sum(2) * y
+        winding = np.arctan2(over, under).sum(axis=1) / (2 * np.pi)
+        assert np.array_equal(winding > 0.5, inside)

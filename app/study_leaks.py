@@ -139,7 +139,7 @@ def _threads() -> int:
 
 def _children() -> int:
     children = Path(f"/proc/self/task/{os.getpid()}/children")
-    return len(children.read_text().split()) if children.exists() else 0
+    return len(children.read_text(encoding="utf-8").split()) if children.exists() else 0
 
 
 def _files() -> int:

@@ -39,7 +39,7 @@ def bench(tmp_path: Path) -> Path:
     mesh.apply_translation([0.0, 0.0, 120.0])
     mesh.export(tmp_path / "ball.stl")
     trimesh.Trimesh(mesh.vertices, mesh.faces[:-1], process=False).export(tmp_path / "open.ply")
-    (tmp_path / "wrenches.csv").write_text(WRENCHES)
+    (tmp_path / "wrenches.csv").write_text(WRENCHES, encoding="utf-8")
     return tmp_path
 
 
@@ -154,7 +154,7 @@ def test_locate_writes_contacts_and_says_how_it_went(bench):
     assert result.stdout == ""
     for text in ("rows", "ok", "low_force", "33.3 %", "median sigma_max", "rows/s"):
         assert text in result.stderr
-    lines = (bench / "contacts.csv").read_text().splitlines()
+    lines = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()
     assert len(lines) == 4
     assert lines[2].startswith("0.1,,,,,,low_force,0,")
 
@@ -187,7 +187,7 @@ def test_the_touch_model_reaches_the_solver(bench):
     assert locate(bench, *options).exit_code == 0
     model = TouchModel(torsion_arm=0.003, model_error=WrenchNoise(0.2, 0.004))
     solver = ContactSolver(load_probe(bench / "ball.stl", "mm"), WrenchNoise(0.01, 0.002), model=model)
-    row = (bench / "contacts.csv").read_text().splitlines()[1].split(",")
+    row = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()[1].split(",")
     contact = solver.locate([0, 0, -5, 0, 0.01, 0])
     assert [float(row[8]), float(row[9])] == [1e3 * contact.sigma_max, contact.misfit]
 
@@ -218,7 +218,7 @@ def test_wrenches_that_no_touch_explains_end_with_the_likely_cause(bench):
 def test_a_raw_recording_is_refused_unless_it_is_said_to_be_compensated(bench):
     header, *rows = WRENCHES.splitlines()
     lines = [f"{header},qw,qx,qy,qz,status", *(f"{row},1,0,0,0,0" for row in rows)]
-    (bench / "wrenches.csv").write_text("\n".join(lines) + "\n")
+    (bench / "wrenches.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
     refused(locate(bench), "wrenches.csv: line 1: columns qw, qx, qy, qz, status: this is a raw recording")
     refused(locate(bench), "contactbench compensate calibration.json RECORDING --out WRENCHES")
     assert not (bench / "contacts.csv").exists()
@@ -234,7 +234,7 @@ def ball_touches(count: int) -> np.ndarray:
 
 def write_wrenches(bench: Path, wrenches: np.ndarray) -> None:
     rows = (f"{0.01 * i}," + ",".join(map(repr, row)) for i, row in enumerate(wrenches.tolist()))
-    (bench / "wrenches.csv").write_text("\n".join(["t,fx,fy,fz,mx,my,mz", *rows]) + "\n")
+    (bench / "wrenches.csv").write_text("\n".join(["t,fx,fy,fz,mx,my,mz", *rows]) + "\n", encoding="utf-8")
 
 
 def test_units_and_mount_move_the_probe(bench):
@@ -252,7 +252,7 @@ def test_units_and_mount_move_the_probe(bench):
     position = ",".join(repr(100 * float(x)) for x in T_SP[:3, 3])
     assert locate(bench, "--units", "cm", "--mount", f"{position},10,-20,30").exit_code == 0
     solver = ContactSolver(load_probe(bench / "ball.stl", "cm", T_SP))
-    contacts = (bench / "contacts.csv").read_text().splitlines()[1:]
+    contacts = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()[1:]
     wrenches = np.loadtxt(WRENCHES.splitlines()[1:], delimiter=",")[:, 1:]
     points = solver.locate_batch(wrenches).points
     assert np.isfinite(points[0]).all()
@@ -269,7 +269,7 @@ def test_the_unit_is_found_and_the_mount_is_in_it(bench):
     assert json.loads(result.stdout)["warnings"] == []
     points = [
         np.genfromtxt(each.splitlines()[1:], delimiter=",", usecols=(1, 2, 3))
-        for each in (expected.decode(), (bench / "contacts.csv").read_text())
+        for each in (expected.decode(), (bench / "contacts.csv").read_text(encoding="utf-8"))
     ]
     np.testing.assert_allclose(points[1], points[0], atol=1e-6)
 
@@ -331,7 +331,7 @@ def test_methods(bench, method):
 
 
 def test_track(bench):
-    (bench / "wrenches.csv").write_text(WRENCHES + "0.1,0,0,-5,0,0.01,0\n")
+    (bench / "wrenches.csv").write_text(WRENCHES + "0.1,0,0,-5,0,0.01,0\n", encoding="utf-8")
     result = locate(bench, "--track", "--json")
     facts = json.loads(result.stdout)
     assert facts["reasons"]["stale"] == 1
@@ -340,7 +340,7 @@ def test_track(bench):
 
 
 def test_allow_nan(bench):
-    (bench / "wrenches.csv").write_text(WRENCHES + "0.3,nan,0,-5,0,0.01,0\n")
+    (bench / "wrenches.csv").write_text(WRENCHES + "0.3,nan,0,-5,0,0.01,0\n", encoding="utf-8")
     refused(locate(bench), "line 5: column fx holds nan: remove the row, or pass --allow-nan")
     assert json.loads(locate(bench, "--allow-nan", "--json").stdout)["reasons"]["not_finite"] == 1
 
@@ -349,13 +349,13 @@ def test_standard_input_and_output(bench):
     locate(bench)
     result = run("locate", "--probe", bench / "ball.stl", "-", "--out", "-", input=WRENCHES)
     assert result.exit_code == 0
-    assert result.stdout == (bench / "contacts.csv").read_text()
+    assert result.stdout == (bench / "contacts.csv").read_text(encoding="utf-8")
     result = run("locate", "--probe", bench / "ball.stl", "-", "--out", bench / "x.csv", input="t\n")
     refused(result, "error: standard input: line 1: columns fx")
 
 
 def test_wrong_input_with_json_is_one_object_too(bench):
-    (bench / "wrenches.csv").write_text("t,fx\n")
+    (bench / "wrenches.csv").write_text("t,fx\n", encoding="utf-8")
     result = locate(bench, "--json")
     refused(result, "error: ")
     assert "missing" in json.loads(result.stdout)["error"]
@@ -397,7 +397,7 @@ def test_wrong_options(bench, arguments, message):
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no SIGINT for one process")
 def test_ctrl_c_leaves_the_old_output(bench):
-    (bench / "contacts.csv").write_text("old")
+    (bench / "contacts.csv").write_text("old", encoding="utf-8")
     files = ["--probe", bench / "ball.stl", "-", "--out", bench / "contacts.csv"]
     command = [sys.executable, "-m", "pipeline.cli", "locate", *map(str, files)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
@@ -413,7 +413,7 @@ def test_ctrl_c_leaves_the_old_output(bench):
         said = child.stderr.read()
         assert child.wait(60) == 130
     assert said == "error: interrupted: the command was stopped before its end.\n"
-    assert (bench / "contacts.csv").read_text() == "old"
+    assert (bench / "contacts.csv").read_text(encoding="utf-8") == "old"
     assert not list(bench.glob(".*"))
 
 

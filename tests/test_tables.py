@@ -224,7 +224,7 @@ def test_a_selection_may_refuse_the_file():
 
 def test_open_table_explains(tmp_path):
     path = tmp_path / "poses.csv"
-    path.write_text(PLAIN)
+    path.write_text(PLAIN, encoding="utf-8")
     with open_table(path) as (stream, name, size):
         assert (stream.read(), name, size) == (PLAIN.encode(), str(path), len(PLAIN))
     for wrong, message in ((tmp_path, "this is a folder: choose a CSV file"), (Path("a\0b"), "cannot be op")):

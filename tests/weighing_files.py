@@ -49,7 +49,7 @@ def write_quaternions(file: Path, weighing: Weighing) -> Path:
 
 
 def _write(file: Path, weighing: Weighing, columns: tuple[str, ...], values: Any) -> Path:
-    with file.open("w", newline="") as stream:
+    with file.open("w", encoding="utf-8", newline="") as stream:
         rows = csv.writer(stream)
         rows.writerow(["t", "fx", "fy", "fz", "mx", "my", "mz", *columns])
         for number, (pose, cells) in enumerate(zip(weighing.poses, values, strict=True)):

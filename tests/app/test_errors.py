@@ -84,7 +84,7 @@ def test_what_qt_says_is_in_the_log(faults, caplog):  # noqa: ARG001
 
 
 def test_a_log_that_cannot_be_written_is_survived(tmp_path):
-    (tmp_path / "file").write_text("")
+    (tmp_path / "file").write_text("", encoding="utf-8")
     log = LogFile(tmp_path / "file")
     LOG.info("words")
     assert log.read() == ""

@@ -121,7 +121,7 @@ def test_an_unverified_bundle_needs_a_word_more(window, tmp_path):
 def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     page, gains = window.page, tmp_path / "gains.json"
     controller = controller_of(ControlSettings(desired_force=6.0))
-    gains.write_text(json.dumps({"controller": controller.model_dump()}))
+    gains.write_text(json.dumps({"controller": controller.model_dump()}), encoding="utf-8")
     assert page.settings.gains.text() == "left out"
     page.settings.read_gains(gains)
     window.wait(lambda: page.settings.gains.text() == "6 N, aware")
@@ -137,14 +137,14 @@ def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     page.settings.no_gains.click()
     window.wait(lambda: page.settings.gains.text() == "left out")
     assert not page.settings.no_gains.isVisible()
-    gains.write_text('{"controller": {"variant": "bold"}}')
+    gains.write_text('{"controller": {"variant": "bold"}}', encoding="utf-8")
     page.settings.read_gains(gains)
     assert "gains.json: controller" in window.told[-1].text
 
 
 def test_a_place_that_does_not_do_is_said_in_words(window, tmp_path):
     (tmp_path / "b").mkdir()
-    (tmp_path / "b" / "mine.txt").write_text("x")
+    (tmp_path / "b" / "mine.txt").write_text("x", encoding="utf-8")
     page = window.page
     page.write(tmp_path / "b")
     window.wait(lambda: bool(page.result.text()))

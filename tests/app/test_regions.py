@@ -328,7 +328,7 @@ def test_import_and_export(window, qtbot, tmp_path):
         idle(window, qtbot)
         assert rows(window) == painted
         assert window.bench.undo.undoText() == "import regions"
-    (tmp_path / "other.json").write_text("{}")
+    (tmp_path / "other.json").write_text("{}", encoding="utf-8")
     read_regions(window.page, tmp_path / "other.json")
     idle(window, qtbot)
     assert "other.json" in window.told[-1].text

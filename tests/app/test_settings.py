@@ -27,13 +27,13 @@ def test_what_is_remembered_comes_back(tmp_path):
     ["", "{", "[]", '{"version": 99, "theme": "dark"}', '{"version": 1, "theme": 3, "recent": [1, {}]}'],
 )
 def test_a_file_that_makes_no_sense_counts_as_empty(tmp_path, content):
-    (tmp_path / "window.json").write_text(content)
+    (tmp_path / "window.json").write_text(content, encoding="utf-8")
     now = Settings(tmp_path).now
     assert (now.theme, now.recent) == ("system", ())
 
 
 def test_a_disk_that_cannot_be_written_is_survived(tmp_path):
-    (tmp_path / "file").write_text("")
+    (tmp_path / "file").write_text("", encoding="utf-8")
     settings = Settings(tmp_path / "file")
     settings.change(theme="dark")
     assert settings.now.theme == "dark"
@@ -41,7 +41,7 @@ def test_a_disk_that_cannot_be_written_is_survived(tmp_path):
 
 def test_the_file_has_a_version(tmp_path):
     Settings(tmp_path).change(theme="light")
-    assert json.loads((tmp_path / "window.json").read_text())["version"] == 1
+    assert json.loads((tmp_path / "window.json").read_text(encoding="utf-8"))["version"] == 1
 
 
 def test_one_variable_moves_everything(tmp_path, monkeypatch):

@@ -54,7 +54,7 @@ def test_a_virtual_session_is_gone_on_with(qtbot, window, tmp_path):
 
 def test_a_folder_of_something_else_is_refused_in_words(qtbot, window, tmp_path):
     (tmp_path / "photos").mkdir()
-    (tmp_path / "photos" / "a.jpg").write_text("x")
+    (tmp_path / "photos" / "a.jpg").write_text("x", encoding="utf-8")
     window.sessions.new(tmp_path / "photos")
     qtbot.waitUntil(lambda: asked(window) != "", timeout=10_000)
     assert "photos" in asked(window)
@@ -217,7 +217,7 @@ def test_killed_at_any_page_the_window_comes_back_to_it(qtbot, window, tmp_path)
     copy = tmp_path / "copy"
     shutil.copytree(folder, copy)  # as a kill at this moment leaves it
     qtbot.waitUntil(lambda: Settings().page_of(folder) == "verify", timeout=10_000)
-    settings = json.loads(Settings().file.read_text())
+    settings = json.loads(Settings().file.read_text(encoding="utf-8"))
     assert settings["recent"][0] | {"opened": ""} == {
         "folder": str(folder),
         "opened": "",

@@ -189,13 +189,13 @@ def test_a_picked_point_moves_the_marker_that_is_selected(window):
 
 def test_a_table_is_imported_and_saved(window, tmp_path):
     page, file = window.page, tmp_path / "m.csv"
-    file.write_text("name,x_mm,y_mm,z_mm\nnose,0,0,150\n")
+    file.write_text("name,x_mm,y_mm,z_mm\nnose,0,0,150\n", encoding="utf-8")
     page._editing.bring(file)
     window.wait(lambda: page.markers.names == ("nose",))
     page._editing.write(tmp_path / "out.csv")
     window.wait(lambda: (tmp_path / "out.csv").exists())
     assert (tmp_path / "out.csv").read_bytes() == page.markers.to_bytes()
-    file.write_text("nothing\n")
+    file.write_text("nothing\n", encoding="utf-8")
     page._editing.bring(file)
     window.wait(
         lambda: any("m.csv" in message.text and message.weight is Weight.WARNING for message in window.told)

@@ -130,7 +130,7 @@ def run(arguments: Sequence[str | Path], command: Path = _COMMAND) -> Ran:
             env={**os.environ, "COLUMNS": "10000"},
             check=True,
         )
-        exit_code, seconds, peak_mb = json.loads(used.read_text())
+        exit_code, seconds, peak_mb = json.loads(used.read_text(encoding="utf-8"))
     told, words = (text.decode(errors="replace").strip() for text in (done.stdout, done.stderr))
     return Ran(exit_code, words, json.loads(told) if told.startswith("{") else {}, seconds, peak_mb)
 
@@ -302,8 +302,10 @@ def main() -> int:
         row = measure(shapes.make(name), options.out, options.command)
         rows.append(row)
         print(f"{name}: {'; '.join(row.faults) or 'all figures reached'}", file=sys.stderr, flush=True)  # noqa: T201
-        (options.out / "rows.json").write_text(json.dumps([asdict(row) for row in rows], indent=1))
-        (options.out / "table.md").write_text(table(rows) + "\n")
+        (options.out / "rows.json").write_text(
+            json.dumps([asdict(row) for row in rows], indent=1), encoding="utf-8"
+        )
+        (options.out / "table.md").write_text(table(rows) + "\n", encoding="utf-8")
     print(json.dumps([asdict(row) for row in rows]) if options.json else table(rows))  # noqa: T201
     return int(any(row.faults for row in rows))
 

@@ -79,9 +79,9 @@ def test_the_command_writes_poses_that_calibrate_reads(file: Path, tmp_path: Pat
 
 
 def test_a_recording_that_never_stands_still(file: Path, tmp_path: Path) -> None:
-    rows = file.read_text().splitlines()
+    rows = file.read_text(encoding="utf-8").splitlines()
     short = tmp_path / "short.csv"
-    short.write_text("\n".join(rows[:120]) + "\n")
+    short.write_text("\n".join(rows[:120]) + "\n", encoding="utf-8")
     result = invoke("captures", short, "--out", tmp_path / "p.csv")
     assert result.exit_code == 1
     assert not (tmp_path / "p.csv").exists()
@@ -190,7 +190,7 @@ def test_time_that_runs_backwards_is_seen_between_blocks(block_bytes: int) -> No
 
 
 def test_wrong_rows_are_named(file: Path) -> None:
-    rows = file.read_text().splitlines()
+    rows = file.read_text(encoding="utf-8").splitlines()
     rows[7] = rows[7].rsplit(",", 1)[0] + ",7.0"
     with pytest.raises(WrenchFileError, match=r"line 8: the quaternion has length"):
         capture_file(io.BytesIO("\n".join(rows).encode() + b"\n"))

@@ -54,7 +54,7 @@ def turns() -> Rotation:
 def write(tmp_path: Path) -> Callable[..., Path]:
     def write(header: str, *rows: str, name: str = "raw.csv") -> Path:
         path = tmp_path / name
-        path.write_text("".join(line + "\n" for line in (header, *rows)))
+        path.write_text("".join(line + "\n" for line in (header, *rows)), encoding="utf-8")
         return path
 
     return write
@@ -362,7 +362,7 @@ def test_output_must_not_be_the_input(write, tmp_path):
     for out in (source, tmp_path / "." / source.name, link):
         with pytest.raises(WrenchFileError, match="the output would replace the input: choose another name"):
             compensate_file(MODEL, source, out)
-    assert source.read_text() == f"{QUATERNION}\n{GOOD}\n"
+    assert source.read_text(encoding="utf-8") == f"{QUATERNION}\n{GOOD}\n"
 
 
 # ---- all or nothing ------------------------------------------------------------------------------
@@ -373,7 +373,7 @@ def test_a_bad_row_late_in_the_file_leaves_the_old_output(write, tmp_path):
     source = write(QUATERNION, *[GOOD] * 5000, "1,2,3")
     with pytest.raises(WrenchFileError, match="line 5002"):
         compensated(source, block_bytes=1000)
-    assert old.read_text() == "old\n"
+    assert old.read_text(encoding="utf-8") == "old\n"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["raw.csv", "wrenches.csv"]
 
 
@@ -390,7 +390,7 @@ def test_an_interruption_leaves_the_old_output(write, tmp_path, monkeypatch, fau
         expected_error, match="the wrenches cannot be written" if isinstance(fault, OSError) else None
     ):
         compensated(write(QUATERNION, GOOD))
-    assert old.read_text() == "old\n"
+    assert old.read_text(encoding="utf-8") == "old\n"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["raw.csv", "wrenches.csv"]
 
 

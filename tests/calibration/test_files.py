@@ -135,14 +135,14 @@ def test_the_cases_differ():
 def test_a_file_of_version_1_still_loads(tmp_path):
     """What version 1 widened by the scatter beside its noise, version 2 has in the noise."""
     doubted = calibrate(poses("known"), **CASES["known"])
-    content = json.loads(saved(doubted, tmp_path).read_text())
+    content = json.loads(saved(doubted, tmp_path).read_text(encoding="utf-8"))
     for field in ("noise_factor", "causes", "drift", "model_error_m", "down_W"):
         del content[field]
     del content["noise"]["orientation_rad"]
     for pose in content["poses"]:
         del pose["offset_force_N"], pose["offset_torque_Nm"]
     file = tmp_path / "old.json"
-    file.write_text(json.dumps({**content, "version": 1, "scatter": 4.0}))
+    file.write_text(json.dumps({**content, "version": 1, "scatter": 4.0}), encoding="utf-8")
     old = load_calibration(file)
     assert old.noise_factor == (2.0, 2.0)
     assert np.allclose(old.noise.sigmas, 2 * doubted.noise.sigmas)
@@ -188,11 +188,11 @@ def test_what_the_file_says(good, tmp_path):
 
 
 def test_infinite_becomes_null(tmp_path):
-    content = json.loads(saved(calibrate(poses("yaw")), tmp_path).read_text())
+    content = json.loads(saved(calibrate(poses("yaw")), tmp_path).read_text(encoding="utf-8"))
     assert content["observability"]["condition"] is None
     assert content["observability"]["force_condition"] is None
     known = calibrate(poses(), PoseNoise(0.05, 0.002))
-    assert json.loads(saved(known, tmp_path).read_text())["noise"]["force_freedom"] is None
+    assert json.loads(saved(known, tmp_path).read_text(encoding="utf-8"))["noise"]["force_freedom"] is None
 
 
 def test_the_mount_comes_back(good, tmp_path):
@@ -226,7 +226,7 @@ def test_creation_time(monkeypatch):
 
 def test_what_cannot_be_saved(good, tmp_path):
     file = tmp_path / "calibration.json"
-    file.write_text("old")
+    file.write_text("old", encoding="utf-8")
     first = good.poses[0]
     named = PoseSample(first.R_WS, first.force, first.torque, name="half \ud800")
     for wrong, message in (
@@ -241,7 +241,7 @@ def test_what_cannot_be_saved(good, tmp_path):
         save_calibration(good, file, created=datetime(2026, 1, 1))
     with pytest.raises(CalibrationFileError, match=r"nowhere\.csv: the file cannot be read"):
         save_calibration(good, file, source=tmp_path / "nowhere.csv")
-    assert file.read_text() == "old"
+    assert file.read_text(encoding="utf-8") == "old"
     with pytest.raises(CalibrationFileError, match=r"the calibration cannot be written .*: choose a folder"):
         save_calibration(good, tmp_path / "nowhere" / "calibration.json")
     assert list(tmp_path.iterdir()) == [file]
@@ -252,12 +252,12 @@ def test_what_cannot_be_saved(good, tmp_path):
 
 @pytest.fixture
 def content(good, tmp_path) -> dict[str, Any]:
-    return json.loads(saved(good, tmp_path).read_text())  # type: ignore[no-any-return]
+    return json.loads(saved(good, tmp_path).read_text(encoding="utf-8"))  # type: ignore[no-any-return]
 
 
 def refusal(content: Any, folder: Path) -> str:
     file = folder / "changed.json"
-    file.write_text(content if isinstance(content, str) else json.dumps(content))
+    file.write_text(content if isinstance(content, str) else json.dumps(content), encoding="utf-8")
     with pytest.raises(CalibrationFileError) as caught:
         load_calibration(file)
     message = str(caught.value)

@@ -357,7 +357,7 @@ def test_written_poses_come_back(poses, tmp_path_factory):
 def test_columns_that_no_pose_fills_are_left_out(tmp_path):
     file = tmp_path / "poses.csv"
     write_poses(file, random_poses(3))
-    assert file.read_text().splitlines()[0] == f"{QUATERNION},count"
+    assert file.read_text(encoding="utf-8").splitlines()[0] == f"{QUATERNION},count"
     assert list(tmp_path.iterdir()) == [file]
 
 

@@ -451,7 +451,7 @@ def test_same_calibration_gives_the_same_bytes_in_another_process(tmp_path):
     pages = []
     for seed, settings in (("1", ""), ("2", "axes.facecolor: red\nsvg.hashsalt: other\nfont.size: 30\n")):
         (tmp_path / seed).mkdir()
-        (tmp_path / seed / "matplotlibrc").write_text(settings)
+        (tmp_path / seed / "matplotlibrc").write_text(settings, encoding="utf-8")
         environment = os.environ | {"PYTHONHASHSEED": seed, "MATPLOTLIBRC": str(tmp_path / seed)}
         file = tmp_path / f"{seed}.html"
         command = [sys.executable, "-c", MAKE, str(Path(__file__).parent), str(file)]

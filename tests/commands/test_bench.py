@@ -26,7 +26,7 @@ def invoke(*arguments):
 
 def test_a_run_is_recorded_with_its_truth_and_the_same_bytes_again(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text(SCRIPT)
+    script.write_text(SCRIPT, encoding="utf-8")
     for name in ("a", "b"):
         files = ["--out", tmp_path / f"{name}.mcap", "--truth", tmp_path / f"{name}.csv"]
         result = invoke("run", script, *files, "--seed", 3, "--json")
@@ -41,7 +41,7 @@ def test_a_run_is_recorded_with_its_truth_and_the_same_bytes_again(tmp_path):
     # A re-zero behind the user's back is in the truth only.
     told = [event.fields["do"] for event in recording.events if event.name == "bench"]
     assert told == ["turn_to", "touch", "end"]
-    rows = list(csv.DictReader((tmp_path / "a.csv").read_text().splitlines()))
+    rows = list(csv.DictReader((tmp_path / "a.csv").read_text(encoding="utf-8").splitlines()))
     assert len(rows) == len(track.times)
     commands = [c["do"] for row in rows if row["command"] for c in json.loads(row["command"])]
     assert commands == ["turn_to", "touch", "rezero"]  # nothing is measured after the end
@@ -53,7 +53,7 @@ def test_what_the_script_is_called_changes_no_byte(tmp_path):
     for name in ("a", "elsewhere/b"):
         script = tmp_path / f"{name}.jsonl"
         script.parent.mkdir(exist_ok=True)
-        script.write_text('{"at": 0.05, "do": "end"}\n')
+        script.write_text('{"at": 0.05, "do": "end"}\n', encoding="utf-8")
         assert invoke("run", script, "--out", tmp_path / f"{name}.mcap").exit_code == 0
     assert (tmp_path / "a.mcap").read_bytes() == (tmp_path / "elsewhere/b.mcap").read_bytes()
     (device, *_) = read_recording(tmp_path / "a.mcap").info.devices
@@ -63,8 +63,8 @@ def test_what_the_script_is_called_changes_no_byte(tmp_path):
 
 def test_no_file_that_is_there_is_written_over(tmp_path):
     script, taken = tmp_path / "a.jsonl", tmp_path / "notes.csv"
-    script.write_text(SCRIPT)
-    taken.write_text("mine")
+    script.write_text(SCRIPT, encoding="utf-8")
+    taken.write_text("mine", encoding="utf-8")
     out = tmp_path / "a.mcap"
     for truth, message in (
         (script, "it exists"),
@@ -75,13 +75,13 @@ def test_no_file_that_is_there_is_written_over(tmp_path):
         result = invoke("run", script, "--out", out, "--truth", truth)
         assert result.exit_code == 2
         assert message in " ".join(result.stderr.split())
-    assert (script.read_text(), taken.read_text()) == (SCRIPT, "mine")
+    assert (script.read_text(encoding="utf-8"), taken.read_text(encoding="utf-8")) == (SCRIPT, "mine")
     assert sorted(tmp_path.iterdir()) == [script, taken]
 
 
 def test_a_script_that_fails_midway_leaves_nothing_that_looks_complete(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text('{"at": 0.3, "do": "touch", "marker": 99}\n')
+    script.write_text('{"at": 0.3, "do": "touch", "marker": 99}\n', encoding="utf-8")
     result = invoke("run", script, "--out", tmp_path / "a.mcap", "--truth", tmp_path / "a.csv")
     assert result.exit_code == 2
     assert "line 1: touch: marker 99" in " ".join(result.stderr.split())
@@ -90,7 +90,9 @@ def test_a_script_that_fails_midway_leaves_nothing_that_looks_complete(tmp_path)
 
 def test_a_touch_that_slides_off_is_said_and_recorded(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text('{"at": 0.1, "do": "touch", "marker": 3, "tilt": 80, "seconds": 1.5}\n')
+    script.write_text(
+        '{"at": 0.1, "do": "touch", "marker": 3, "tilt": 80, "seconds": 1.5}\n', encoding="utf-8"
+    )
     result = invoke("run", script, "--out", tmp_path / "a.mcap", "--json")
     assert "touch at 0.10 s pressed nothing" in " ".join(result.stderr.split())
     assert json.loads(result.stdout)["slipped"] == [0.1]
@@ -100,7 +102,7 @@ def test_a_touch_that_slides_off_is_said_and_recorded(tmp_path):
 
 def test_a_bad_script_ends_with_its_line(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text('{"at": 1, "do": "dance"}\n')
+    script.write_text('{"at": 1, "do": "dance"}\n', encoding="utf-8")
     result = invoke("run", script, "--out", tmp_path / "a.mcap")
     assert result.exit_code == 2
     assert "line 1: do 'dance': choose one of turn_to" in " ".join(result.stderr.split())

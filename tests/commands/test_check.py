@@ -189,7 +189,7 @@ def test_a_reversed_torque_fails_and_is_named(folder: Path) -> None:
 
 def test_the_point_of_a_marker(folder: Path, tmp_path: Path) -> None:
     x, y, z = (1e3 * side()[0]).tolist()
-    (tmp_path / "m.csv").write_text(f"name,x_mm,y_mm,z_mm\nA,0,0,0\nB,{x},{y},{z}\n")
+    (tmp_path / "m.csv").write_text(f"name,x_mm,y_mm,z_mm\nA,0,0,0\nB,{x},{y},{z}\n", encoding="utf-8")
     assert press(folder, "--markers", tmp_path / "m.csv", "--marker", "B").exit_code == 0
     result = press(folder, "--markers", tmp_path / "m.csv", "--marker", "C")
     assert result.exit_code == 2

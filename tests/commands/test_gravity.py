@@ -190,7 +190,9 @@ def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
     with file.open() as stream:
         text = stream.read().replace("fx,", "t,fx,", 1).splitlines()
     recording = tmp_path / "recording.csv"
-    recording.write_text("\n".join([text[0], *(f"{i},{row}" for i, row in enumerate(text[1:]))]) + "\n")
+    recording.write_text(
+        "\n".join([text[0], *(f"{i},{row}" for i, row in enumerate(text[1:]))]) + "\n", encoding="utf-8"
+    )
     assert (
         invoke("compensate", tmp_path / "m.json", recording, *written, "--out", tmp_path / "w.csv").exit_code
         == 0
@@ -246,7 +248,9 @@ def test_the_poses_are_not_overwritten(poses: Path) -> None:
 
 def test_a_wrong_file_leaves_the_earlier_calibration(poses: Path, calibration: Path) -> None:
     before = calibration.read_bytes()
-    poses.write_text(poses.read_text().replace("\n10.0,", "\nten,").replace("fy", "fyy"))
+    poses.write_text(
+        poses.read_text(encoding="utf-8").replace("\n10.0,", "\nten,").replace("fy", "fyy"), encoding="utf-8"
+    )
     result = invoke("calibrate", poses, *EULER, "--out", calibration, "--json")
     assert result.exit_code == 2
     assert "column fy missing" in json.loads(result.stdout)["error"]
@@ -340,7 +344,9 @@ def test_json_and_dash_contradict(calibration: Path, poses: Path) -> None:
 
 
 def test_a_tampered_calibration_is_refused(tmp_path: Path, calibration: Path, poses: Path) -> None:
-    calibration.write_text(calibration.read_text().replace('"mass_kg": 0.6', '"mass_kg": 1.6'))
+    calibration.write_text(
+        calibration.read_text(encoding="utf-8").replace('"mass_kg": 0.6', '"mass_kg": 1.6'), encoding="utf-8"
+    )
     result = invoke("compensate", calibration, poses, *EULER, "--out", tmp_path / "w.csv")
     assert result.exit_code == 2
     assert not (tmp_path / "w.csv").exists()

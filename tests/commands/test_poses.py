@@ -60,7 +60,7 @@ def test_a_plan_leads_to_the_error_that_it_predicts(tmp_path: Path) -> None:
     result = invoke("plan-poses", 6, *ARM, "--out", out, "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
-    text = out.read_text().splitlines()
+    text = out.read_text(encoding="utf-8").splitlines()
     assert text[0] == "name,qw,qx,qy,qz,j1,j2,j3,j4,j5,j6,contact_error_mm"
     assert len(text) == 7
     cells = np.array([[float(cell) for cell in row.split(",")[1:]] for row in text[1:]])

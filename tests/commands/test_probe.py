@@ -83,7 +83,7 @@ def test_shell_closes_and_says_how(hollow, tmp_path):
     probe = load_probe(out, "m")
     assert probe.health.sentences == ()
     assert probe.invented.any()
-    assert json.loads((tmp_path / "shell.json").read_text())["history"][1]["step"] == "shell"
+    assert json.loads((tmp_path / "shell.json").read_text(encoding="utf-8"))["history"][1]["step"] == "shell"
 
 
 def test_prepare_goes_from_the_file_to_the_probe(hollow, tmp_path):
@@ -106,7 +106,7 @@ def test_simplify_by_contact_error_when_nothing_is_asked_for(ready, tmp_path):
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
     assert facts["facets"] < 2000
-    step = json.loads((tmp_path / "less.json").read_text())["history"][-1]
+    step = json.loads((tmp_path / "less.json").read_text(encoding="utf-8"))["history"][-1]
     assert step["parameters"]["max_contact_error_mm"] == pytest.approx(0.1)
     assert load_probe(tmp_path / "less.ply", "m").region.max() == 1
 
@@ -143,7 +143,9 @@ def test_align_by_numbers_and_by_what_was_saved(ready, tmp_path):
 
 def test_align_by_points(ready, tmp_path):
     points = tmp_path / "points.csv"
-    points.write_text("px,py,pz,sx,sy,sz\n0,0,0,0,0,10\n50,0,0,0,50,10\n0,30,0,-30,0,10\n0,0,20,0,0,30\n")
+    points.write_text(
+        "px,py,pz,sx,sy,sz\n0,0,0,0,0,10\n50,0,0,0,50,10\n0,30,0,-30,0,10\n0,0,20,0,0,30\n", encoding="utf-8"
+    )
     result = invoke("align", ready, "--points", points, "--out", tmp_path / "a.ply", "--json")
     assert result.exit_code == 0, result.stderr
     T_SP = np.array(json.loads(result.stdout)["T_SP_m"])
@@ -176,7 +178,7 @@ def touches_file(file, probe, T_SP, count=15):
     points = (drawn.truth.points[:count] - T_SP[:3, 3]) @ T_SP[:3, :3] * 1000
     rows = np.column_stack((points, drawn.noisy[:count]))
     lines = [",".join(f"{value!r}" for value in row) for row in rows.tolist()]
-    file.write_text("px,py,pz,fx,fy,fz,mx,my,mz\n" + "\n".join(lines) + "\n")
+    file.write_text("px,py,pz,fx,fy,fz,mx,my,mz\n" + "\n".join(lines) + "\n", encoding="utf-8")
     return file
 
 
@@ -310,17 +312,17 @@ def test_prepare_refuses_nonsense_before_the_work(hollow, tmp_path, monkeypatch,
 
 
 def test_json_sent_to_where_the_history_goes(ready, tmp_path):
-    (tmp_path / "probe.json").write_text("")  # what a shell makes of > probe.json
+    (tmp_path / "probe.json").write_text("", encoding="utf-8")  # what a shell makes of > probe.json
     result = invoke("simplify", ready, "--facets", "100", "--out", tmp_path / "probe.ply", "--json")
     assert result.exit_code == 2
     assert "send it elsewhere" in said(result)
 
 
 def test_a_json_file_of_somebody_else_is_not_written_over(ready, tmp_path):
-    (tmp_path / "probe.json").write_text("[1, 2]")
+    (tmp_path / "probe.json").write_text("[1, 2]", encoding="utf-8")
     result = invoke("simplify", ready, "--facets", "100", "--out", tmp_path / "probe.ply")
     assert result.exit_code == 2
-    assert (tmp_path / "probe.json").read_text() == "[1, 2]"
+    assert (tmp_path / "probe.json").read_text(encoding="utf-8") == "[1, 2]"
     assert not (tmp_path / "probe.ply").exists()
 
 

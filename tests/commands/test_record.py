@@ -65,7 +65,7 @@ def test_a_robot_beside_the_sensor(tmp_path):
     assert invoke("recording", "delay", out).exit_code in (1, 2)  # it stood still, or too short
     converted = invoke("recording", "convert", out, "--out", tmp_path / "a.csv")
     assert converted.exit_code == 0, converted.stderr
-    assert (tmp_path / "a.csv").read_text().startswith("t,fx,fy,fz,mx,my,mz,qw,qx,qy,qz")
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8").startswith("t,fx,fy,fz,mx,my,mz,qw,qx,qy,qz")
 
 
 def test_a_gap_stays_a_gap_and_is_kept_as_an_event(tmp_path):
@@ -237,7 +237,7 @@ def test_a_replay_beside_a_typed_pose(tmp_path):
 
 def test_a_sensor_beside_poses_from_a_file(tmp_path):
     out, poses = tmp_path / "a.mcap", tmp_path / "poses.csv"
-    poses.write_text("t,qw,qx,qy,qz\n" + "".join(f"{t / 100},1,0,0,0\n" for t in range(40)))
+    poses.write_text("t,qw,qx,qy,qz\n" + "".join(f"{t / 100},1,0,0,0\n" for t in range(40)), encoding="utf-8")
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
         result = invoke("record", device.url, "--pose", f"poses://{poses}", "--out", out, "--seconds", 30)
     assert result.exit_code == 0, result.stderr
@@ -279,7 +279,7 @@ def test_a_replay_that_breaks_off_is_kept_and_told(tmp_path, monkeypatch):
     ],
 )
 def test_sources_that_do_not_give_it_leave_no_file(tmp_path, sensor, pose, part):
-    (tmp_path / "text.mcap").write_text("t,fx\n")
+    (tmp_path / "text.mcap").write_text("t,fx\n", encoding="utf-8")
     record(tmp_path / "wrenches.mcap", 10, 0)
     record(tmp_path / "poses.mcap", 0, 10)
     before = sorted(tmp_path.iterdir())

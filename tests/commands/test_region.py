@@ -123,7 +123,7 @@ def test_a_region_that_nothing_can_touch(mesh: Path) -> None:
 
 def test_every_command_is_in_the_history(mesh: Path) -> None:
     done("box", mesh, "Top", "--low=-100,-100,19.9", "--high=100,100,100")
-    history = json.loads(mesh.with_suffix(".json").read_text())["history"]
+    history = json.loads(mesh.with_suffix(".json").read_text(encoding="utf-8"))["history"]
     assert [step["parameters"]["command"] for step in history] == ["add", "add", "box"]
     assert history[1]["parameters"] == {"command": "add", "name": "Side", "colour": "#123456"}
     assert history[2]["parameters"]["low"] == "-100,-100,19.9"
@@ -133,10 +133,10 @@ def test_every_command_is_in_the_history(mesh: Path) -> None:
 
 def test_what_else_the_sidecar_holds_stays(mesh: Path) -> None:
     sidecar = mesh.with_suffix(".json")
-    document = json.loads(sidecar.read_text())
-    sidecar.write_text(json.dumps({"source": "part.stl", **document}))
+    document = json.loads(sidecar.read_text(encoding="utf-8"))
+    sidecar.write_text(json.dumps({"source": "part.stl", **document}), encoding="utf-8")
     done("rename", mesh, "Top", "Lens")
-    kept = json.loads(sidecar.read_text())
+    kept = json.loads(sidecar.read_text(encoding="utf-8"))
     assert kept["source"] == "part.stl"
     assert kept["regions"][0] == {"name": "Lens", "colour": "#e69f00"}
 
@@ -282,8 +282,8 @@ def test_undo_goes_back_to_the_first_command_and_a_new_one_ends_redo(mesh: Path)
 
 def test_steps_end_where_something_else_changes_the_probe(mesh: Path) -> None:
     sidecar = mesh.with_suffix(".json")
-    document = json.loads(sidecar.read_text())
-    sidecar.write_text(json.dumps({"source": "part.stl", **document}))
+    document = json.loads(sidecar.read_text(encoding="utf-8"))
+    sidecar.write_text(json.dumps({"source": "part.stl", **document}), encoding="utf-8")
     before = state(mesh)
     result = invoke("undo", mesh)
     assert result.exit_code == 1
@@ -343,9 +343,9 @@ def test_steps_with_regions_that_cannot_be_are_refused(mesh: Path) -> None:
     done("plane", mesh, "Top", "--point", "0,0,19", "--normal", "0,0,1")
     done("clear", mesh, "Top")
     file = mesh.with_suffix(".undo")
-    document = json.loads(file.read_text())
+    document = json.loads(file.read_text(encoding="utf-8"))
     document["done"][-1]["other"]["regions"][0]["facets"] = [[0, 769]]
-    file.write_text(json.dumps(document))
+    file.write_text(json.dumps(document), encoding="utf-8")
     before = state(mesh)
     result = invoke("undo", mesh)
     assert result.exit_code == 2

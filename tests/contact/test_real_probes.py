@@ -61,11 +61,11 @@ def test_the_command_runs_on_it_and_says_what_is_wrong(real_probe, tmp_path):
     path = REAL_PROBES / f"{real_probe.name}.stl"
     _, wrenches = outer_touches(real_probe, 200, np.random.default_rng(2))
     rows = "\n".join(f"{i / 200},{','.join(map(repr, map(float, row)))}" for i, row in enumerate(wrenches))
-    (tmp_path / "w.csv").write_text(f"t,fx,fy,fz,mx,my,mz\n{rows}\n")
+    (tmp_path / "w.csv").write_text(f"t,fx,fy,fz,mx,my,mz\n{rows}\n", encoding="utf-8")
     arguments = ["locate", "--probe", str(path), "--units", "mm", "--mount", "0,0,160,90,0,0", "--json"]
     result = CliRunner().invoke(app, [*arguments, str(tmp_path / "w.csv"), "--out", str(tmp_path / "c.csv")])
     assert result.exit_code == 0, result.stderr
     summary = json.loads(result.stdout)
     assert summary["rows"] == 200
     assert summary["warnings"]
-    assert len((tmp_path / "c.csv").read_text().splitlines()) == 201
+    assert len((tmp_path / "c.csv").read_text(encoding="utf-8").splitlines()) == 201

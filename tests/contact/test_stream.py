@@ -368,7 +368,7 @@ def test_output_must_not_be_the_input(solver, write, tmp_path):
     for out in (source, tmp_path / "." / source.name, link):
         with pytest.raises(WrenchFileError, match="the output would replace the input: choose another name"):
             locate_file(solver, source, out)
-    assert source.read_text() == PLAIN
+    assert source.read_text(encoding="utf-8") == PLAIN
 
 
 def test_output_that_cannot_be_written(solver, write, tmp_path):
@@ -391,7 +391,7 @@ def test_a_bad_row_late_in_the_file_leaves_the_old_output(solver, write, tmp_pat
     source = write(table(*[GOOD] * 5000, "1,2,3"))
     with pytest.raises(WrenchFileError, match="line 5002"):
         located(solver, source, block_bytes=1000)
-    assert old.read_text() == "old"
+    assert old.read_text(encoding="utf-8") == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["contacts.csv", "wrenches.csv"]
 
 
@@ -406,7 +406,7 @@ def test_an_interruption_leaves_the_old_output(solver, write, tmp_path, monkeypa
     expected = WrenchFileError if isinstance(fault, OSError) else KeyboardInterrupt
     with pytest.raises(expected, match="No space left" if isinstance(fault, OSError) else None):
         located(solver, write(PLAIN))
-    assert old.read_text() == "old"
+    assert old.read_text(encoding="utf-8") == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["contacts.csv", "wrenches.csv"]
 
 

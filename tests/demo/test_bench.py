@@ -39,7 +39,7 @@ CHECKED = (
 
 
 def columns(file: Path) -> dict[str, list[str]]:
-    with file.open(newline="") as stream:
+    with file.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     return {name: [row[name] for row in rows] for name in rows[0]}
 
@@ -108,7 +108,7 @@ def test_markers_are_located_within_the_noise(benched: demo.DemoReport) -> None:
 def test_same_seed_same_bytes(benched: demo.DemoReport, tmp_path: Path) -> None:
     (tmp_path / "convex").mkdir()
     for file in ("truth.csv", "gravity.mcap"):
-        (tmp_path / "convex" / file).write_text("old")
+        (tmp_path / "convex" / file).write_text("old", encoding="utf-8")
     demo.run(tmp_path, ["convex"], TOUCHES, 3)
     for name in (*TRACES, *CHECKED, "contacts.csv", "calibration.json", "drawn/contacts.csv"):
         assert (tmp_path / "convex" / name).read_bytes() == (benched.out / "convex" / name).read_bytes(), name
@@ -121,7 +121,7 @@ def test_without_physics_it_is_said_and_done_by_formula(tmp_path: Path) -> None:
     (tmp_path / "convex").mkdir()
     for name in ("touches.mcap", "verification.json", "runtime/contactbench.json"):
         (tmp_path / "convex" / name).parent.mkdir(exist_ok=True)
-        (tmp_path / "convex" / name).write_text("of another run")
+        (tmp_path / "convex" / name).write_text("of another run", encoding="utf-8")
     found = demo.run(tmp_path, ["convex"], TOUCHES, 3)
     assert found.verified
     assert found.probes[0].touched == ()

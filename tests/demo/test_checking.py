@@ -47,7 +47,7 @@ def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def contacts_of(folder: Path) -> list[dict[str, Any]]:
-    return [json.loads(line) for line in (folder / "contacts.jsonl").read_text().splitlines()]
+    return [json.loads(line) for line in (folder / "contacts.jsonl").read_text(encoding="utf-8").splitlines()]
 
 
 def test_the_demo_ends_with_a_bundle_that_is_verified(benched: demo.DemoReport) -> None:
@@ -94,7 +94,7 @@ def test_markers_are_the_points_that_were_pressed(benched: demo.DemoReport) -> N
 def test_the_bundle_finds_the_verified_points_and_the_true_ones(benched: demo.DemoReport) -> None:
     folder = benched.out / "convex"
     contacts = {round(200 * line["time"]): line for line in contacts_of(folder)}
-    verified = json.loads((folder / "verification.json").read_text())
+    verified = json.loads((folder / "verification.json").read_text(encoding="utf-8"))
     apart = [
         np.linalg.norm(
             1e3 * np.array(contacts[round(200 * touch["time_s"])]["point_S_m"]) - touch["point_mm"]
@@ -217,7 +217,7 @@ def test_what_cannot_be_removed_is_named(tmp_path: Path) -> None:
 def test_clearing_leaves_what_is_not_ours(tmp_path: Path) -> None:
     (tmp_path / "runtime").mkdir()
     for name in ("runtime/planes.csv", "runtime/notes.txt", "markers.csv", "mine.csv"):
-        (tmp_path / name).write_text("x")
+        (tmp_path / name).write_text("x", encoding="utf-8")
     checking.clear(tmp_path)
     left = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
     assert left == {"runtime/notes.txt", "mine.csv"}

@@ -30,7 +30,7 @@ CSV_FILES = ("recording.csv", "wrenches.csv", "truth.csv", "contacts.csv")
 
 
 def columns(file: Path) -> dict[str, list[str]]:
-    with file.open(newline="") as stream:
+    with file.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     return {name: [row[name] for row in rows] for name in rows[0]}
 
@@ -102,8 +102,8 @@ def test_a_probe_alone_is_the_same_and_another_seed_is_not(done: demo.DemoReport
     demo.run(tmp_path, ["convex"], TOUCHES, 3)
     for file in ("probe.ply", "poses.csv", "calibration.json", *(f"drawn/{each}" for each in CSV_FILES)):
         assert (tmp_path / "convex" / file).read_bytes() == (done.out / "convex" / file).read_bytes()
-    again = (tmp_path / "errors.csv").read_text().splitlines()
-    assert set(again) < set((done.out / "errors.csv").read_text().splitlines())
+    again = (tmp_path / "errors.csv").read_text(encoding="utf-8").splitlines()
+    assert set(again) < set((done.out / "errors.csv").read_text(encoding="utf-8").splitlines())
     demo.run(tmp_path, ["convex"], TOUCHES, 4)
     assert (tmp_path / "convex" / "drawn" / "wrenches.csv").read_bytes() != (
         done.out / "convex" / "drawn" / "wrenches.csv"
@@ -127,7 +127,7 @@ def test_the_mesh_is_prepared_from_a_hollow_housing(done: demo.DemoReport) -> No
         assert made.health.sentences == ()
         assert made.bounds[0, 2] < 0.01  # the invented facets lie at the flange, where nothing is touched
         assert made.vertices[made.faces[made.invented]][:, :, 2].max() < 0.02
-        history = json.loads((done.out / result.probe / "probe.json").read_text())["history"]
+        history = json.loads((done.out / result.probe / "probe.json").read_text(encoding="utf-8"))["history"]
         assert [step["step"] for step in history] == ["import", "shell", "align", "region", "simplify"]
         assert any(sentence.startswith(f"{result.probe}: a hollow housing") for sentence in done.sentences())
 
@@ -213,7 +213,7 @@ def test_a_missing_method_is_left_out_with_a_sentence(
     monkeypatch.setitem(METHODS, "wrench_axis", absent)
     found = demo.run(tmp_path, ["linear"], TOUCHES, 0)
     assert any("wrench_axis is left out: the wrench_axis method needs Embree" in note for note in found.notes)
-    assert "wrench_axis" not in (tmp_path / "errors.csv").read_text()
+    assert "wrench_axis" not in (tmp_path / "errors.csv").read_text(encoding="utf-8")
 
 
 # ---- command -------------------------------------------------------------------------------------
@@ -262,13 +262,13 @@ def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message:
 
 @pytest.mark.parametrize("below", ["", "deeper"])
 def test_out_that_is_a_file(tmp_path: Path, below: str) -> None:
-    (tmp_path / "taken").write_text("mine")
+    (tmp_path / "taken").write_text("mine", encoding="utf-8")
     out = tmp_path / "taken" / below
     result = invoke("--out", out, "--json")
     assert result.exit_code == 2
     error = json.loads(result.stdout)["error"]
     assert error == f"{out}: {tmp_path / 'taken'} is a file: choose another name for the folder."
-    assert (tmp_path / "taken").read_text() == "mine"
+    assert (tmp_path / "taken").read_text(encoding="utf-8") == "mine"
 
 
 @pytest.mark.usefixtures("undrawn", "no_bench")

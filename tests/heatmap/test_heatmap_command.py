@@ -37,12 +37,12 @@ def bench(tmp_path_factory):
     rows = "\n".join(
         ",".join(map(repr, [float(t), *w.tolist()])) for t, w in zip(times, wrenches, strict=True)
     )
-    (folder / "w.csv").write_text(f"t,fx,fy,fz,mx,my,mz\n{rows}\n")
+    (folder / "w.csv").write_text(f"t,fx,fy,fz,mx,my,mz\n{rows}\n", encoding="utf-8")
     marks = "\n".join(
         f"M{i},{','.join(map(repr, (1e3 * centroids[f] + [0.3, 0, 0]).tolist()))}"
         for i, f in enumerate(places)
     )
-    (folder / "m.csv").write_text(f"name,x_mm,y_mm,z_mm\n{marks}\n")
+    (folder / "m.csv").write_text(f"name,x_mm,y_mm,z_mm\n{marks}\n", encoding="utf-8")
     calibration = calibrate(weighed().poses)
     save_calibration(calibration, folder / "c.json")
     raw = wrenches + calibration.model.predict(np.eye(3))
@@ -149,10 +149,12 @@ def test_a_window_of_time_and_a_range_of_force(bench, monkeypatch, given):
 
 def without(file, column):
     """Return a copy of a table without a column."""
-    rows = [line.split(",") for line in file.read_text().splitlines()]
+    rows = [line.split(",") for line in file.read_text(encoding="utf-8").splitlines()]
     place = rows[0].index(column)
     copy = file.with_name(f"without-{column}.csv")
-    copy.write_text("".join(",".join(row[:place] + row[place + 1 :]) + "\n" for row in rows))
+    copy.write_text(
+        "".join(",".join(row[:place] + row[place + 1 :]) + "\n" for row in rows), encoding="utf-8"
+    )
     return copy
 
 
@@ -164,11 +166,12 @@ def test_weighed_by_confidence(bench):
     assert "without-confidence.csv: these contacts do not say how sure they are" in " ".join(
         done.output.split()
     )
-    rows = old.read_text().splitlines()
+    rows = old.read_text(encoding="utf-8").splitlines()
     file = bench / "half.csv"
     sure = [1.0 if number < N // 2 else 0.5 for number in range(N)]
     file.write_text(
-        "\n".join([f"{rows[0]},confidence", *(f"{row},{c}" for row, c in zip(rows[1:], sure, strict=True))])
+        "\n".join([f"{rows[0]},confidence", *(f"{row},{c}" for row, c in zip(rows[1:], sure, strict=True))]),
+        encoding="utf-8",
     )
     said = facts(file, *shared, "--by-confidence")
     assert (said["by_confidence"], said["total"]) == (True, pytest.approx(0.75 * N))
@@ -180,18 +183,18 @@ def test_weighed_by_confidence(bench):
 
 
 def test_a_confidence_that_is_none_is_refused(bench):
-    text = (bench / "contacts.csv").read_text().splitlines()
+    text = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()
     place = text[0].split(",").index("confidence")
     cells = text[3].split(",")
     cells[place] = "1.5"
     wrong = bench / "wrong.csv"
-    wrong.write_text("\n".join([*text[:3], ",".join(cells), *text[4:]]))
+    wrong.write_text("\n".join([*text[:3], ",".join(cells), *text[4:]]), encoding="utf-8")
     done = run("heatmap", wrong, "--probe", bench / "p.ply", "--out", bench / "x.ply", code=2)
     assert "wrong.csv: row 3: the confidence is 1.5" in " ".join(done.output.split())
 
 
 def test_only_sure_places_are_shown(bench):
-    text = (bench / "contacts.csv").read_text().splitlines()
+    text = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()
     rows = [
         row.replace(",ok,", f",{reason},")
         for row, reason in zip(
@@ -201,7 +204,7 @@ def test_only_sure_places_are_shown(bench):
         )
     ]
     file = bench / "reasons.csv"
-    file.write_text("\n".join([text[0], *rows]))
+    file.write_text("\n".join([text[0], *rows]), encoding="utf-8")
     said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply")
     assert said["contacts"] == N - 3
     assert said["left_out"] == {"ambiguous": 1, "outside_region": 1, "two_touches": 1}
@@ -209,7 +212,8 @@ def test_only_sure_places_are_shown(bench):
     file.write_text(
         "\n".join(
             [text[0], *(row.replace(",ok,", ",ambiguous,") for row in text[1 : N // 2]), *text[N // 2 :]]
-        )
+        ),
+        encoding="utf-8",
     )
     said = facts(file, "--probe", bench / "p.ply", "--out", bench / "d.ply")
     assert f"{N // 2 - 1} of {N} contacts could be at another place as well" in said["warnings"][0]

@@ -39,7 +39,9 @@ def test_two_mutants_are_noticed_and_the_checkout_stays_as_it_is() -> None:
 def test_a_mutant_that_changes_nothing_survives(tmp_path: Path) -> None:
     table = tmp_path / "mutants.toml"
     line = "inline constexpr int reason_count = 15;"
-    table.write_text(f'[harmless]\nfile = "answer.hpp"\nold = "{line}"\nnew = "{line}  // the same"\n')
+    table.write_text(
+        f'[harmless]\nfile = "answer.hpp"\nold = "{line}"\nnew = "{line}  // the same"\n', encoding="utf-8"
+    )
     result = run("--table", str(table))
     assert result.returncode == 1, result.stdout + result.stderr
     assert re.search(r"^harmless +SURVIVED$", result.stdout, re.MULTILINE)
@@ -60,7 +62,7 @@ def test_every_line_of_the_table_is_in_its_header_once() -> None:
 )
 def test_a_line_that_is_not_there_once_is_refused(tmp_path: Path, file: str, old: str, says: str) -> None:
     table = tmp_path / "mutants.toml"
-    table.write_text(f'[stale]\nfile = "{file}"\nold = "{old}"\nnew = ""\n')
+    table.write_text(f'[stale]\nfile = "{file}"\nold = "{old}"\nnew = ""\n', encoding="utf-8")
     result = run("--table", str(table))
     assert result.returncode == 2
     assert "mutants: stale: " in result.stderr
@@ -69,7 +71,7 @@ def test_a_line_that_is_not_there_once_is_refused(tmp_path: Path, file: str, old
 
 def test_a_table_without_a_line_to_change_is_refused(tmp_path: Path) -> None:
     table = tmp_path / "mutants.toml"
-    table.write_text('[half]\nfile = "answer.hpp"\nold = "}"\n')
+    table.write_text('[half]\nfile = "answer.hpp"\nold = "}"\n', encoding="utf-8")
     result = run("--table", str(table))
     assert result.returncode == 2
     assert "[half] needs file, old and new" in result.stderr

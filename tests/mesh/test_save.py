@@ -70,7 +70,7 @@ def test_other_programs_can_read_it(box, tmp_path):
 
 def test_replaces_in_one_step_and_leaves_nothing_behind(box, tmp_path):
     path = tmp_path / "box.ply"
-    path.write_text("old")
+    path.write_text("old", encoding="utf-8")
     save_probe(Probe.from_arrays(*box), path)
     assert path.read_bytes()[:4] == b"ply\n"
     assert [entry.name for entry in tmp_path.iterdir()] == ["box.ply"]
@@ -102,7 +102,7 @@ def test_missing_folder_is_refused(box, tmp_path):
 @pytest.mark.parametrize("step", ["fsync", "replace"])
 def test_a_failure_leaves_the_old_file_and_no_scratch(box, tmp_path, monkeypatch, step):
     path = tmp_path / "box.ply"
-    path.write_text("old")
+    path.write_text("old", encoding="utf-8")
 
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
@@ -113,5 +113,5 @@ def test_a_failure_leaves_the_old_file_and_no_scratch(box, tmp_path, monkeypatch
         monkeypatch.setattr(Path, "replace", full)
     with pytest.raises(MeshError, match="No space left on device"):
         save_probe(Probe.from_arrays(*box), path)
-    assert path.read_text() == "old"
+    assert path.read_text(encoding="utf-8") == "old"
     assert [entry.name for entry in tmp_path.iterdir()] == ["box.ply"]

@@ -121,16 +121,16 @@ def test_colours_are_for_viewers(content, tmp_path):
 )
 def test_a_broken_history_is_refused_by_name(content, tmp_path, text, match):
     save_probe_file(content, tmp_path / "probe.ply")
-    (tmp_path / "probe.json").write_text(text)
+    (tmp_path / "probe.json").write_text(text, encoding="utf-8")
     with pytest.raises(RegionError, match=match) as caught:
         load_probe_file(tmp_path / "probe.ply")
     assert str(tmp_path / "probe.json") in str(caught.value)
 
 
 def test_what_else_the_json_holds_stays(content, tmp_path):
-    (tmp_path / "probe.json").write_text('{"serial": 7}')
+    (tmp_path / "probe.json").write_text('{"serial": 7}', encoding="utf-8")
     save_probe_file(content, tmp_path / "probe.ply")
-    document = json.loads((tmp_path / "probe.json").read_text())
+    document = json.loads((tmp_path / "probe.json").read_text(encoding="utf-8"))
     assert document["serial"] == 7
     assert document["mesh"]["frame"] == "S"
 

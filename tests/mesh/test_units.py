@@ -150,7 +150,7 @@ def test_auto_asks_where_it_is_not(scaled):
 
 
 def test_auto_reads_comments(scaled, write):
-    text = scaled(1 / 25.4, "mesh.obj").read_text()
+    text = scaled(1 / 25.4, "mesh.obj").read_text(encoding="utf-8")
     probe = load_probe(write("inch.obj", "# File units = inches\n" + text), "auto")
     assert probe.size == pytest.approx(0.08, rel=1e-3)
 

@@ -139,7 +139,7 @@ def test_units_decide_the_size_and_nothing_else(tmp_path):
         file = tmp_path / f"{unit}.obj"  # in full precision: STL rounds, and every unit otherwise
         lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in (probe.vertices * scale).tolist()]
         lines += [f"f {a} {b} {c}" for a, b, c in (probe.faces + 1).tolist()]
-        file.write_text("\n".join(lines) + "\n")
+        file.write_text("\n".join(lines) + "\n", encoding="utf-8")
         made.append(prepare(file, unit, target=count(400)).content.probe)
     for other in made[1:]:
         assert np.array_equal(other.faces, made[0].faces)

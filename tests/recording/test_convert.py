@@ -18,7 +18,7 @@ from pipeline.recording.convert import LONGEST_GAP, load_npz, poses_at, write_cs
 
 
 def table(file: Path) -> dict[str, list[str]]:
-    with file.open(newline="") as stream:
+    with file.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     return {name: [row[name] for row in rows] for name in rows[0]}
 
@@ -120,10 +120,10 @@ def test_nothing_to_write_leaves_what_is_there(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", ABOUT) as writer:
         writer.wrench(replace(wrench_samples(1)[0], status=Status.INVALID))
     found = read_recording(tmp_path / "r.mcap")
-    (tmp_path / "r.csv").write_text("mine")
+    (tmp_path / "r.csv").write_text("mine", encoding="utf-8")
     with pytest.raises(RecordingError, match="no reading of /wrench would be left"):
         write_csv(tmp_path / "r.csv", found)
-    assert (tmp_path / "r.csv").read_text() == "mine"
+    assert (tmp_path / "r.csv").read_text(encoding="utf-8") == "mine"
     with pytest.raises(RecordingError, match="cannot be written"):
         write_npz(tmp_path / "missing" / "r.npz", found)
     with RecordingWriter(tmp_path / "e.mcap", ABOUT):

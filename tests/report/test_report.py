@@ -220,7 +220,7 @@ def test_a_verification_is_read_back_as_it_was(given, files):
 def test_a_wrong_verification_is_refused_by_name(files, tmp_path, change, words):
     data = json.loads((files / "v.json").read_bytes())
     change(data)
-    (tmp_path / "v.json").write_text(json.dumps(data))
+    (tmp_path / "v.json").write_text(json.dumps(data), encoding="utf-8")
     with pytest.raises(ReportError, match=words):
         read_verification(tmp_path / "v.json")
 
@@ -228,7 +228,7 @@ def test_a_wrong_verification_is_refused_by_name(files, tmp_path, change, words)
 def test_what_is_no_verification_at_all_is_refused(tmp_path):
     with pytest.raises(ReportError, match="cannot be read"):
         read_verification(tmp_path / "none.json")
-    (tmp_path / "v.json").write_text('{"schema": NaN}')
+    (tmp_path / "v.json").write_text('{"schema": NaN}', encoding="utf-8")
     with pytest.raises(ReportError, match="not JSON"):
         read_verification(tmp_path / "v.json")
 
@@ -353,14 +353,14 @@ def test_a_check_of_another_calibration_is_not_shown_as_one_of_this(given):
 
 
 def test_the_command_takes_the_checks_and_refuses_other_files(files, tmp_path):
-    (tmp_path / "w.json").write_text(json.dumps(known("known_weight")))
+    (tmp_path / "w.json").write_text(json.dumps(known("known_weight")), encoding="utf-8")
     arguments = ["report", "--verification", files / "v.json", "--probe", files / "p.ply", "--out"]
     options = ["--known-weight", tmp_path / "w.json"]
     result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
     assert result.exit_code == 0, result.stderr
     assert "The sensor reads 1.001 kg" in (tmp_path / "r.html").read_text("utf-8")
     for wrong in ({"version": 2}, {"outcome": "perhaps"}, {"sentence": None}):
-        (tmp_path / "w.json").write_text(json.dumps(known("known_weight") | wrong))
+        (tmp_path / "w.json").write_text(json.dumps(known("known_weight") | wrong), encoding="utf-8")
         result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
         assert result.exit_code == 2
         assert "this is no contactbench.known_weight of version 1" in " ".join(result.stderr.split())

@@ -128,12 +128,12 @@ class TestLines:
         assert outlet.gone
 
     def test_a_file_that_is_there_is_not_touched(self, tmp_path: Path) -> None:
-        (tmp_path / "a").write_text("old")
+        (tmp_path / "a").write_text("old", encoding="utf-8")
         with pytest.raises(OutputError, match="a: it is there already"):
             LineTarget.new(tmp_path / "a")
         with pytest.raises(OutputError, match="cannot be written"):
             LineTarget.new(tmp_path / "no" / "a")
-        assert (tmp_path / "a").read_text() == "old"
+        assert (tmp_path / "a").read_text(encoding="utf-8") == "old"
 
 
 class TestUdp:

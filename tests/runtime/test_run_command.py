@@ -63,7 +63,7 @@ def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
         first = json.loads(listener.recv(4096))
     assert done.exit_code == 1, done.stderr  # more than 5 % of the samples have no pose
     assert done.stdout == ""
-    rows = [json.loads(line) for line in out.read_text().splitlines()]
+    rows = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()]
     assert len(rows) == COUNT
     assert first == rows[0]
     with mcap.open("rb") as file:
@@ -100,7 +100,7 @@ def test_an_unverified_bundle_is_refused_unless_asked_for(folder: Path, tmp_path
     done = run(folder / "unverified.zip", *BENCH, "--seconds", "0.3", "--unverified", "--out", out)
     assert done.exit_code == 0, done.stderr
     assert "NOT VERIFIED" in done.stderr
-    assert len(out.read_text().splitlines()) > 10
+    assert len(out.read_text(encoding="utf-8").splitlines()) > 10
 
 
 @pytest.mark.parametrize(
@@ -145,7 +145,7 @@ def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) 
     assert "model is M9, the bundle is for virtual" in done.stderr
     assert "the bundle is for 1000" in done.stderr
     assert "for the poses have no positions: 1 kg at 1 m/s² is 1 N" in " ".join(done.stderr.split())
-    reasons = {json.loads(line)["reason"] for line in out.read_text().splitlines()}
+    reasons = {json.loads(line)["reason"] for line in out.read_text(encoding="utf-8").splitlines()}
     assert "stale" not in reasons  # a pose that was typed never gets old
 
 

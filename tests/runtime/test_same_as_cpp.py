@@ -70,7 +70,7 @@ def test_a_recording_gives_the_same_bytes(
     told = tmp_path / "told.jsonl"
     arguments = ["run", str(folder), "--sensor", address, "--pose", address, "--out", str(told)]
     assert CliRunner().invoke(app, arguments).exit_code == 0
-    out = told.read_text().splitlines()
+    out = told.read_text(encoding="utf-8").splitlines()
     expected = run(example, folder, given="\n".join(input_lines(mixed))).splitlines()
     assert len(out) == 5_000
     assert out == expected
@@ -100,7 +100,7 @@ def test_what_a_contact_lies_on_is_told_alike(example: Path, tmp_path: Path) -> 
     arguments = ["run", str(tmp_path / "bundle"), "--sensor", address, "--pose", address, "--out", str(told)]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 0, done.stderr
-    lines = told.read_text().splitlines()
+    lines = told.read_text(encoding="utf-8").splitlines()
     assert lines == run(example, tmp_path / "bundle", given="\n".join(input_lines(mixed))).splitlines()
     rows = [json.loads(line) for line in lines]
     assert [row["on"] for row in rows] == [None if row["face"] < 0 else marks[row["face"]] for row in rows]
@@ -128,7 +128,7 @@ def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig
     arguments = ["run", str(folder), "--sensor", address, "--pose", address, "--out", str(told)]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 0, done.stderr
-    out = told.read_text().splitlines()
+    out = told.read_text(encoding="utf-8").splitlines()
     assert out == run(example, folder, given="\n".join(input_lines(mixed))).splitlines()
     zeros = [json.loads(line)["zero"] for line in out]
     states = [zero["state"] for zero in zeros]

@@ -182,7 +182,9 @@ def packed(session, out):
 
 def test_files_that_shrink_like_bombs_come_back(folder, tmp_path):
     (tmp_path / "zeros.bin").write_bytes(bytes(3 * 2**20))
-    (tmp_path / "text.csv").write_text("".join(f"{n * 7919 % 100_003}\n" for n in range(200_000)))
+    (tmp_path / "text.csv").write_text(
+        "".join(f"{n * 7919 % 100_003}\n" for n in range(200_000)), encoding="utf-8"
+    )
     with Session.open(folder) as session:
         for name in ("zeros.bin", "text.csv"):
             session.add_input(tmp_path / name, "raw")
@@ -264,9 +266,9 @@ def test_nothing_but_an_archive_is_written_over(folder, tmp_path):
         with pytest.raises(SessionError, match="inside the session"):
             export_archive(folder, out)
     assert (folder / "journal").read_bytes() == journal
-    (tmp_path / "letter.txt").write_text("dear")
+    (tmp_path / "letter.txt").write_text("dear", encoding="utf-8")
     with pytest.raises(SessionError, match="no archive"):
         export_archive(folder, tmp_path / "letter.txt")
-    assert (tmp_path / "letter.txt").read_text() == "dear"
+    assert (tmp_path / "letter.txt").read_text(encoding="utf-8") == "dear"
     for _ in range(2):
         export_archive(folder, tmp_path / "x.zip")

@@ -169,7 +169,7 @@ def test_another_json_file_beside_the_same_surface_makes_it_stale(folder, ball, 
     again = tmp_path / "ball.ply"
     again.write_bytes(ball.read_bytes())
     document = json.loads(ball.with_suffix(".json").read_bytes())
-    again.with_suffix(".json").write_text(json.dumps({**document, "note": "other"}))
+    again.with_suffix(".json").write_text(json.dumps({**document, "note": "other"}), encoding="utf-8")
     assert done("add", folder, again, "--kind", "mesh")["stale"] == ["probe p.ply"]
     assert done("add", folder, ball, "--kind", "mesh")["stale"] == []
     assert done("replay", folder)["same"] == 1

@@ -30,17 +30,17 @@ def folder(tmp_path):
 def test_a_lock_of_another_program_is_left_alone(tmp_path):
     for name, more in (("full", True), ("alone", False)):
         (tmp_path / name).mkdir()
-        (tmp_path / name / "lock").write_text("my precious")
+        (tmp_path / name / "lock").write_text("my precious", encoding="utf-8")
         if more:
-            (tmp_path / name / "other").write_text("x")
+            (tmp_path / name / "other").write_text("x", encoding="utf-8")
         for attempt in (Session.create, Session.open, repair):
             with pytest.raises(SessionError):
                 attempt(tmp_path / name)
-        assert (tmp_path / name / "lock").read_text() == "my precious"
+        assert (tmp_path / name / "lock").read_text(encoding="utf-8") == "my precious"
 
 
 def test_no_lock_is_left_in_a_folder_that_is_no_session(tmp_path):
-    (tmp_path / "other").write_text("x")
+    (tmp_path / "other").write_text("x", encoding="utf-8")
     for attempt in (Session.create, Session.open, repair):
         with pytest.raises(SessionError):
             attempt(tmp_path)
@@ -49,12 +49,12 @@ def test_no_lock_is_left_in_a_folder_that_is_no_session(tmp_path):
 
 @posix
 def test_a_lock_that_is_a_link_or_a_pipe_is_refused(folder, tmp_path):
-    (tmp_path / "target").write_text("precious")
+    (tmp_path / "target").write_text("precious", encoding="utf-8")
     (folder / "lock").unlink()
     (folder / "lock").symlink_to("../target")
     with pytest.raises(SessionError, match="cannot be locked"):
         Session.open(folder)
-    assert (tmp_path / "target").read_text() == "precious"
+    assert (tmp_path / "target").read_text(encoding="utf-8") == "precious"
     (folder / "lock").unlink()
     os.mkfifo(folder / "lock")
     with pytest.raises(SessionError, match="no regular file"):

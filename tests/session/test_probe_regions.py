@@ -30,7 +30,7 @@ def session(tmp_path):
 
 def align(session, tmp_path, *numbers):
     file = tmp_path / "alignment.json"
-    file.write_text(from_angles(numbers[:3], numbers[3:]).to_json())
+    file.write_text(from_angles(numbers[:3], numbers[3:]).to_json(), encoding="utf-8")
     session.add_input(file, "alignment")
 
 

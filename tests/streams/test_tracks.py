@@ -23,7 +23,7 @@ def typed(address):
 
 def from_file(tmp_path, text, options=""):
     file = tmp_path / "poses.csv"
-    file.write_text(text)
+    file.write_text(text, encoding="utf-8")
     return list(file_track(DeviceAddress.parse(f"poses://{file}{options}"))(100.0))
 
 
@@ -105,7 +105,7 @@ def test_joints_of_a_file(tmp_path):
 
 def test_a_file_has_an_end(tmp_path):
     file = tmp_path / "poses.csv"
-    file.write_text("t,qw,qx,qy,qz\n" + "".join(f"{t / 100},1,0,0,0\n" for t in range(50)))
+    file.write_text("t,qw,qx,qy,qz\n" + "".join(f"{t / 100},1,0,0,0\n" for t in range(50)), encoding="utf-8")
     given, told = [], []
     with open_poses(f"poses://{file}?speed=100", given.extend, told.append) as stream:
         assert stream.done.wait(10)

@@ -36,7 +36,9 @@ def test_the_same_address_is_the_same_bench_on_one_clock():
 
 def test_stepwise_gives_the_same_every_time(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text('{"at": 0.05, "do": "touch", "marker": 3}\n{"at": 0.3, "do": "end"}\n')
+    script.write_text(
+        '{"at": 0.05, "do": "touch", "marker": 3}\n{"at": 0.3, "do": "end"}\n', encoding="utf-8"
+    )
     address = f"{HERE}&speed=step&rate=1000&script={script}"
     runs = []
     for _ in range(2):
@@ -61,7 +63,7 @@ def test_stepwise_gives_the_same_every_time(tmp_path):
 
 def test_a_script_that_fails_is_shown(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text('{"at": 0.01, "do": "touch", "marker": 99}\n')
+    script.write_text('{"at": 0.01, "do": "touch", "marker": 99}\n', encoding="utf-8")
     stream = open_sensor(f"{HERE}&script={script}", lambda _: None)
     with stream:
         assert stream.done.wait(5)
@@ -100,7 +102,7 @@ def test_who_makes_a_mistake_with_samples_leaves_nobody_waiting():
 
 def test_a_stream_that_comes_after_the_bench_failed_hears_why(tmp_path):
     script = tmp_path / "a.jsonl"
-    script.write_text('{"at": 0.0, "do": "touch", "marker": 99}\n')
+    script.write_text('{"at": 0.0, "do": "touch", "marker": 99}\n', encoding="utf-8")
     address = f"{HERE}&speed=step&script={script}"
     sensor, poses = (opened(address, lambda _: None) for opened in (open_sensor, open_poses))
     with sensor:

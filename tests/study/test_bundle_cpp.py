@@ -55,7 +55,8 @@ def test_both_loaders_come_to_the_same_verdict(loader: Path) -> None:
 def test_a_loader_that_takes_everything_is_noticed(tmp_path: Path) -> None:
     program = tmp_path / "load_all"
     program.write_text(
-        '#!/bin/sh\nfor each in "$1"/*; do echo "${each##*/} loaded"; done; echo slowest x 0.1 s >&2\n'
+        '#!/bin/sh\nfor each in "$1"/*; do echo "${each##*/} loaded"; done; echo slowest x 0.1 s >&2\n',
+        encoding="utf-8",
     )
     program.chmod(0o755)
     report = run(20, seed=7, cpp=program)

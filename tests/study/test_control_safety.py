@@ -54,7 +54,7 @@ def test_what_is_not_safe_is_said():
 def test_ends_that_are_kept_are_not_run_again(tmp_path, monkeypatch):
     file = tmp_path / "ends.jsonl"
     once = run(2, workers=1, kept=file)
-    file.write_text(file.read_text() + '{"code": "cut', encoding="utf-8")
+    file.write_text(file.read_text(encoding="utf-8") + '{"code": "cut', encoding="utf-8")
     monkeypatch.setattr(control_safety, "run_start", None)
     assert run(2, workers=1, kept=file) == once
     with pytest.raises(TypeError):

@@ -174,7 +174,7 @@ def test_a_second_run_beside_a_busy_core():
 def test_a_sensor_that_cannot_start_is_named(monkeypatch, tmp_path):
     from pipeline.study.live import trial
 
-    (tmp_path / "broken").write_text("#!/bin/sh\nexit 3\n")
+    (tmp_path / "broken").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
     Path(tmp_path / "broken").chmod(0o755)
     monkeypatch.setattr(trial.sys, "executable", str(tmp_path / "broken"))
     with pytest.raises(InputError, match="did not start"):

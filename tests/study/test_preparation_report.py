@@ -121,7 +121,7 @@ def test_the_fuzz_command_reads_files_and_prints_figures(tmp_path):
     data = json.loads(ran.stdout)
     assert data["passed"] is True
     assert data["figures"][0]["measured"] == 12
-    assert out.read_text().startswith("Hostile mesh files: files 12, seed 4")
+    assert out.read_text(encoding="utf-8").startswith("Hostile mesh files: files 12, seed 4")
 
 
 def test_a_missed_target_is_exit_code_1(monkeypatch):

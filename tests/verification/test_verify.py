@@ -197,7 +197,8 @@ def test_a_recording_reads_the_same_from_mcap_and_csv(files):
 def test_the_status_of_a_table_marks_clipped_readings(tmp_path):
     file = tmp_path / "t.csv"
     file.write_text(
-        "t,fx,fy,fz,mx,my,mz,qw,qx,qy,qz,status\n0,1,2,3,4,5,6,1,0,0,0,1\n1,1,2,3,4,5,6,1,0,0,0,0\n"
+        "t,fx,fy,fz,mx,my,mz,qw,qx,qy,qz,status\n0,1,2,3,4,5,6,1,0,0,0,1\n1,1,2,3,4,5,6,1,0,0,0,0\n",
+        encoding="utf-8",
     )
     assert read_touch_recording(file).saturated.tolist() == [True, False]
 
@@ -251,7 +252,7 @@ def test_the_unit_of_a_foreign_mesh_is_found_and_doubts_are_told(files, good, tm
         file = tmp_path / "probe.obj"
         rows = [f"v {x!r} {y!r} {z!r}" for x, y, z in (factor * good.probe.vertices).tolist()]
         rows += [f"f {a} {b} {c}" for a, b, c in (good.probe.faces + 1).tolist()]
-        file.write_text("\n".join([head, *rows]) + "\n")
+        file.write_text("\n".join([head, *rows]) + "\n", encoding="utf-8")
         return file
 
     for factor, head in ((1e3, ""), (1.0, "# units: m"), (100.0, "# units: cm")):
@@ -292,7 +293,7 @@ def test_missing_and_unknown_inputs_are_refused(files):
 def test_the_command_fails_with_1_and_refuses_with_2(files, tmp_path):
     run = CliRunner()
     assert run.invoke(app, [*arguments(files, "touches.mcap"), "--limit-mean", "0.01"]).exit_code == 1
-    (tmp_path / "m.csv").write_text("name,x_mm,y_mm,z_mm\nA,900,0,0\n")
+    (tmp_path / "m.csv").write_text("name,x_mm,y_mm,z_mm\nA,900,0,0\n", encoding="utf-8")
     refused = run.invoke(app, [*arguments(files), "--markers", str(tmp_path / "m.csv"), "--json"])
     assert refused.exit_code == 2
     assert "off the probe" in json.loads(refused.stdout)["error"]

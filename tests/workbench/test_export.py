@@ -205,7 +205,7 @@ def test_the_session_knows_what_was_exported_and_what_differs_since(verified, tm
 
 def test_what_stands_at_the_place_stays_when_the_export_cannot_be(verified, tmp_path):
     (tmp_path / "b").mkdir()
-    (tmp_path / "b" / "mine.txt").write_text("x")
+    (tmp_path / "b" / "mine.txt").write_text("x", encoding="utf-8")
     with Session.open(verified, by="ada") as session:
         with pytest.raises(ConfigError):
             export(session, tmp_path / "b")

@@ -215,7 +215,7 @@ def test_a_face_is_put_on_the_sensor(work, tmp_path):
 
 def test_an_alignment_is_read_from_its_file(tmp_path):
     file = tmp_path / "a.json"
-    file.write_text(PLAN.alignment.to_json())
+    file.write_text(PLAN.alignment.to_json(), encoding="utf-8")
     assert np.array_equal(by_file(file).T_SP, PLAN.alignment.T_SP)
     with pytest.raises(InputError, match="cannot be read"):
         by_file(tmp_path / "none.json")

@@ -345,7 +345,8 @@ def test_regions_of_another_surface_are_left_out_with_a_word(desk, tmp_path):  #
     file = tmp_path / "regions.json"
     file.write_text(
         '{"format": "contactbench regions", "version": 1, "mesh": {"sha256": "0", "facets": 3},'
-        ' "regions": []}'
+        ' "regions": []}',
+        encoding="utf-8",
     )
     desk.do(lambda session: session.add_input(file, "regions", name="regions.json")).result()
     work = open_work(desk)

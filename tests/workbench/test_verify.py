@@ -132,7 +132,7 @@ def test_a_marker_that_is_left_out_for_a_reason_is_not_missing(bench):
     made = state.current_results["verification", "verification.json"]
     assert made.action.parameters["left_out"] == {"M1": "nothing reaches it"}
     report = state.current_results["report", "report.html"].file.path
-    assert "nothing reaches it" in (bench.desk.folder / report).read_text()
+    assert "nothing reaches it" in (bench.desk.folder / report).read_text(encoding="utf-8")
 
 
 def test_a_verification_that_is_thrown_away_leaves_a_note_only(bench):

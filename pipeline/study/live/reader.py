@@ -122,7 +122,7 @@ def _await_all(notes: Sequence[Notes]) -> None:
 def resident() -> int | None:
     """Return the memory of this process that is in use now, bytes; None where the system does not say."""
     try:
-        pages = int(Path("/proc/self/statm").read_text().split()[1])
+        pages = int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[1])
     except (OSError, ValueError, IndexError):
         return None
     import resource

@@ -129,7 +129,8 @@ def test_contacts_are_weighed_where_their_confidence_is_known(qtbot, viewer, fil
     quantity.setCurrentIndex(quantity.findData("density"))
     old = tmp_path / "old.csv"
     old.write_text(
-        "t,x,y,z,k,face,reason,candidates,sigma_max_mm\n0,0,0,0.2,0,1,ok,1,0.5\n1,0,0,0.2,0,1,ok,1,0.5\n"
+        "t,x,y,z,k,face,reason,candidates,sigma_max_mm\n0,0,0,0.2,0,1,ok,1,0.5\n1,0,0,0.2,0,1,ok,1,0.5\n",
+        encoding="utf-8",
     )
     viewer.open([old])
     qtbot.waitUntil(lambda: len(viewer.sources) == 2 and settled(viewer), timeout=LONG)

@@ -256,11 +256,11 @@ def test_tables_that_do_not_go_together(file: Path, taken: Recording, tmp_path: 
 
 def test_wrong_rows_of_the_robot_are_named(taken: Recording, tmp_path: Path) -> None:
     sensor, robot = tables(tmp_path, taken)
-    rows = robot.read_text().splitlines()
-    robot.write_text("\n".join([*rows[:5], rows[6], rows[5], *rows[7:]]) + "\n")
+    rows = robot.read_text(encoding="utf-8").splitlines()
+    robot.write_text("\n".join([*rows[:5], rows[6], rows[5], *rows[7:]]) + "\n", encoding="utf-8")
     with pytest.raises(WrenchFileError, match=r"robot\.csv: line 7: column t runs backwards"):
         capture_any(sensor, EULER, robot_poses=robot)
-    (tmp_path / "q.csv").write_text("t,qw,qx,qy,qz\n0,1,0,0,0\n1,1,1,0,0\n")
+    (tmp_path / "q.csv").write_text("t,qw,qx,qy,qz\n0,1,0,0,0\n1,1,1,0,0\n", encoding="utf-8")
     with pytest.raises(WrenchFileError, match=r"q\.csv: line 3: the quaternion has length"):
         capture_any(sensor, robot_poses=tmp_path / "q.csv")
 

@@ -55,7 +55,7 @@ def verification(folder, *, passed=True, mean=0.4, model_error=None, **settings)
             for role, name in (("calibration", "calibration.json"), ("probe", "probe.ply"))
         },
     }
-    file.write_text(json.dumps(content))
+    file.write_text(json.dumps(content), encoding="utf-8")
     return file
 
 
@@ -77,7 +77,7 @@ def known_weight(folder, outcome="passed", **changes):
         "calibration_sha256": sha256(folder / "calibration.json"),
         "sources": {},
     }
-    file.write_text(json.dumps(content | changes))
+    file.write_text(json.dumps(content | changes), encoding="utf-8")
     return file
 
 
@@ -98,7 +98,7 @@ def known_touch(folder, outcome="passed", **changes):
         "probe_sha256": sha256(folder / "probe.ply"),
         "sources": {},
     }
-    file.write_text(json.dumps(content | changes))
+    file.write_text(json.dumps(content | changes), encoding="utf-8")
     return file
 
 
@@ -248,7 +248,7 @@ def test_what_is_no_check_is_wrong_input(bench, changes, reason):
     assert refused.exit_code == 2
     assert reason in words(refused)
     assert "weight.json" in words(refused).replace(" ", "")
-    file.write_text("{")
+    file.write_text("{", encoding="utf-8")
     assert invoke("export", *files_of(bench), "--known-weight", file, "--out", bench / "b").exit_code == 2
 
 
@@ -360,7 +360,7 @@ def test_what_is_not_verified_is_refused_or_marked(bench):
 
 def test_a_probe_that_was_never_aligned_is_refused(bench):
     sidecar = bench / "probe.json"
-    sidecar.write_text(sidecar.read_text().replace('"S"', '"P"'))
+    sidecar.write_text(sidecar.read_text(encoding="utf-8").replace('"S"', '"P"'), encoding="utf-8")
     result = invoke("export", *files_of(bench), "--out", bench / "b")
     assert result.exit_code == 1
     assert "frame is P" in result.stderr
@@ -376,7 +376,7 @@ def test_wrong_input_ends_with_2(bench, tmp_path):
     assert invoke("export", *files_of(bench), "--out", bench).exit_code == 2  # a folder with other files
     assert (bench / "probe.ply").exists()
     example_bundle(bench / "b")
-    (bench / "b" / "planes.csv").write_text("x")
+    (bench / "b" / "planes.csv").write_text("x", encoding="utf-8")
     damaged = invoke("check", bench / "b", "--json")
     assert damaged.exit_code == 2
     assert "planes.csv does not have the hash" in json.loads(damaged.stdout)["error"]
@@ -459,9 +459,9 @@ def test_the_rate_is_the_verified_one_or_given(bench):
 
 def test_a_verification_without_sources_counts_for_nothing(bench):
     file = bench / "verification.json"
-    content = json.loads(file.read_text())
+    content = json.loads(file.read_text(encoding="utf-8"))
     del content["sources"]
-    file.write_text(json.dumps(content))
+    file.write_text(json.dumps(content), encoding="utf-8")
     made = invoke("export", *files_of(bench), "--out", bench / "b")
     assert made.exit_code == 1
     assert "does not say with which calibration" in " ".join(made.stderr.split())
@@ -507,13 +507,15 @@ def test_what_is_said_of_a_touch_reaches_the_bundle(bench):
 
 def test_the_deviation_of_the_mesh_is_that_of_its_simplifications(bench):
     sidecar = bench / "probe.json"
-    document = json.loads(sidecar.read_text())
+    document = json.loads(sidecar.read_text(encoding="utf-8"))
     steps = [{"step": "simplify", "result": {"deviation": {"rms_mm": rms}}} for rms in (0.03, 0.04)]
-    sidecar.write_text(json.dumps(document | {"history": [steps[0], {"step": "align"}, steps[1]]}))
+    sidecar.write_text(
+        json.dumps(document | {"history": [steps[0], {"step": "align"}, steps[1]]}), encoding="utf-8"
+    )
     assert invoke("export", *files_of(bench), "--out", bench / "b").exit_code == 0
     assert RuntimeConfig.load(bench / "b").model.touch.mesh_deviation_m == pytest.approx(5e-5, rel=1e-12)
     for wrong in ({"step": "simplify"}, {"step": "simplify", "result": {"deviation": {"rms_mm": -1}}}):
-        sidecar.write_text(json.dumps(document | {"history": [steps[0], wrong]}))
+        sidecar.write_text(json.dumps(document | {"history": [steps[0], wrong]}), encoding="utf-8")
         refused = invoke("export", *files_of(bench), "--out", bench / "b")
         assert refused.exit_code == 2
         assert "step 2 of its history, simplify" in " ".join(refused.stderr.split())
@@ -532,7 +534,7 @@ def test_settings_from_a_file_reach_everything(bench):
     whole = example().model.to_json()
     given = {name: whole[name] for name in ("controller", "limits", "gates", "filters")}
     del given["filters"]["location"]["sections"]
-    (bench / "settings.json").write_text(json.dumps(given))
+    (bench / "settings.json").write_text(json.dumps(given), encoding="utf-8")
     made = invoke("export", *files_of(bench), "--settings", bench / "settings.json", "--out", bench / "b")
     assert made.exit_code == 0, made.stderr
     found = RuntimeConfig.load(bench / "b").model.to_json()
@@ -548,7 +550,7 @@ def test_settings_from_a_file_reach_everything(bench):
      ('{"limits":{}}', "limits.max_force_N"), ('{"gates":{"no":1}}', "no")],
 )  # fmt: skip
 def test_wrong_settings_are_refused(bench, text, words):
-    (bench / "settings.json").write_text(text)
+    (bench / "settings.json").write_text(text, encoding="utf-8")
     made = invoke("export", *files_of(bench), "--settings", bench / "settings.json", "--out", bench / "b")
     assert made.exit_code == 2
     assert words in made.stderr
@@ -560,7 +562,7 @@ def test_wrong_settings_are_refused(bench, text, words):
 def fill(session, bench, poses_name="poses.csv"):
     """Add poses, a calibration of them, a probe, and a verification of both."""
     poses = bench / poses_name
-    poses.write_text("poses\n")
+    poses.write_text("poses\n", encoding="utf-8")
     session.add_input(poses, "poses", sensor="S-77")
     (raw,) = (each for each in session.state.current_inputs.values() if each.kind == "poses")
     read = {

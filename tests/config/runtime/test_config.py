@@ -363,7 +363,7 @@ def test_many_keys_take_linear_time():
 def test_strangers_links_and_missing_files_in_a_folder(tmp_path):
     folder = tmp_path / "b"
     example_bundle(folder)
-    (folder / "notes.txt").write_text("x")
+    (folder / "notes.txt").write_text("x", encoding="utf-8")
     with pytest.raises(ConfigError, match=r"notes.txt"):
         RuntimeConfig.load(folder)
     with pytest.raises(ConfigError, match=r"notes.txt"):
@@ -377,7 +377,7 @@ def test_strangers_links_and_missing_files_in_a_folder(tmp_path):
         RuntimeConfig.load(folder)
     with pytest.raises(ConfigError, match="no such folder or zip file"):
         RuntimeConfig.load(tmp_path / "none")
-    (tmp_path / "file").write_text("x")
+    (tmp_path / "file").write_text("x", encoding="utf-8")
     with pytest.raises(ConfigError, match="choose another folder"):
         example_bundle(tmp_path / "file")
 

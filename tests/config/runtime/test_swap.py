@@ -87,7 +87,7 @@ def test_the_old_or_the_new(tmp_path, configs, monkeypatch, name, exchanges, how
 def test_exchange_swaps_two_folders(tmp_path):
     for name in "ab":
         (tmp_path / name).mkdir()
-        (tmp_path / name / name).write_text(name)
+        (tmp_path / name / name).write_text(name, encoding="utf-8")
     if not exchange(tmp_path / "a", tmp_path / "b"):
         pytest.skip("this system cannot exchange two names")
     assert [file.name for file in (tmp_path / "a").iterdir()] == ["b"]

@@ -35,7 +35,7 @@ def _gone(pid: int, within_s: float = 10.0) -> bool:
             return True
         status = Path(f"/proc/{pid}/stat")
         # A killed process whose new parent does not reap it is gone as well.
-        if status.exists() and status.read_text().rsplit(")", 1)[1].split()[0] == "Z":
+        if status.exists() and status.read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0] == "Z":
             return True
         time.sleep(0.02)
     return False
@@ -254,7 +254,8 @@ def test_a_bundled_application_is_its_own_engine(
         "import sys\n"
         "from pipeline.mesh.engines.worker import serve_if_asked\n"
         "serve_if_asked(sys.argv)\n"
-        "print('the window opens')\n"
+        "print('the window opens')\n",
+        encoding="utf-8",
     )
     app.chmod(0o755)
     assert subprocess.run([app], capture_output=True, text=True, check=True).stdout == "the window opens\n"

@@ -392,7 +392,7 @@ def test_file_with_surplus_vertices(tmp_path):
     lines = [f"v {x * 2e3} {y * 2e3} {z * 2e3}" for x, y, z in [*vertices.tolist(), [1, 2, 3], vertices[0]]]
     lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces.tolist()]
     path = tmp_path / "box.obj"
-    path.write_text("\n".join(lines))
+    path.write_text("\n".join(lines), encoding="utf-8")
     found = inspect(path, samples=200)
     assert (found.file.vertices, found.file.facets, found.file.surplus_vertices) == (10, 12, 2)
     assert "2 vertices in the file were double or unused" in texts(found, "note")

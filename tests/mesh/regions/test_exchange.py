@@ -66,7 +66,7 @@ def test_csv_gives_back_the_labels(cube: FacetGraph, tmp_path: Path, rng: np.ran
     file = tmp_path / "r.csv"
     file.write_bytes(encode_csv(regions))
     assert decode_csv(file, cube.facet_count).tobytes() == regions.labels.tobytes()
-    file.write_text("region,face\n2,5\n")
+    file.write_text("region,face\n2,5\n", encoding="utf-8")
     assert np.flatnonzero(decode_csv(file, cube.facet_count)).tolist() == [5]
 
 
@@ -193,6 +193,6 @@ def test_damaged_json_is_refused_or_means_something(cube: FacetGraph, junk: byte
 )
 def test_hostile_csv(cube: FacetGraph, tmp_path: Path, text: str, message: str) -> None:
     file = tmp_path / "r.csv"
-    file.write_text(text)
+    file.write_text(text, encoding="utf-8")
     with pytest.raises(RegionError, match=message):
         load_regions(file, cube.probe)

@@ -34,7 +34,7 @@ def test_a_file_is_named_in_its_errors(tmp_path):
     path = tmp_path / "touches.csv"
     with pytest.raises(TouchFileError, match="no such file"):
         read_touches(path)
-    path.write_text("\n".join([HEADER, *ROWS[:2]]))
+    path.write_text("\n".join([HEADER, *ROWS[:2]]), encoding="utf-8")
     with pytest.raises(TouchFileError, match=r"touches\.csv: 2 touches cannot show a mount"):
         read_touches(path)
 

@@ -158,10 +158,10 @@ def test_the_tables_mark_what_is_recommended(ladder: Ladder) -> None:
 def test_the_files_are_written_and_the_pictures_are_the_same_again(ladder: Ladder, tmp_path: Path) -> None:
     files = save_ladder(ladder, tmp_path)
     assert [file.name for file in files] == ["ladder.json", "ladder.csv", "ladder.svg", "ladder.png"]
-    assert json.loads(files[0].read_text()) == json.loads(json.dumps(ladder.to_json()))
-    rows = list(csv.DictReader(files[1].read_text().splitlines()))
+    assert json.loads(files[0].read_text(encoding="utf-8")) == json.loads(json.dumps(ladder.to_json()))
+    rows = list(csv.DictReader(files[1].read_text(encoding="utf-8").splitlines()))
     assert [row["part"] for row in rows[:2]] == ["region", "rest"]
-    svg = files[2].read_text()
+    svg = files[2].read_text(encoding="utf-8")
     assert svg.encode() == draw_ladder(ladder, "svg")
     assert files[3].read_bytes() == draw_ladder(ladder, "png")
     assert files[3].read_bytes().startswith(b"\x89PNG")

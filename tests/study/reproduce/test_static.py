@@ -146,6 +146,6 @@ def test_wrong_options_are_named(options: tuple[str, str], tmp_path: Path) -> No
 
 
 def test_a_file_in_the_way_is_named(result: StaticResult, tmp_path: Path) -> None:
-    (tmp_path / "taken").write_text("x")
+    (tmp_path / "taken").write_text("x", encoding="utf-8")
     with pytest.raises(InputError, match="taken"):
         result.write(tmp_path / "taken")

@@ -69,7 +69,7 @@ def test_the_page_is_made_from_the_results_alone(report: StabilityReport, tmp_pa
     make_page(other)
     for file in (page, *pictures):
         assert (other / file.name).read_bytes() == file.read_bytes()
-    text = page.read_text()
+    text = page.read_text(encoding="utf-8")
     assert text.startswith("## Numerical stability")
     assert all(f"]({picture.name})" in text for picture in pictures)
     assert "Repeat with `contactbench study stability --samples 50 --seed 1 --quick`" in text

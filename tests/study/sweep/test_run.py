@@ -192,12 +192,12 @@ def test_the_environment_is_kept(small):
 
 
 def test_wrong_folders_and_schedulers_are_named(tmp_path):
-    (tmp_path / "file").write_text("x")
+    (tmp_path / "file").write_text("x", encoding="utf-8")
     with pytest.raises(InputError, match="is a file"):
         run(_TINY, tmp_path / "file", workers=1)
     with pytest.raises(InputError, match=r"no connection .* check the address"):
         run(_TINY, tmp_path / "a", scheduler="nonsense://x")
-    (tmp_path / DONE).write_text("no result\n")
+    (tmp_path / DONE).write_text("no result\n", encoding="utf-8")
     with pytest.raises(InputError, match="line 1: no result of a study"):
         Store(tmp_path)
     with pytest.raises(InputError, match="no results of a study"):

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from pipeline.kernel import SurfaceIndex
 from pipeline.mesh.engines import Cancelled, alpha_wrap
@@ -125,10 +126,12 @@ def fine_wrap(
     wrap, wrap_faces = wrap_soup(vertices, faces, alpha, **control)
     index = SurfaceIndex(vertices, faces)
     settled, share = settle(wrap, wrap_faces, index.closest(wrap)[2])
-    cancelled = control.get("cancelled")
-    settled, share = _mended(wrap, settled, wrap_faces, share, (vertices, faces), cancelled)
     _, nearest, _ = index.closest(settled[wrap_faces].mean(axis=1))
-    return Wrapped(settled, wrap_faces, kind[nearest], int(np.count_nonzero(share < 1)))
+    rests_on = kind[nearest]
+    settled, share = _mended(
+        wrap, settled, wrap_faces, share, join(layers[:-1]), rests_on != SURFACE, control.get("cancelled")
+    )
+    return Wrapped(settled, wrap_faces, rests_on, int(np.count_nonzero(share < 1)))
 
 
 def _mended(
@@ -137,22 +140,43 @@ def _mended(
     faces: NDArray[np.int32],
     share: NDArray[np.float64],
     original: Surface,
+    invented: NDArray[np.bool_],
     cancelled: Callable[[], bool] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Put back the corners of facets that cross others or have folded: the wrap itself does neither."""
+    """
+    Put back the corners of facets that cross others, and even out what stands across the surface.
+
+    The wrap crosses itself nowhere, so its own positions end every crossing. But where it fills a groove to some
+    depth only, a single facet of its own may end the filling like a step
+    (test_a_step_in_a_groove_is_evened_out).
+    """
+    neighbours = _neighbours(faces, len(wrap))
+    degree = neighbours.sum(axis=1)
     for attempt in range(_PUT_BACK + 1):
         if cancelled is not None and cancelled():
             raise Cancelled("the shell was cancelled: the mesh is as it was.")
-        found = check_soundness(settled, faces, original)
-        wrong = np.unique(
-            np.concatenate((found.facets_of(CROSSING, OVERLAP, TOUCHING).ravel(), found.folded_facets))
-        )
-        corners = np.unique(faces[wrong])
-        if len(corners) == 0 or attempt == _PUT_BACK:
+        found = check_soundness(settled, faces, original, invented=invented)
+        crossing = found.facets_of(CROSSING, OVERLAP, TOUCHING)
+        if len(crossing) + len(found.folded_facets) == 0 or attempt == _PUT_BACK:
             break
-        # A corner that is put back may make its neighbours cross, so the later the wider.
-        for _ in range(attempt // 2):
-            corners = np.unique(faces[np.isin(faces, corners).any(axis=1)])
-        settled[corners] = wrap[corners]
-        share[corners] = 0.0
+        # A corner that is moved may make its neighbours cross or fold, so the later the wider.
+        back, steep = (_around(facets, faces, attempt // 2) for facets in (crossing, found.folded_facets))
+        middles = (neighbours[steep] @ settled) / degree[steep, None]
+        settled[steep] = (settled[steep] + middles) / 2
+        settled[back] = wrap[back]
+        share[back] = share[steep] = 0.0
     return settled, share
+
+
+def _around(facets: NDArray[np.int64], faces: NDArray[np.int32], rings: int) -> NDArray[np.int32]:
+    """Vertices of facets, and of so many rings of facets around them."""
+    corners = np.unique(faces[facets])
+    for _ in range(rings):
+        corners = np.unique(faces[np.isin(faces, corners).any(axis=1)])
+    return corners
+
+
+def _neighbours(faces: NDArray[np.int32], count: int) -> csr_array:
+    """Which vertices of a closed surface share an edge, (count, count) of ones."""
+    ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    return csr_array((np.ones(faces.size), ends), shape=(count, count))

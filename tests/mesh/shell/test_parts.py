@@ -17,6 +17,7 @@ from pipeline.mesh.shell.openings import Opening, describe, shoelace
 from pipeline.mesh.shell.patch import Closing, choose, make_patch
 from pipeline.mesh.shell.rim import crossings, resample, without_loops
 from pipeline.mesh.shell.settle import settle
+from pipeline.mesh.soundness import check_soundness
 from pipeline.mesh.triangles import cross_products, directions, join, parts, twins
 
 
@@ -186,11 +187,29 @@ def test_what_crosses_or_folds_is_put_back():
     settled, share = probe.vertices.copy(), np.ones(len(probe.vertices))
     corner = probe.faces[7, 0]
     settled[corner] = -1.5 * settled[corner] + 2.5 * probe.vertices.mean(axis=0)  # through the far side
-    mended, share = wrap._mended(probe.vertices, settled, probe.faces, share, (probe.vertices, probe.faces))
+    original, none = (probe.vertices, probe.faces), np.zeros(len(probe.faces), dtype=bool)
+    mended, share = wrap._mended(probe.vertices, settled, probe.faces, share, original, none)
     assert not kernel.crossings(mended, probe.faces)[2].any()
     assert share[corner] == 0
     assert np.array_equal(mended[share == 0], probe.vertices[share == 0])
     assert np.count_nonzero(share == 0) < 100
+
+
+def test_a_step_in_a_groove_is_evened_out():
+    """What the wrap itself has across the surface cannot be put back."""
+    x, y = np.meshgrid(np.arange(12.0), np.arange(12.0), indexing="ij")
+    flat = np.stack((x, y, 0 * x), axis=-1).reshape(-1, 3)
+    at = np.arange(144).reshape(12, 12)
+    a, b, c, d = at[:-1, :-1].ravel(), at[1:, :-1].ravel(), at[1:, 1:].ravel(), at[:-1, 1:].ravel()
+    faces = np.concatenate((np.stack((a, b, c), axis=1), np.stack((a, c, d), axis=1))).astype(np.int32)
+    stepped = flat.copy()
+    stepped[at[6, 6], 2] = 4.0
+    assert len(check_soundness(stepped, faces, (flat, faces)).folded_facets) == 6
+    none = np.zeros(len(faces), dtype=bool)
+    mended, share = wrap._mended(stepped, stepped.copy(), faces, np.ones(144), (flat, faces), none)
+    assert len(check_soundness(mended, faces, (flat, faces)).folded_facets) == 0
+    assert np.array_equal(mended[share == 1], stepped[share == 1])
+    assert np.count_nonzero(share == 0) < 60
 
 
 # ---- connectivity ----------------------------------------------------------------------------------

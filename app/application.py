@@ -10,12 +10,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QIcon, QPixmapCache
 from PySide6.QtWidgets import QApplication
 
-from app.errors import Faults, LogFile
-from app.settings import Settings
-from app.translation import load
-from app.window import MainWindow
-from widgets.software_gl import spare_cores
-from widgets.theme import follow_system, use_theme
+from contactbench.app.errors import Faults, LogFile
+from contactbench.app.settings import Settings
+from contactbench.app.translation import load
+from contactbench.app.window import MainWindow
+from contactbench.widgets.software_gl import spare_cores
+from contactbench.widgets.theme import follow_system, use_theme
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -81,6 +81,6 @@ def prepared() -> QApplication:
     QPixmapCache.setCacheLimit(_PIXMAPS_KB)
     from importlib.resources import as_file, files
 
-    with as_file(files("assets") / "icon.svg") as file:
+    with as_file(files("contactbench.assets") / "icon.svg") as file:
         application.setWindowIcon(QIcon(str(file)))
     return application

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoStack
 
-from app.jobs import Jobs
+from contactbench.app.jobs import Jobs
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.session import Session
-    from pipeline.workbench.desk import Desk
-    from pipeline.workbench.live import Live
-    from pipeline.workbench.steps import Step
-    from widgets.scene import Scene
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.live import Live
+    from contactbench.pipeline.workbench.steps import Step
+    from contactbench.widgets.scene import Scene
 
 
 _PATIENCE_S = 30.0
@@ -91,7 +91,7 @@ class Bench(QObject):
     @staticmethod
     def _new_live() -> Live:
         # Here, not above: it brings half of scipy, for which a window without a session need not wait.
-        from pipeline.workbench.live import Live
+        from contactbench.pipeline.workbench.live import Live
 
         return Live()
 

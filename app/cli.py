@@ -1,4 +1,4 @@
-"""The command line with the window: what :mod:`pipeline.cli` has, and the commands that open one."""
+"""The command line with the window: what :mod:`contactbench.pipeline.cli` has, and the commands that open one."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from typing import Annotated
 
 import typer
 
-from app.study import study_app
-from pipeline.cli import app
-from pipeline.errors import InputError
+from contactbench.app.study import study_app
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
 
 __all__ = ["app", "main"]
 
@@ -43,7 +43,7 @@ def gui(
 ) -> None:
     """Open the window."""
     check_screen()
-    from app.application import run
+    from contactbench.app.application import run
 
     raise typer.Exit(run(session, virtual=virtual, language=language))
 
@@ -60,13 +60,13 @@ def heatmap_viewer(
 ) -> None:
     """Open the heatmap viewer."""
     check_screen()
-    from app.application import prepared
+    from contactbench.app.application import prepared
 
     application = prepared()
-    from app.heatmap_viewer import run
-    from app.settings import Settings
-    from app.translation import load
-    from widgets.theme import use_theme
+    from contactbench.app.heatmap_viewer import run
+    from contactbench.app.settings import Settings
+    from contactbench.app.translation import load
+    from contactbench.widgets.theme import use_theme
 
     remembered = Settings().now
     load(application, remembered.language)
@@ -89,7 +89,7 @@ def screenshots(
 ) -> None:
     """Make pictures."""
     check_screen()
-    made = import_module("app.screenshots")
+    made = import_module("contactbench.app.screenshots")
     themes = made.THEMES if theme == "both" else (theme,)
     wanted = tuple(pages.split(",")) if pages else made.PAGES
     raise typer.Exit(made.run(out, themes, size_of(size), wanted, language))

@@ -13,13 +13,13 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pipeline import cli
-from pipeline.errors import InputError
-from pipeline.session import Session, SessionError
+from contactbench.pipeline import cli
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session, SessionError
 
 if TYPE_CHECKING:
-    from app.heartbeat import Stalls
-    from app.settings import Remembered
+    from contactbench.app.heartbeat import Stalls
+    from contactbench.app.settings import Remembered
 
 _SHORTEST = 3  # a shorter name of a user or computer would blank out parts of words
 _ADDRESS = re.compile(r"\b\d{1,3}(?:\.\d{1,3}){3}\b")

@@ -13,8 +13,8 @@ from typing import IO, TYPE_CHECKING, Any
 
 from PySide6.QtCore import QCoreApplication, QObject, QtMsgType, Signal, qInstallMessageHandler
 
-from app.settings import own_folder
-from pipeline.errors import InputError
+from contactbench.app.settings import own_folder
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -6,12 +6,12 @@ from importlib.resources import files
 
 from PySide6.QtCore import QCoreApplication
 
-from app.translation import in_use
+from contactbench.app.translation import in_use
 
 
 def page_text(name: str) -> str:
     """Return a help page, Markdown, in the language of the window where there is one."""
-    folder = files("app") / "help"
+    folder = files("contactbench.app") / "help"
     for file in (f"{name}.{in_use()}.md", f"{name}.md"):
         page = folder / file
         if page.is_file():

@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 from datetime import date
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from pipeline.session import Session
-    from pipeline.workbench.desk import Desk
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.desk import Desk
 
 VIRTUAL_BENCH = "virtual://bench?probe=t-shape&sensor=paper"
 
@@ -77,9 +77,9 @@ def open_session(folder: Path, *, write: bool = True) -> Opened:
     SessionError
         It cannot be opened.
     """
-    from pipeline.session import Session, SessionReadOnlyError
-    from pipeline.session.files import unfinished
-    from pipeline.workbench.desk import Desk
+    from contactbench.pipeline.session import Session, SessionReadOnlyError
+    from contactbench.pipeline.session.files import unfinished
+    from contactbench.pipeline.workbench.desk import Desk
 
     try:
         session = Session.open(folder, write=write, damaged=not write)
@@ -95,8 +95,8 @@ def open_session(folder: Path, *, write: bool = True) -> Opened:
 
 def new_session(folder: Path) -> Opened:
     """Make a session in a folder that is new or empty. SessionError, InputError: it cannot be made."""
-    from pipeline.session import Session, SessionError
-    from pipeline.workbench.desk import Desk
+    from contactbench.pipeline.session import Session, SessionError
+    from contactbench.pipeline.workbench.desk import Desk
 
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -142,8 +142,8 @@ def salvaged(folder: Path, elsewhere: Path) -> Opened:
     The copy goes into the folder `elsewhere` where nothing can be written beside the session. SessionError: there is
     nothing whole, or the copy cannot be written.
     """
-    from pipeline.session.lock import writable
-    from pipeline.session.salvage import salvage
+    from contactbench.pipeline.session.lock import writable
+    from contactbench.pipeline.session.salvage import salvage
 
     out = None
     if not writable(folder.absolute().parent):
@@ -154,7 +154,7 @@ def salvaged(folder: Path, elsewhere: Path) -> Opened:
 
 
 def _why_read_only(session: Session) -> str:
-    from pipeline.session.lock import written_now
+    from contactbench.pipeline.session.lock import written_now
 
     if session.writable:
         return ""
@@ -165,7 +165,7 @@ def _why_read_only(session: Session) -> str:
 
 def adopt(session: Session) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Take recordings into the session that were cut short; what was done, and what could not be."""
-    from pipeline.session.unfinished import adopt_unfinished
+    from contactbench.pipeline.session.unfinished import adopt_unfinished
 
     return adopt_unfinished(session)
 
@@ -176,7 +176,7 @@ def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
 
     Nothing else would tell: a calibration of which one digit was changed on the disk is still a calibration.
     """
-    from pipeline.session.check import check
+    from contactbench.pipeline.session.check import check
 
     class _Stopped(Exception):  # noqa: N818 - no error
         pass
@@ -193,7 +193,7 @@ def damage(folder: Path, cancelled: Callable[[], bool]) -> tuple[str, ...]:
 
 def problem_with(error: BaseException) -> Problem | None:
     """Return why a session was not opened, in words; None for an error that nobody expected."""
-    from pipeline.session import JournalError, SessionLockedError
+    from contactbench.pipeline.session import JournalError, SessionLockedError
 
     if not isinstance(error, (InputError, OSError)):
         return None

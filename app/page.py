@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 from PySide6.QtWidgets import QWidget
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.workbench.steps import Step, StepStatus
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.steps import Step, StepStatus
 
 
 class Page(QWidget):

@@ -12,16 +12,16 @@ import numpy as np
 from PySide6.QtCore import QBuffer, QEventLoop, QIODevice, QPoint, QTimer
 from PySide6.QtWidgets import QWidget
 
-from app.application import prepared
-from app.heatmap_viewer import HeatmapViewer
-from app.screenshots_session import go_on, make_session, press, turn
-from app.settings import Settings
-from app.translation import load
-from app.window import MainWindow
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
-from pipeline.workbench.steps import Step
-from widgets.theme import use_theme
+from contactbench.app.application import prepared
+from contactbench.app.heatmap_viewer import HeatmapViewer
+from contactbench.app.screenshots_session import go_on, make_session, press, turn
+from contactbench.app.settings import Settings
+from contactbench.app.translation import load
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.theme import use_theme
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -160,7 +160,7 @@ class _Tour:
         """Touch some markers, and take the picture while the next one is pressed."""
         page, bench = window.pages.current, window.bench
         assert bench is not None  # noqa: S101  (opened before)
-        from app.pages.verify import VerifyPage
+        from contactbench.app.pages.verify import VerifyPage
 
         assert isinstance(page, VerifyPage)  # noqa: S101  (its step is shown)
         self._until(lambda: page.tool is not None and len(page.markers) > 0)

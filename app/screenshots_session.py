@@ -7,30 +7,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.pages.probe_housing import bench_address, take_housing
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.errors import InputError
-from pipeline.session import Session
-from pipeline.verification.known import TOUCH, WEIGHT
-from pipeline.workbench import gravity_results
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.gravity import GravityWork
-from pipeline.workbench.gravity_settings import gravity_settings
-from pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
-from pipeline.workbench.live import Live
-from pipeline.workbench.markers import keep, spread
-from pipeline.workbench.probe import Plan, ProbeWork
-from pipeline.workbench.probe_commit import commit
-from pipeline.workbench.regions_session import apply, open_work
-from pipeline.workbench.regions_session import keep as keep_regions
-from pipeline.workbench.tape import Tape
-from pipeline.workbench.verify import VerifyWork, tool_of
+from contactbench.app.pages.probe_housing import bench_address, take_housing
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.verification.known import TOUCH, WEIGHT
+from contactbench.pipeline.workbench import gravity_results
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.gravity import GravityWork
+from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
+from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.workbench.markers import keep, spread
+from contactbench.pipeline.workbench.probe import Plan, ProbeWork
+from contactbench.pipeline.workbench.probe_commit import commit
+from contactbench.pipeline.workbench.regions_session import apply, open_work
+from contactbench.pipeline.workbench.regions_session import keep as keep_regions
+from contactbench.pipeline.workbench.tape import Tape
+from contactbench.pipeline.workbench.verify import VerifyWork, tool_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from pipeline.workbench.verify_touches import LiveTouches
+    from contactbench.pipeline.workbench.verify_touches import LiveTouches
 
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
 _STEPS_A_SECOND = 250

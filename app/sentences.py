@@ -2,7 +2,8 @@
 The sentences of `pipeline`, found in its source: what the phrase book of another language has to hold.
 
 `pipeline` speaks English, and knows of no other language: what it writes into files, journals and logs is the same
-everywhere. What it says is translated where a window shows it, by `widgets.phrases`, from the templates found here.
+everywhere. What it says is translated where a window shows it, by `contactbench.widgets.phrases`, from the
+templates found here.
 """
 
 from __future__ import annotations

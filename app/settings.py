@@ -12,7 +12,7 @@ from typing import Any
 
 import platformdirs
 
-from pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_durably
 
 VERSION = 1
 _MOST_RECENT = 10

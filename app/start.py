@@ -18,17 +18,17 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.opening import holds_session
-from widgets.icons import Sign, icon
-from widgets.phrases import said
-from widgets.theme import accent
+from contactbench.app.opening import holds_session
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
 
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
 
-    from app.settings import Recent
+    from contactbench.app.settings import Recent
 
 _WIDTH = 720
 

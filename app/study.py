@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say, show_tables
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.console import JsonOption, print_json, say, show_tables
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from pipeline.study.preparation.report import Report
+    from contactbench.pipeline.study.preparation.report import Report
 
 study_app = typer.Typer(
     help="Measure the real window: its start, stalls, charts, brush, leaks, and ends without warning.",
@@ -40,7 +40,7 @@ def startup(
     Exit code 1 when the window takes more than 1.5 times as long.
     """
     _check_screen()
-    from app import study_startup
+    from contactbench.app import study_startup
 
     _finish(study_startup.run(repeats, progress=say), out, as_json=as_json)
 
@@ -57,7 +57,7 @@ def stalls(
     Exit code 1 when it ever stands still for more than 100 ms.
     """
     _check_screen()
-    from app import study_stalls
+    from contactbench.app import study_stalls
 
     _finish(study_stalls.run(seconds, facets, progress=say), out, as_json=as_json)
 
@@ -69,7 +69,7 @@ def charts(seconds: SecondsOption = 60.0, out: MarkdownOption = None, as_json: J
     Exit code 1 when they come less than 29 times a second, or memory grows.
     """
     _check_screen()
-    from app import study_charts
+    from contactbench.app import study_charts
 
     _finish(study_charts.run(seconds, progress=say), out, as_json=as_json)
 
@@ -86,7 +86,7 @@ def brush(
     Exit code 1 when 95 of 100 take more than 33 ms, or finding a facet more than 1 ms.
     """
     _check_screen()
-    from app import study_brush
+    from contactbench.app import study_brush
 
     _finish(study_brush.run(facets, events, progress=say), out, as_json=as_json)
 
@@ -102,7 +102,7 @@ def leaks(
     Exit code 1 when anything stays.
     """
     _check_screen()
-    from app import study_leaks
+    from contactbench.app import study_leaks
 
     _finish(study_leaks.run(times, progress=say), out, as_json=as_json)
 
@@ -119,20 +119,20 @@ def kill(
 
     Exit code 1 when something is lost, another page is shown, or a recording is not asked about.
     """
-    from pipeline.workbench.steps import Step
+    from contactbench.pipeline.workbench.steps import Step
 
     unknown = set(page or ()) - set(Step)
     if unknown:
         raise InputError(f"page {', '.join(sorted(unknown))}: choose from {', '.join(Step)}.")
     _check_screen()
-    from app import study_kill
+    from contactbench.app import study_kill
 
     steps = [step for step in Step if not page or step in page]
     _finish(study_kill.run(steps, progress=say), out, as_json=as_json)
 
 
 def _check_screen() -> None:
-    from app.cli import check_screen
+    from contactbench.app.cli import check_screen
 
     check_screen()
 

@@ -10,19 +10,19 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QWidget
 
-from app.study_window import load, loaded, opened, own_home, rest, shown_window, until
-from pipeline.mesh.regions import RegionSet
-from pipeline.mesh.sidecar import ProbeFile, save_probe_file
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.workbench.steps import Step
-from widgets.scene.benchmark import ball
+from contactbench.app.study_window import load, loaded, opened, own_home, rest, shown_window, until
+from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.scene.benchmark import ball
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from app.pages.regions import RegionsPage
-    from app.window import MainWindow
+    from contactbench.app.pages.regions import RegionsPage
+    from contactbench.app.window import MainWindow
 
 _FEEDBACK_MS, _PICK_MS = 33.0, 1.0
 _EVENTS_HZ = 60.0
@@ -77,8 +77,8 @@ def run(
 
 def make_session(folder: Path, facets: int) -> None:
     """Make a session whose mesh is a ball of so many facets in the sensor's frame."""
-    from pipeline.session import Session
-    from pipeline.session.recompute import compute, newest_inputs
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.recompute import compute, newest_inputs
 
     file = folder.with_name("ball.ply")
     probe = ball(facets)
@@ -154,7 +154,7 @@ def _picks(window: MainWindow, count: int) -> list[float]:
 
 
 def _regions_page(window: MainWindow) -> RegionsPage:
-    from app.pages.regions import RegionsPage
+    from contactbench.app.pages.regions import RegionsPage
 
     page = window.pages.current
     assert isinstance(page, RegionsPage)  # noqa: S101 - just shown

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.study_window import load, loaded, opened, own_home, rest, shown_window, until
-from pipeline.study.live.reader import resident
-from pipeline.study.live.trial import sensor_process
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.app.study_window import load, loaded, opened, own_home, rest, shown_window, until
+from contactbench.pipeline.study.live.reader import resident
+from contactbench.pipeline.study.live.trial import sensor_process
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.window import MainWindow
+    from contactbench.app.window import MainWindow
 
 _RATE_HZ = 1000.0
 _LEAST_HZ = 29.0  # of 30: a timer of 33 ms, and now and then one that is late

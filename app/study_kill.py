@@ -11,18 +11,18 @@ import sys
 import threading
 from typing import TYPE_CHECKING, Any
 
-from app.opening import VIRTUAL_BENCH
-from app.study_brush import make_session
-from app.study_window import load, loaded, own_home
-from pipeline.errors import InputError
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.workbench.steps import Step
+from contactbench.app.opening import VIRTUAL_BENCH
+from contactbench.app.study_brush import make_session
+from contactbench.app.study_window import load, loaded, own_home
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from pipeline.calibration import Calibration
+    from contactbench.pipeline.calibration import Calibration
 
 _PATIENCE_S = 120.0
 _FACETS = 2_000
@@ -39,8 +39,8 @@ def run(steps: Sequence[Step] = tuple(Step), *, progress: Callable[[str], None] 
     progress : callable, optional
         Told what is being done.
     """
-    from pipeline.calibration.files.calibration_file import save_calibration
-    from pipeline.session import Session
+    from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+    from contactbench.pipeline.session import Session
 
     before = load()
     figures: list[Figure] = []
@@ -69,10 +69,10 @@ def _weighed() -> Calibration:
     """Weigh the virtual bench's tool in a few poses."""
     import numpy as np
 
-    from pipeline.calibration import PoseSample, calibrate
-    from pipeline.calibration.reachable import by_hand
-    from pipeline.calibration.suggest import plan_poses
-    from pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.calibration import PoseSample, calibrate
+    from contactbench.pipeline.calibration.reachable import by_hand
+    from contactbench.pipeline.calibration.suggest import plan_poses
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 
     bench, poses = VirtualBench("t-shape", "paper"), []
     for R_WS in plan_poses(_POSES, by_hand()).R_WS:
@@ -104,7 +104,15 @@ def _figures(step: Step, left: dict[str, Any], found: dict[str, Any]) -> tuple[F
 
 def _child(mode: str, session: Path, step: Step, mesh: Path) -> dict[str, Any]:
     """Run the application until it has said something, and end it at once."""
-    command = [sys.executable, "-m", "app.study_kill_child", mode, str(session), step.value, str(mesh)]
+    command = [
+        sys.executable,
+        "-m",
+        "contactbench.app.study_kill_child",
+        mode,
+        str(session),
+        step.value,
+        str(mesh),
+    ]
     environment = os.environ | {"CONTACTBENCH_HOME": str(session.with_name("home"))}
     log = session.with_name(f"{mode}-{step.value}.txt")
     with (

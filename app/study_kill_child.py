@@ -1,6 +1,6 @@
 """A child process of the study of ends without warning: the real application, which does something at one page.
 
-Started as ``python -m app.study_kill_child act|look FOLDER STEP MESH``; each line that it writes is JSON.
+Started as ``python -m contactbench.app.study_kill_child act|look FOLDER STEP MESH``; each line that it writes is JSON.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QEvent, QPointF, QTimer
 
-import app.application
-from app.settings import Settings
-from app.study_brush import send_mouse
-from app.study_window import rest, until
-from app.undo import SetParameter
-from app.window import MainWindow
-from pipeline.errors import InputError
-from pipeline.session.files import unfinished
-from pipeline.workbench.steps import Step
+import contactbench.app.application
+from contactbench.app.settings import Settings
+from contactbench.app.study_brush import send_mouse
+from contactbench.app.study_window import rest, until
+from contactbench.app.undo import SetParameter
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.files import unfinished
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.session import State
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.session import State
 
 
 def digest(state: State) -> str:
@@ -116,8 +116,8 @@ def main(mode: str, folder: str, step: str, mesh: str) -> None:
             bench.close()
             os._exit(0)
 
-    vars(app.application)["MainWindow"] = Driven
-    app.application.run(Path(folder))
+    vars(contactbench.app.application)["MainWindow"] = Driven
+    contactbench.app.application.run(Path(folder))
 
 
 def _stroke(window: MainWindow) -> None:

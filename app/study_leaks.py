@@ -14,10 +14,10 @@ import numpy as np
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 
-from app.study_window import load, loaded, opened, own_home, rest, shown_window, until
-from pipeline.study.live.reader import resident
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.workbench.steps import Step
+from contactbench.app.study_window import load, loaded, opened, own_home, rest, shown_window, until
+from contactbench.pipeline.study.live.reader import resident
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -9,25 +9,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, QTimer
 
-from app.study_window import load as machine_load
-from app.study_window import loaded, opened, own_home, rest, shown_window, until
-from pipeline.devices.drive import SensorStream
-from pipeline.preparation.alignment import from_angles
-from pipeline.study.live.trial import sensor_process
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.workbench.live_ring import Ring
-from pipeline.workbench.steps import Step
-from widgets.scene.benchmark import ball
-from widgets.scene.views import turned
+from contactbench.app.study_window import load as machine_load
+from contactbench.app.study_window import loaded, opened, own_home, rest, shown_window, until
+from contactbench.pipeline.devices.drive import SensorStream
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.study.live.trial import sensor_process
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.workbench.live_ring import Ring
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.scene.benchmark import ball
+from contactbench.widgets.scene.views import turned
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from app.bench import Bench
-    from app.pages.probe import ProbePage
-    from app.window import MainWindow
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.app.bench import Bench
+    from contactbench.app.pages.probe import ProbePage
+    from contactbench.app.window import MainWindow
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 _RATE_HZ = 1000.0
 _STREAMS = 3
@@ -193,7 +193,7 @@ def _measured(
 
 
 def _probe_page(window: MainWindow) -> ProbePage:
-    from app.pages.probe import ProbePage
+    from contactbench.app.pages.probe import ProbePage
 
     page = window.pages.current
     assert isinstance(page, ProbePage)  # noqa: S101 - just shown

@@ -8,9 +8,9 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-from app.study_window import load, loaded, own_home
-from pipeline.errors import InputError
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.app.study_window import load, loaded, own_home
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,9 +39,9 @@ application.exec()
 # The real command line with the real window; only where it says that it can be used is added.
 _WINDOW = f"""
 import os, sys
-import app.cli, app.application
+import contactbench.app.cli, contactbench.app.application
 from PySide6.QtCore import QEvent, QTimer
-class Seen(app.application.MainWindow):
+class Seen(contactbench.app.application.MainWindow):
     def event(self, event):
         done = super().event(event)
         if event.type() == QEvent.Type.Paint:
@@ -55,9 +55,9 @@ def seen():
 def window():
     from PySide6.QtWidgets import QApplication
     return next(each for each in QApplication.topLevelWidgets() if isinstance(each, Seen))
-app.application.MainWindow = Seen
+contactbench.app.application.MainWindow = Seen
 sys.argv = ["contactbench", "gui"]
-app.cli.main()
+contactbench.app.cli.main()
 """
 
 

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEventLoop, QTimer
 
-from app.application import prepared
-from app.errors import Faults
-from app.settings import Settings
-from app.window import MainWindow
-from pipeline.errors import InputError
-from widgets.theme import use_theme
+from contactbench.app.application import prepared
+from contactbench.app.errors import Faults
+from contactbench.app.settings import Settings
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.errors import InputError
+from contactbench.widgets.theme import use_theme
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from app.bench import Bench
+    from contactbench.app.bench import Bench
 
 _POLL_MS = 5
 _PATIENCE_S = 60.0

@@ -1,7 +1,8 @@
 """
 Other languages: loading them, and keeping them complete.
 
-``python -m app.translation update`` takes new strings of `app` and `widgets` into every language's .ts file and makes
+``python -m contactbench.app.translation update`` takes new strings of `app` and `widgets` into every
+language's .ts file and makes
 the .qm files that the window loads, and new sentences of `pipeline` into its phrase book; ``check`` says what is not
 translated, with exit code 1 if anything.
 """
@@ -16,8 +17,8 @@ from xml.etree import ElementTree as ET
 
 from PySide6.QtCore import QCoreApplication, QLibraryInfo, QLocale, QTranslator
 
-from app.sentences import templates
-from widgets import phrases
+from contactbench.app.sentences import templates
+from contactbench.widgets import phrases
 
 LANGUAGES = {"en": "English", "de": "Deutsch"}
 """Code to name, each in its own words."""
@@ -128,7 +129,7 @@ def main(arguments: list[str]) -> int:
     actions = {"update": update, "release": release}
     languages = [code for code in LANGUAGES if code != _SOURCE]
     if len(arguments) != 1 or arguments[0] not in {*actions, "check"}:
-        sys.stderr.write("usage: python -m app.translation update|release|check\n")
+        sys.stderr.write("usage: python -m contactbench.app.translation update|release|check\n")
         return 2
     if arguments[0] != "check":
         for code in languages:

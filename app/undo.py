@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtGui import QUndoCommand
 
-from pipeline.workbench.undoing import Change, observed
+from contactbench.pipeline.workbench.undoing import Change, observed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from app.bench import Bench
-    from pipeline.session import Session
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.session import Session
 
 
 class SessionCommand(QUndoCommand):

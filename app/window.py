@@ -10,35 +10,35 @@ from PySide6.QtGui import QUndoGroup
 from PySide6.QtOpenGLWidgets import QOpenGLWidget
 from PySide6.QtWidgets import QLabel, QMainWindow, QStackedWidget
 
-from app.bench import Bench, Weight
-from app.errors import in_words
-from app.garbage import Garbage
-from app.heartbeat import Heartbeat
-from app.jobs import Jobs
-from app.settings import Settings
-from app.start import StartPage, dropped_folder
-from app.turns import Turns
-from app.window_damage import DamageCheck
-from app.window_disk import DiskWatch
-from app.window_docks import Docks, geometry_text, restore_geometry
-from app.window_header import Header
-from app.window_live import LiveView
-from app.window_menus import Menus
-from app.window_pages import Pages
-from app.window_probe import SessionProbe
-from app.window_sessions import Sessions
-from app.window_told import Told
-from pipeline.workbench.steps import Step, StepState
-from widgets.progress_strip import ProgressStrip
-from widgets.theme import is_dark, use_theme
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.errors import in_words
+from contactbench.app.garbage import Garbage
+from contactbench.app.heartbeat import Heartbeat
+from contactbench.app.jobs import Jobs
+from contactbench.app.settings import Settings
+from contactbench.app.start import StartPage, dropped_folder
+from contactbench.app.turns import Turns
+from contactbench.app.window_damage import DamageCheck
+from contactbench.app.window_disk import DiskWatch
+from contactbench.app.window_docks import Docks, geometry_text, restore_geometry
+from contactbench.app.window_header import Header
+from contactbench.app.window_live import LiveView
+from contactbench.app.window_menus import Menus
+from contactbench.app.window_pages import Pages
+from contactbench.app.window_probe import SessionProbe
+from contactbench.app.window_sessions import Sessions
+from contactbench.app.window_told import Told
+from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.widgets.progress_strip import ProgressStrip
+from contactbench.widgets.theme import is_dark, use_theme
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
-    from app.errors import Faults, LogFile
-    from app.jobs import Job
-    from app.opening import Opened
-    from widgets.scene import Scene
+    from contactbench.app.errors import Faults, LogFile
+    from contactbench.app.jobs import Job
+    from contactbench.app.opening import Opened
+    from contactbench.widgets.scene import Scene
 
 _TICK_MS, _SLOW_MS = 33, 500
 _STATUS_PX = 40
@@ -169,7 +169,7 @@ class MainWindow(QMainWindow):
 
     def _make_scene(self) -> None:
         if self.scene is None:
-            from widgets.scene import Scene  # brings VTK: only once it is needed
+            from contactbench.widgets.scene import Scene  # brings VTK: only once it is needed
 
             self.scene = Scene()
             self.scene.set_dark(is_dark())

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer
 
-from app.bench import Weight
-from app.opening import damage
+from contactbench.app.bench import Weight
+from contactbench.app.opening import damage
 
 if TYPE_CHECKING:
-    from app.bench import Bench
+    from contactbench.app.bench import Bench
 
 _AFTER_MS, _MOST = 2000, 5
 

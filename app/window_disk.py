@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from app.bench import Weight
-from app.errors import in_words
+from contactbench.app.bench import Weight
+from contactbench.app.errors import in_words
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
 
-    from app.bench import Bench
+    from contactbench.app.bench import Bench
 
 _EVERY_S = 2.0
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QByteArray, QCoreApplication, Qt, QTimer
 from PySide6.QtWidgets import QDockWidget, QStackedWidget, QWidget
 
-from widgets.message_list import MessageList
-from widgets.step_list import StepList
+from contactbench.widgets.message_list import MessageList
+from contactbench.widgets.step_list import StepList
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QMainWindow

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QLabel, QSizePolicy, QToolBar, QWidget
 
-from app.start import session_name
+from contactbench.app.start import session_name
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QAction
 
-    from app.bench import Bench
-    from pipeline.workbench.live import Live
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.live import Live
 
 _ICON_PX = 22
 

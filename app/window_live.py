@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from app.bench import Weight
-from app.window_statuses import is_connected
-from pipeline.errors import InputError
+from contactbench.app.bench import Weight
+from contactbench.app.window_statuses import is_connected
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from widgets.strip_chart import StripChart
+    from contactbench.app.bench import Bench
+    from contactbench.widgets.strip_chart import StripChart
 
 _MOST_TOLD = 20
 _SENSOR, _POSES, _MOUNT = "devices.sensor", "devices.poses", "devices.mount"
@@ -43,7 +43,7 @@ class LiveView(QObject):
 
     def make_charts(self) -> StripChart:
         """Make charts for the next session; return them."""
-        from widgets.strip_chart import StripChart  # brings pyqtgraph: only once it is needed
+        from contactbench.widgets.strip_chart import StripChart  # brings pyqtgraph: only once it is needed
 
         self.charts = StripChart()
         return self.charts
@@ -72,7 +72,7 @@ class LiveView(QObject):
             return
 
         def work(_progress: object, _cancelled: object) -> None:
-            from pipeline.session.making import mount_rotation
+            from contactbench.pipeline.session.making import mount_rotation
 
             bench.live.open(sensor, poses if isinstance(poses, str) else None, mount_rotation(mount))
 

@@ -11,23 +11,23 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QFileDialog
 from shiboken6 import isValid
 
-from app.bench import Weight
-from app.help_pages import page_text
-from app.help_text import TextDialog
-from app.shortcuts import CheatSheet
-from app.start import session_name
-from app.translation import LANGUAGES
-from pipeline.workbench.steps import Step
-from widgets.icons import icon
+from contactbench.app.bench import Weight
+from contactbench.app.help_pages import page_text
+from contactbench.app.help_text import TextDialog
+from contactbench.app.shortcuts import CheatSheet
+from contactbench.app.start import session_name
+from contactbench.app.translation import LANGUAGES
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from PySide6.QtWidgets import QMenu, QWidget
 
-    from app.about import AboutDialog
-    from app.motion import MotionWindow
-    from app.window import MainWindow
+    from contactbench.app.about import AboutDialog
+    from contactbench.app.motion import MotionWindow
+    from contactbench.app.window import MainWindow
 
 _KEY = QKeySequence.StandardKey
 
@@ -162,13 +162,13 @@ class Menus(QObject):
 
     def show_about(self) -> None:
         """Show the version, and the licences of the parts."""
-        from app.about import AboutDialog
+        from contactbench.app.about import AboutDialog
 
         self._open(AboutDialog(self._window))
 
     def show_heatmap_viewer(self) -> None:
         """Show the heatmap viewer in a window of its own."""
-        from app.heatmap_viewer import HeatmapViewer
+        from contactbench.app.heatmap_viewer import HeatmapViewer
 
         bench = self._window.bench
         viewer = HeatmapViewer()
@@ -178,7 +178,7 @@ class Menus(QObject):
 
     def show_motion(self) -> MotionWindow:
         """Show a closed loop in a window of its own; with a session, on the bundle that it would give."""
-        from app.motion import MotionWindow
+        from contactbench.app.motion import MotionWindow
 
         motion = MotionWindow(lambda: self._window.bench)
         self._show_beside(motion, self.tr("Motion control on the virtual bench"))
@@ -213,7 +213,7 @@ class Menus(QObject):
 
     def save_diagnostics(self, file: Path) -> None:
         """Save diagnostics, without names of people and places, and without data."""
-        from app.diagnostics import save_diagnostics
+        from contactbench.app.diagnostics import save_diagnostics
 
         window = self._window
         bench, log = window.bench, window.log

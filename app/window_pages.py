@@ -9,26 +9,28 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QTimer, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
-from app.page import Page
-from app.window_statuses import statuses_of
-from app.window_wheels import guard_wheels
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.finish import finish
+from contactbench.app.page import Page
+from contactbench.app.window_statuses import statuses_of
+from contactbench.app.window_wheels import guard_wheels
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.finish import finish
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from PySide6.QtWidgets import QStackedWidget, QWidget
 
-    from app.bench import Bench
-    from pipeline.workbench.statuses import Facts
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.statuses import Facts
 
 _PAUSE_MS = 150  # between pages that are made ahead: the window answers meanwhile
 
 
 def page_class(step: Step) -> type[Page]:
     """Return what the page of a step is made of; imported only now, so that the window is there sooner."""
-    found: type[Page] = getattr(import_module(f"app.pages.{step}"), f"{step.value.capitalize()}Page")
+    found: type[Page] = getattr(
+        import_module(f"contactbench.app.pages.{step}"), f"{step.value.capitalize()}Page"
+    )
     return found
 
 
@@ -143,7 +145,7 @@ class Pages(QObject):
         if bench is None:
             return
 
-        from pipeline.workbench.statuses import read_facts
+        from contactbench.pipeline.workbench.statuses import read_facts
 
         folder, state = bench.desk.folder, bench.desk.state
         if state.count == self._read:

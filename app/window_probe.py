@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.mesh import Probe
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.mesh import Probe
 
 
 class SessionProbe(QObject):
@@ -20,7 +20,7 @@ class SessionProbe(QObject):
 
     def open(self, bench: Bench) -> None:
         """Begin with a session: the scene is emptied, and shows its probe when it is read."""
-        from pipeline.workbench.export_checklist import newest
+        from contactbench.pipeline.workbench.export_checklist import newest
 
         scene, folder, state = bench.scene, bench.desk.folder, bench.desk.state
         scene.show_field(None)
@@ -30,8 +30,8 @@ class SessionProbe(QObject):
             return
 
         def read(_progress: object, _cancelled: object) -> Probe | None:
-            from pipeline.session.recompute import lay_out
-            from pipeline.verification.result import load_surface
+            from contactbench.pipeline.session.recompute import lay_out
+            from contactbench.pipeline.verification.result import load_surface
 
             try:
                 with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:

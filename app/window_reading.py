@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QDockWidget, QLabel, QSizePolicy, QStackedWidget, QTabBar, QToolBar, QWidget
 
-from widgets.icons import Sign, icon
-from widgets.scrolled import Scrolled
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QMainWindow
 
-    from app.bench import Bench
+    from contactbench.app.bench import Bench
 
 _ICON_PX = 20
 _DIRECT = Qt.FindChildOption.FindDirectChildrenOnly

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QStandardPaths, Signal
 from PySide6.QtWidgets import QFileDialog
 
-from app.errors import in_words
-from app.opening import (
+from contactbench.app.errors import in_words
+from contactbench.app.opening import (
     Opened,
     Problem,
     adopt,
@@ -22,25 +22,25 @@ from app.opening import (
     salvaged,
     virtual_session,
 )
-from app.start import session_name
-from app.window_reading import ReadOnlyView
-from pipeline.workbench.steps import Step
+from contactbench.app.start import session_name
+from contactbench.app.window_reading import ReadOnlyView
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench
-    from app.jobs import Jobs
-    from app.settings import Settings
-    from app.start import StartPage
-    from app.window import MainWindow
+    from contactbench.app.bench import Bench
+    from contactbench.app.jobs import Jobs
+    from contactbench.app.settings import Settings
+    from contactbench.app.start import StartPage
+    from contactbench.app.window import MainWindow
 
 _NEEDED = (
-    "widgets.scene",
-    "widgets.strip_chart",
-    "pipeline.workbench.live",
-    "pipeline.workbench.statuses",
-    *(f"app.pages.{step}" for step in Step),
+    "contactbench.widgets.scene",
+    "contactbench.widgets.strip_chart",
+    "contactbench.pipeline.workbench.live",
+    "contactbench.pipeline.workbench.statuses",
+    *(f"contactbench.app.pages.{step}" for step in Step),
 )
 
 

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from app.bench import Weight
-from app.errors import LOG, in_words
+from contactbench.app.bench import Weight
+from contactbench.app.errors import LOG, in_words
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench, Message
-    from app.jobs import Job
-    from app.window_docks import Docks
+    from contactbench.app.bench import Bench, Message
+    from contactbench.app.jobs import Job
+    from contactbench.app.window_docks import Docks
 
 
 class Told(QObject):

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from assets.section import unit_section
-from assets.surface import Station, Surface
+from contactbench.assets.section import unit_section
+from contactbench.assets.surface import Station, Surface
 
 Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from assets.fronts import Fronts
-from assets.stitch import improve, join, shift, triangles
-from assets.surface import Surface
+from contactbench.assets.fronts import Fronts
+from contactbench.assets.stitch import improve, join, shift, triangles
+from contactbench.assets.surface import Surface
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import BSpline
 
-from assets.meshing import tessellate
-from assets.surface import Station, Surface
-from assets.warp import Arc, Shoulder, Warp
+from contactbench.assets.meshing import tessellate
+from contactbench.assets.surface import Station, Surface
+from contactbench.assets.warp import Arc, Shoulder, Warp
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import BSpline
 from scipy.spatial import cKDTree
 
-from assets.section import Axis, unit_section
-from assets.warp import Warp
+from contactbench.assets.section import Axis, unit_section
+from contactbench.assets.warp import Warp
 
 Array = NDArray[np.float64]
 Where = Callable[[Array, Array], NDArray[np.bool_]]

@@ -1,5 +1,1 @@
 """Everything that needs no screen: from device bytes to a contact point and the exported config."""
-
-from importlib.metadata import version
-
-__version__ = version("contactbench")

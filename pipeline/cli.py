@@ -15,28 +15,28 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from pipeline import __version__
-from pipeline.commands.bench import bench_app
-from pipeline.commands.check import check_app
-from pipeline.commands.config import config_app
-from pipeline.commands.control import control_app
-from pipeline.commands.emulate import emulate_app
-from pipeline.commands.gravity import gravity_app
-from pipeline.commands.heatmap import heatmap_app
-from pipeline.commands.locate import locate_app
-from pipeline.commands.poses import poses_app
-from pipeline.commands.probe import probe_app
-from pipeline.commands.record import record_app
-from pipeline.commands.recording import recording_app
-from pipeline.commands.region import region_app
-from pipeline.commands.report import report_app
-from pipeline.commands.reproduce import reproduce_app
-from pipeline.commands.run import run_app
-from pipeline.commands.session import session_app
-from pipeline.commands.verify import markers_app, verify_app
-from pipeline.console import JsonOption, print_json, report_error, say, wants_json
-from pipeline.errors import InputError
-from pipeline.study.commands import study_app
+from contactbench import __version__
+from contactbench.pipeline.commands.bench import bench_app
+from contactbench.pipeline.commands.check import check_app
+from contactbench.pipeline.commands.config import config_app
+from contactbench.pipeline.commands.control import control_app
+from contactbench.pipeline.commands.emulate import emulate_app
+from contactbench.pipeline.commands.gravity import gravity_app
+from contactbench.pipeline.commands.heatmap import heatmap_app
+from contactbench.pipeline.commands.locate import locate_app
+from contactbench.pipeline.commands.poses import poses_app
+from contactbench.pipeline.commands.probe import probe_app
+from contactbench.pipeline.commands.record import record_app
+from contactbench.pipeline.commands.recording import recording_app
+from contactbench.pipeline.commands.region import region_app
+from contactbench.pipeline.commands.report import report_app
+from contactbench.pipeline.commands.reproduce import reproduce_app
+from contactbench.pipeline.commands.run import run_app
+from contactbench.pipeline.commands.session import session_app
+from contactbench.pipeline.commands.verify import markers_app, verify_app
+from contactbench.pipeline.console import JsonOption, print_json, report_error, say, wants_json
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.commands import study_app
 
 _WRONG_INPUT, _INTERRUPTED = 2, 130
 
@@ -124,7 +124,7 @@ def _facts() -> dict[str, Any]:
     from importlib import import_module
     from importlib.util import find_spec
 
-    from pipeline import kernel
+    from contactbench.pipeline import kernel
 
     optional = {
         name: _version(*distributions) if find_spec(name) else None
@@ -137,7 +137,7 @@ def _facts() -> dict[str, Any]:
         "platform": platform.platform(),
         "cpu": _cpu_model(),
         "cpu_count": os.cpu_count(),
-        "cpu_features": dict(import_module("pipeline.kernel._cpu").features()),
+        "cpu_features": dict(import_module("contactbench.pipeline.kernel._cpu").features()),
         "kernel": kernel.variant,
         "compiler": kernel.compiler,
         "optional": optional,
@@ -195,7 +195,7 @@ def demo(
     """Do the main job on the bundled probes."""
     from rich.console import Console
 
-    from pipeline.demo import PROBE_NAMES, run
+    from contactbench.pipeline.demo import PROBE_NAMES, run
 
     report = run(out, PROBE_NAMES if probe == "all" else (probe,), touches, seed, say)
     Console(stderr=as_json).print(report.table())
@@ -209,7 +209,8 @@ def demo(
 
 # ---- more commands -----------------------------------------------------------------------------
 
-# Their modules take options and output from pipeline.console and pipeline.commands, never from this one, and
+# Their modules take options and output from contactbench.pipeline.console and contactbench.pipeline.commands,
+# never from this one, and
 # import nothing heavy at their top.
 app.add_typer(locate_app)
 app.add_typer(heatmap_app)

@@ -4,7 +4,7 @@ import os
 import secrets
 from pathlib import Path
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 def write_durably(file: Path, data: bytes) -> None:

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-import assets
-from pipeline.mesh import Probe
+from contactbench import assets
+from contactbench.pipeline.mesh import Probe
 
 REAL_PROBES = Path(__file__).parents[1].parent / "shared" / "data" / "probes"
 

@@ -15,18 +15,18 @@ import pytest
 import trimesh
 from typer.testing import CliRunner
 
-import pipeline
-from pipeline import cli
-from pipeline.commands.locate import MethodName
-from pipeline.console import Bar
-from pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
-from pipeline.contact.contact_csv import REASONS
-from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from pipeline.errors import InputError
-from pipeline.mesh import load_probe, save_probe
-from pipeline.mesh.sidecar import save_probe_file
-from pipeline.preparation.alignment import from_angles
-from pipeline.preparation.steps import align_step, import_mesh
+import contactbench
+from contactbench.pipeline import cli
+from contactbench.pipeline.commands.locate import MethodName
+from contactbench.pipeline.console import Bar
+from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.contact_csv import REASONS
+from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import load_probe, save_probe
+from contactbench.pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.steps import align_step, import_mesh
 
 RUNNER = CliRunner()
 WRENCHES = "t,fx,fy,fz,mx,my,mz\n0.0,0,0,-5,0,0.01,0\n0.1,0,0,-0.1,0,0,0\n0.2,1,0,-5,0,0.1,0\n"
@@ -64,12 +64,12 @@ def refused(result: Any, message: str) -> None:
 def test_version():
     result = run("--version")
     assert result.exit_code == 0
-    assert result.stdout == f"contactbench {pipeline.__version__}\n"
+    assert result.stdout == f"contactbench {contactbench.__version__}\n"
 
 
 def test_starting_imports_nothing_heavy():
     heavy = "{'numpy', 'scipy', 'manifold3d', 'pyvista', 'rich'}"
-    code = f"import sys, pipeline.cli; print(sorted({heavy} & set(sys.modules)))"
+    code = f"import sys, contactbench.pipeline.cli; print(sorted({heavy} & set(sys.modules)))"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert result.stdout == "[]\n"
 
@@ -95,7 +95,7 @@ def test_help_states_the_defaults_of_the_gates():
 
 
 def test_method_names_are_those_of_the_methods():
-    methods = pytest.importorskip("pipeline.contact.methods")
+    methods = pytest.importorskip("contactbench.pipeline.contact.methods")
     assert {name.value for name in MethodName} == set(methods.METHODS)
 
 
@@ -127,7 +127,7 @@ def test_interruption_is_a_sentence(monkeypatch):
 
 def test_info():
     facts = json.loads(run("info", "--json").stdout)
-    assert facts["contactbench"] == pipeline.__version__
+    assert facts["contactbench"] == contactbench.__version__
     assert facts["numpy"] == np.__version__
     assert facts["kernel"] in {"base", "avx2"}
     assert set(facts["optional"]) == {
@@ -399,7 +399,7 @@ def test_wrong_options(bench, arguments, message):
 def test_ctrl_c_leaves_the_old_output(bench):
     (bench / "contacts.csv").write_text("old", encoding="utf-8")
     files = ["--probe", bench / "ball.stl", "-", "--out", bench / "contacts.csv"]
-    command = [sys.executable, "-m", "pipeline.cli", "locate", *map(str, files)]
+    command = [sys.executable, "-m", "contactbench.pipeline.cli", "locate", *map(str, files)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
         assert child.stdin is not None
         assert child.stderr is not None

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.console import printable, say
+from contactbench.pipeline.console import printable, say
 
 
 def test_control_characters_are_replaced_and_line_feeds_stay() -> None:

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.errors import InputError
-from pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 
 POSES = Wording(
     header="x,y,z and qw,qx,qy,qz or rx,ry,rz",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.timing import Timing, time_batches, time_calls
+from contactbench.pipeline.timing import Timing, time_batches, time_calls
 
 
 def test_timing_counts_every_call() -> None:

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseNoise
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.simulation.weighing import Weighing, weigh
+from contactbench.pipeline.calibration import GravityModel, PoseNoise
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.simulation.weighing import Weighing, weigh
 
 TRUTH = GravityModel(
     np.array([0.0, 0.0, -6.1]),

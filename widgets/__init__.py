@@ -1,1 +1,1 @@
-"""Reusable Qt widgets that know the types of :mod:`pipeline` and nothing of :mod:`app`."""
+"""Reusable Qt widgets that know the types of :mod:`contactbench.pipeline` and nothing of :mod:`contactbench.app`."""

@@ -20,8 +20,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.alignment_points import PointTable
-from widgets.alignment_stack import HeightStack
+from contactbench.widgets.alignment_points import PointTable
+from contactbench.widgets.alignment_stack import HeightStack
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

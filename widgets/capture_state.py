@@ -8,8 +8,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from pipeline.calibration.stillness import StillState
-from widgets.theme import colours, is_dark
+from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.widgets.theme import colours, is_dark
 
 CAPTURED, ASKED = "captured", "asked"
 _RING, _PEN = 76, 8

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
-from widgets.icons import Sign, icon
-from widgets.phrases import said
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

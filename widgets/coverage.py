@@ -10,9 +10,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QHelpEvent, QPainter, QPainterPath, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
-from pipeline.workbench.gravity_poses import PoseRow, PoseState
-from widgets.phrases import said
-from widgets.theme import Colours, colours, is_dark
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.widgets.phrases import said
+from contactbench.widgets.theme import Colours, colours, is_dark
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,12 +8,12 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from pipeline.devices.drive import State
-from widgets.icons import Sign, icon
-from widgets.phrases import said
+from contactbench.pipeline.devices.drive import State
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
-    from pipeline.workbench.live_trial import Trial
+    from contactbench.pipeline.workbench.live_trial import Trial
 
 _CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _ICON_PX = 24

@@ -9,7 +9,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -10,8 +10,8 @@ from PySide6.QtGui import QIcon, QIconEngine, QPainter, QPaintEvent, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QLabel
 
-from pipeline.workbench.steps import StepState
-from widgets.theme import colours, is_dark
+from contactbench.pipeline.workbench.steps import StepState
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
+from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

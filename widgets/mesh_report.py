@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from widgets.icons import Sign, icon
-from widgets.phrases import said
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.mesh.inspect import Inspection
+    from contactbench.pipeline.mesh.inspect import Inspection
 
 _ICON_PX = 20
 _SHOWN = 2

@@ -21,9 +21,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.theme import colours, is_dark
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.theme import colours, is_dark
 
 _MOST = 500
 _NEWEST = 6  # a device that comes and goes tells a few things in turn

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QPushButton, QWidget
 
-from widgets.progress import show_value
+from contactbench.widgets.progress import show_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -20,7 +20,7 @@ _STEPS = 1000
 
 
 class Work(Protocol):
-    """One piece of work; see `app.jobs.Job`, which this package does not know."""
+    """One piece of work; see `contactbench.app.jobs.Job`, which this package does not know."""
 
     title: str
     share: float

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, Signal
 
-from pipeline.mesh.regions import Brush, RegionError
+from contactbench.pipeline.mesh.regions import Brush, RegionError
 
 if TYPE_CHECKING:
-    from pipeline.workbench.regions import RegionsWork
-    from widgets.scene.scene import Pick, Scene
+    from contactbench.pipeline.workbench.regions import RegionsWork
+    from contactbench.widgets.scene.scene import Pick, Scene
 
 SMALLEST, LARGEST, USUAL = 0.5e-3, 30e-3, 3e-3  # radius, m
 STEP = 1.2  # the radius grows by this at each turn of the wheel
@@ -32,7 +32,7 @@ class RegionBrush(QObject):
     radius : float
         m; change it by `resize` and `scale`.
     erase, protect : bool
-        See `pipeline.mesh.regions.Brush`.
+        See `contactbench.pipeline.mesh.regions.Brush`.
     rank : int
         Of the region that is painted; 0: none is chosen, and a stroke says so.
     """

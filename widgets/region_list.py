@@ -18,14 +18,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
-from widgets.region_list_colour import ColourMenu
-from widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY, RegionRows
+from contactbench.widgets.icons import icon
+from contactbench.widgets.region_list_colour import ColourMenu
+from contactbench.widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY, RegionRows
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.workbench.regions import RegionRow
+    from contactbench.pipeline.workbench.regions import RegionRow
 
 _SHORTEST, _TALLEST = 4, 8  # rows that the list is high
 _NARROWEST_PX = 56  # of a column: four digits and a point

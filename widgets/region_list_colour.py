@@ -8,9 +8,9 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QColorDialog, QMenu
 
-from pipeline.mesh.regions import PALETTE
-from widgets.region_list_rows import swatch
-from widgets.theme import is_dark
+from contactbench.pipeline.mesh.regions import PALETTE
+from contactbench.widgets.region_list_rows import swatch
+from contactbench.widgets.theme import is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Collection

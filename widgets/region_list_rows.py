@@ -15,12 +15,12 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QColor, QIcon, QPainter, QPen, QPixmap
 
-from widgets.theme import colours, is_dark
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.workbench.regions import RegionRow
+    from contactbench.pipeline.workbench.regions import RegionRow
 
     Index = QModelIndex | QPersistentModelIndex
 

@@ -26,10 +26,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from pipeline.workbench.gravity_poses import PoseRow, PoseState
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.theme import colours, is_dark
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.theme import colours, is_dark
 
 NAME, STANDS, SIGMAS, STATE = range(4)
 _FULL = 6.0  # sigmas that fill the bar

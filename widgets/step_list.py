@@ -8,10 +8,10 @@ from PySide6.QtCore import QRect, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QSizePolicy, QVBoxLayout, QWidget
 
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.icons import state_colour, state_icon
-from widgets.phrases import said
-from widgets.theme import colours, is_dark
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.icons import state_colour, state_icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

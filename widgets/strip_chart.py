@@ -20,13 +20,13 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
-from widgets.strip_chart_pane import Curves, Pane
+from contactbench.widgets.icons import icon
+from contactbench.widgets.strip_chart_pane import Curves, Pane
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.workbench.live import Live
+    from contactbench.pipeline.workbench.live import Live
 
 _SPANS = (5.0, 10.0, 30.0, 60.0, 120.0)
 _LONGEST = _SPANS[-1]

@@ -11,10 +11,10 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QColor, QFont
 from PySide6.QtWidgets import QGraphicsItem, QGraphicsView, QLabel, QVBoxLayout, QWidget
 
-from widgets.plot_frame import PlotFrame
-from widgets.strip_chart_decimate import decimate, nearest, steady_range
-from widgets.strip_chart_legend import Entry, Legend
-from widgets.theme import colours, is_dark
+from contactbench.widgets.plot_frame import PlotFrame
+from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
+from contactbench.widgets.strip_chart_legend import Entry, Legend
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

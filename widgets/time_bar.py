@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from widgets.icons import icon
-from widgets.range_slider import RangeSlider
+from contactbench.widgets.icons import icon
+from contactbench.widgets.range_slider import RangeSlider
 
 if TYPE_CHECKING:
     import numpy as np

@@ -9,8 +9,8 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from widgets.icons import icon
-from widgets.theme import colours, is_dark
+from contactbench.widgets.icons import icon
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent

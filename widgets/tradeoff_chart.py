@@ -9,13 +9,13 @@ import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from widgets.plot_frame import PlotFrame
-from widgets.theme import colours, is_dark
+from contactbench.widgets.plot_frame import PlotFrame
+from contactbench.widgets.theme import colours, is_dark
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QKeyEvent
 
-    from pipeline.workbench.probe_ladder import Trade, TradePoint
+    from contactbench.pipeline.workbench.probe_ladder import Trade, TradePoint
 
 # An error of nothing has no place on a logarithmic axis.
 _LEAST_MM, _LEAST_US = 1e-3, 1e-3

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-from app.heatmap_viewer.viewer import HeatmapViewer
+from contactbench.app.heatmap_viewer.viewer import HeatmapViewer
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,7 +30,7 @@ def run(paths: list[Path]) -> int:
     from PySide6.QtCore import QCoreApplication
     from PySide6.QtWidgets import QApplication
 
-    from widgets.theme import use_theme
+    from contactbench.widgets.theme import use_theme
 
     application = QApplication.instance() or QApplication(sys.argv[:1])
     use_theme()

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 if TYPE_CHECKING:
-    from widgets.scene import Scene
+    from contactbench.widgets.scene import Scene
 
 
 class OneCamera(QObject):

@@ -19,19 +19,19 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.heatmap_viewer.reading import ReadingBox
-from widgets.finish import finish
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.progress import show_value
-from widgets.range_slider import RangeSlider
-from widgets.scrolled import Scrolled
+from contactbench.app.heatmap_viewer.reading import ReadingBox
+from contactbench.widgets.finish import finish
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.progress import show_value
+from contactbench.widgets.range_slider import RangeSlider
+from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.windowing import Selection
 
 _LEAST_MM, _MOST_MM = 0.5, 20.0
 _PATIENCE = 200  # ms without a change before the bells are made again
@@ -230,7 +230,7 @@ class Controls(QWidget):
 
     def selection(self, start: float | None, end: float | None) -> Selection:
         """Return what is chosen, in a window of time, s."""
-        from pipeline.heatmap.windowing import Selection
+        from contactbench.pipeline.heatmap.windowing import Selection
 
         least: float | None = None
         most: float | None = None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtWidgets import QCheckBox, QDoubleSpinBox, QFormLayout, QGroupBox, QHBoxLayout, QWidget
 
-from app.heatmap_viewer.how import HowRead
+from contactbench.app.heatmap_viewer.how import HowRead
 
 _PATIENCE = 600  # ms without a change before recordings are read again
 

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.heatmap_viewer.sources import Source
-    from app.heatmap_viewer.viewer import HeatmapViewer
-    from pipeline.heatmap.film import FilmSettings
-    from pipeline.heatmap.windowing import Selection
+    from contactbench.app.heatmap_viewer.sources import Source
+    from contactbench.app.heatmap_viewer.viewer import HeatmapViewer
+    from contactbench.pipeline.heatmap.film import FilmSettings
+    from contactbench.pipeline.heatmap.windowing import Selection
 
 _SUFFIXES = (".png", ".ply", ".glb", ".mp4", ".gif")
 
@@ -46,7 +46,7 @@ class Saving(QObject):
 
     def save(self, file: Path) -> None:
         """Save to a file, of the kind that its name says: .png, .ply, .glb, .mp4 or .gif."""
-        from pipeline.heatmap.film import FilmSettings
+        from contactbench.pipeline.heatmap.film import FilmSettings
 
         viewer, kind = self._viewer, file.suffix.lower()
         sources = [viewer.source(number) for number in range(viewer.visible_sides())]
@@ -80,10 +80,10 @@ class Saving(QObject):
 
 
 def _still(source: Source, selection: Selection, file: Path, cancelled: Callable[[], bool]) -> None:
-    from pipeline.heatmap.files import encode_glb, encode_ply
-    from pipeline.heatmap.picture import encode_png
-    from pipeline.heatmap.windowing import selected_heatmap
-    from pipeline.mesh.engines.errors import Cancelled
+    from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
+    from contactbench.pipeline.heatmap.picture import encode_png
+    from contactbench.pipeline.heatmap.windowing import selected_heatmap
+    from contactbench.pipeline.mesh.engines.errors import Cancelled
 
     made = selected_heatmap(source.probe.probe, source.contacts, selection)
     data = {".png": encode_png, ".ply": encode_ply, ".glb": encode_glb}[file.suffix.lower()](made)
@@ -105,8 +105,8 @@ def _film(
     progress: Callable[[float], None],
     cancelled: Callable[[], bool],
 ) -> None:
-    from pipeline.heatmap.film import write_film
-    from pipeline.heatmap.playback import Playback
+    from contactbench.pipeline.heatmap.film import write_film
+    from contactbench.pipeline.heatmap.playback import Playback
 
     # one of its own: the window goes on using the other
     playback = Playback(source.probe.probe, source.contacts, selection.bandwidth)

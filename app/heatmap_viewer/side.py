@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from pipeline.errors import InputError
-from widgets.scene import Scene
+from contactbench.pipeline.errors import InputError
+from contactbench.widgets.scene import Scene
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.heatmap.playback import Frame, Playback
-    from pipeline.heatmap.windowing import Selection
-    from widgets.scene import Pick
+    from contactbench.pipeline.heatmap.playback import Frame, Playback
+    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.widgets.scene import Pick
 
 
 class Side(QWidget):

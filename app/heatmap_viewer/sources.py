@@ -10,29 +10,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from app.heatmap_viewer.how import HowRead
-from pipeline.calibration.files.calibration_file import load_calibration
-from pipeline.calibration.files.capture_recording import is_recording
-from pipeline.contact import Gates
-from pipeline.errors import InputError
-from pipeline.heatmap import HeatmapError
-from pipeline.heatmap.contacts import locate_recording, read_contacts, read_points
-from pipeline.heatmap.touched import touches_of
-from pipeline.heatmap.windowing import in_order
-from pipeline.mesh.engines.errors import Cancelled
-from pipeline.mesh.sidecar import load_probe_file
-from pipeline.report.making import check_sources, sha256_of
-from pipeline.report.reading import read_verification
-from pipeline.session import Session
-from pipeline.session.making import mount_of, mount_rotation
-from pipeline.session.recompute import lay_out, newest_inputs
-from pipeline.verification.figures import SCHEMA as VERIFICATION
+from contactbench.app.heatmap_viewer.how import HowRead
+from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+from contactbench.pipeline.calibration.files.capture_recording import is_recording
+from contactbench.pipeline.contact import Gates
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.heatmap import HeatmapError
+from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points
+from contactbench.pipeline.heatmap.touched import touches_of
+from contactbench.pipeline.heatmap.windowing import in_order
+from contactbench.pipeline.mesh.engines.errors import Cancelled
+from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.report.making import check_sources, sha256_of
+from contactbench.pipeline.report.reading import read_verification
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.making import mount_of, mount_rotation
+from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.verification.figures import SCHEMA as VERIFICATION
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from pipeline.heatmap.contacts import Contacts
-    from pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.heatmap.contacts import Contacts
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _MESHES = (".ply", ".stl", ".obj", ".off", ".3mf", ".glb", ".gltf")
 _HEAD = 65_536  # bytes that tell what a JSON file is

@@ -10,24 +10,24 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QStackedWidget, QVBoxLayout, QWidget
 
-from app.heatmap_viewer.cameras import OneCamera
-from app.heatmap_viewer.controls import Controls
-from app.heatmap_viewer.saving import Saving
-from app.heatmap_viewer.side import Side
-from app.heatmap_viewer.work import Work
-from app.jobs import Jobs
-from widgets.time_bar import TimeBar
+from contactbench.app.heatmap_viewer.cameras import OneCamera
+from contactbench.app.heatmap_viewer.controls import Controls
+from contactbench.app.heatmap_viewer.saving import Saving
+from contactbench.app.heatmap_viewer.side import Side
+from contactbench.app.heatmap_viewer.work import Work
+from contactbench.app.jobs import Jobs
+from contactbench.widgets.time_bar import TimeBar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 
-    from app.heatmap_viewer.how import HowRead
-    from app.heatmap_viewer.sources import Files, Opened, Source
-    from pipeline.heatmap.playback import Playback
-    from pipeline.heatmap.windowing import Selection
-    from widgets.scene import Pick
+    from contactbench.app.heatmap_viewer.how import HowRead
+    from contactbench.app.heatmap_viewer.sources import Files, Opened, Source
+    from contactbench.pipeline.heatmap.playback import Playback
+    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.widgets.scene import Pick
 
 # What computes takes seconds to import: that is done beside the window, when there is something to open.
 
@@ -160,7 +160,7 @@ class HeatmapViewer(QWidget):
         before, given, how = self._files, tuple(paths), self.controls.reading.how()
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
-            from app.heatmap_viewer.sources import open_files, sorted_files
+            from contactbench.app.heatmap_viewer.sources import open_files, sorted_files
 
             found = sorted_files(given, before)
             if before is not None and not found.contacts:  # a probe alone: what waited for it is tried again
@@ -170,7 +170,7 @@ class HeatmapViewer(QWidget):
         self.work.start(self.tr("Opening"), work, self._opened)
 
     def _opened(self, opened: Opened) -> None:
-        from pipeline.heatmap.heatmap import default_bandwidth
+        from contactbench.pipeline.heatmap.heatmap import default_bandwidth
 
         known = {source.name for source in self.sources}
         self._files = opened.files
@@ -200,7 +200,7 @@ class HeatmapViewer(QWidget):
             return
 
         def work(progress: Callable[[float], None], cancelled: Callable[[], bool]) -> Opened:
-            from app.heatmap_viewer.sources import read_again
+            from contactbench.app.heatmap_viewer.sources import read_again
 
             return read_again(before, how, progress, cancelled)
 
@@ -303,7 +303,7 @@ class HeatmapViewer(QWidget):
                 self._make(number)
 
         def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> Playback:
-            from pipeline.heatmap.playback import Playback
+            from contactbench.pipeline.heatmap.playback import Playback
 
             return Playback(source.probe.probe, source.contacts, bandwidth)
 

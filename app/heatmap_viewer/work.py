@@ -9,8 +9,8 @@ from PySide6.QtCore import QObject
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.heatmap_viewer.controls import Controls
-    from app.jobs import Job, Jobs
+    from contactbench.app.heatmap_viewer.controls import Controls
+    from contactbench.app.jobs import Job, Jobs
 
 
 class Work(QObject):

@@ -17,15 +17,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.scrolled import Scrolled
-from widgets.theme import accent
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.scrolled import Scrolled
+from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.workbench.motion import Change, MotionChoice
+    from contactbench.pipeline.workbench.motion import Change, MotionChoice
 
 _WIDTH_PX, _BUTTON_PX, _LINES_PX = 348, 40, 40
 _PERIODS_S = (20.0, 10.0, 5.0, 2.0)
@@ -188,7 +188,7 @@ class Controls(QWidget):
 
     def choice(self) -> MotionChoice:
         """Return what is chosen."""
-        from pipeline.workbench.motion import MotionChoice
+        from contactbench.pipeline.workbench.motion import MotionChoice
 
         return MotionChoice(
             robot=self.robot.currentData(),

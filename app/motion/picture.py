@@ -8,16 +8,16 @@ import numpy as np
 from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
-from widgets.scene import Scene
-from widgets.strip_chart_pane import Curves, Pane
-from widgets.theme import is_dark
+from contactbench.widgets.scene import Scene
+from contactbench.widgets.strip_chart_pane import Curves, Pane
+from contactbench.widgets.theme import is_dark
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.frames import Beginning, Frame
-    from pipeline.mesh import Probe
-    from pipeline.workbench.motion import Course
+    from contactbench.pipeline.control.frames import Beginning, Frame
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.workbench.motion import Course
 
 _SPAN_S = 20.0
 _CHARTS_PX = 170
@@ -71,7 +71,7 @@ class Picture(QWidget):
 
     def show_frame(self, beginning: Beginning, frame: Frame) -> None:
         """Show a period."""
-        from pipeline.workbench.motion import placed
+        from contactbench.pipeline.workbench.motion import placed
 
         where = placed(beginning, frame)
         self.scene.show_orientation(where.R_WS, where.p_WS_W)

@@ -12,20 +12,20 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QWidget
 
-from app.errors import in_words
-from app.jobs import Jobs
-from app.motion.controls import Controls
-from app.motion.picture import Picture
+from contactbench.app.errors import in_words
+from contactbench.app.jobs import Jobs
+from contactbench.app.motion.controls import Controls
+from contactbench.app.motion.picture import Picture
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from PySide6.QtGui import QCloseEvent
 
-    from app.bench import Bench
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.session import Session
-    from pipeline.workbench.motion import MotionRun
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.motion import MotionRun
 
 _TICK_MS = 40
 _CHARTS_EVERY = 2  # ticks
@@ -93,7 +93,7 @@ class MotionWindow(QWidget):
         place = Path(self._made.name) / "session.zip"
 
         def write(session: Session) -> Path:
-            from pipeline.workbench.export import built
+            from contactbench.pipeline.workbench.export import built
 
             built(session, unverified=True).write(place)
             return place
@@ -118,7 +118,7 @@ class MotionWindow(QWidget):
             return
 
         def work(_progress: Callable[[float], None], _cancelled: Callable[[], bool]) -> RuntimeConfig:
-            from pipeline.config.runtime import RuntimeConfig
+            from contactbench.pipeline.config.runtime import RuntimeConfig
 
             return RuntimeConfig.load(bundle)
 
@@ -163,7 +163,7 @@ class MotionWindow(QWidget):
 
     def begin(self) -> None:
         """Begin to run what is chosen."""
-        from pipeline.workbench.motion import MotionRun
+        from contactbench.pipeline.workbench.motion import MotionRun
 
         if self._bundle is None or self._busy or (self.run is not None and self.run.running):
             return

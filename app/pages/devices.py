@@ -17,23 +17,23 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.bench import Weight
-from app.page import Page
-from app.pages.devices_sources import PoseSource, SensorSource, angle_field
-from app.undo import SetParameters
-from pipeline.devices.drive import State
-from pipeline.devices.transport.ports import SerialPort, list_ports
-from pipeline.workbench.live_devices import Devices, gives_poses, problem_of
-from pipeline.workbench.live_trial import trial_of
-from pipeline.workbench.steps import Step
-from widgets.device_trial import DeviceChannels, DeviceTrial
-from widgets.phrases import said
-from widgets.scrolled import Scrolled
+from contactbench.app.bench import Weight
+from contactbench.app.page import Page
+from contactbench.app.pages.devices_sources import PoseSource, SensorSource, angle_field
+from contactbench.app.undo import SetParameters
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
+from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
+from contactbench.pipeline.workbench.live_trial import trial_of
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.device_trial import DeviceChannels, DeviceTrial
+from contactbench.widgets.phrases import said
+from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.workbench.live_trial import Trial
-    from pipeline.workbench.steps import StepStatus
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.live_trial import Trial
+    from contactbench.pipeline.workbench.steps import StepStatus
 
 _PORTS_EVERY_S, _TRIAL_EVERY_S = 2.0, 0.5
 _HIGH = 40

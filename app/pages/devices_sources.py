@@ -20,15 +20,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from assets import PROBE_NAMES
-from pipeline.devices.url import Carrier, DeviceAddress, Protocol
-from pipeline.workbench import live_devices as devices
-from widgets.phrases import said
+from contactbench.assets import PROBE_NAMES
+from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.workbench import live_devices as devices
+from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.transport.ports import SerialPort
+    from contactbench.pipeline.devices.transport.ports import SerialPort
 
 _PORT, _VIRTUAL, _REPLAY, _ADDRESS = "port", "virtual", "replay", "address"
 _SAME, _STILL, _FILE, _NONE = "same", "still", "file", "none"

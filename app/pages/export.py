@@ -20,24 +20,24 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.bench import Weight
-from app.page import Page
-from app.pages.export_settings import ExportSettingsPanel
-from app.pages.verify_undo import ChangeSettings
-from pipeline.config.runtime.options import ExportOptions
-from pipeline.errors import InputError
-from pipeline.workbench.export import Exported, ExportView, export, survey
-from pipeline.workbench.export_checklist import newest
-from pipeline.workbench.steps import Step
-from widgets.checklist import Checklist, ShownCheck
-from widgets.icons import Sign, icon
-from widgets.phrases import said
-from widgets.scrolled import Scrolled
+from contactbench.app.bench import Weight
+from contactbench.app.page import Page
+from contactbench.app.pages.export_settings import ExportSettingsPanel
+from contactbench.app.pages.verify_undo import ChangeSettings
+from contactbench.pipeline.config.runtime.options import ExportOptions
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.export import Exported, ExportView, export, survey
+from contactbench.pipeline.workbench.export_checklist import newest
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.checklist import Checklist, ShownCheck
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.scrolled import Scrolled
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.workbench.export import Preview
-    from pipeline.workbench.steps import StepStatus
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.export import Preview
+    from contactbench.pipeline.workbench.steps import StepStatus
 
 _TALL, _ICON = 36, 30
 

@@ -19,10 +19,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
+from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
-    from pipeline.config.runtime.options import ExportOptions
+    from contactbench.pipeline.config.runtime.options import ExportOptions
 
 _TALL = 36
 
@@ -105,8 +105,8 @@ class ExportSettingsPanel(QWidget):
 
     def read_gains(self, file: Path) -> None:
         """Take the gains of a file."""
-        from pipeline.config.runtime.settings_file import controller_in
-        from pipeline.errors import InputError
+        from contactbench.pipeline.config.runtime.settings_file import controller_in
+        from contactbench.pipeline.errors import InputError
 
         try:
             controller = controller_in(file.read_bytes(), file.name)

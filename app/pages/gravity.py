@@ -9,33 +9,33 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QVBoxLayout, QWidget
 
-from app.bench import Weight
-from app.page import Page
-from app.pages.gravity_changes import GravityChanges
-from app.pages.gravity_choices import GravityChoices
-from app.pages.gravity_panel import GravityPanel, big_button
-from app.pages.gravity_run import GravityRun, Phase
-from app.pages.gravity_weight import WeightPanel
-from pipeline.calibration import Level
-from pipeline.calibration.model import DOWN_W
-from pipeline.calibration.stillness import StillState
-from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_settings import DOWN, ORIENTATION_NOISE, TILT
-from pipeline.workbench.steps import Step, StepState
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.verdict_box import LOCKED, REFUSE
+from contactbench.app.bench import Weight
+from contactbench.app.page import Page
+from contactbench.app.pages.gravity_changes import GravityChanges
+from contactbench.app.pages.gravity_choices import GravityChoices
+from contactbench.app.pages.gravity_panel import GravityPanel, big_button
+from contactbench.app.pages.gravity_run import GravityRun, Phase
+from contactbench.app.pages.gravity_weight import WeightPanel
+from contactbench.pipeline.calibration import Level
+from contactbench.pipeline.calibration.model import DOWN_W
+from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_settings import DOWN, ORIENTATION_NOISE, TILT
+from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.verdict_box import LOCKED, REFUSE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtWidgets import QPushButton
 
-    from app.bench import Bench
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.workbench.gravity import GravityView
-    from pipeline.workbench.gravity_poses import PoseRow
-    from pipeline.workbench.gravity_solving import Finding
-    from pipeline.workbench.steps import StepStatus
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.workbench.gravity import GravityView
+    from contactbench.pipeline.workbench.gravity_poses import PoseRow
+    from contactbench.pipeline.workbench.gravity_solving import Finding
+    from contactbench.pipeline.workbench.steps import StepStatus
 
 _BUMP_N = [6.0, 0.0, 0.0]
 

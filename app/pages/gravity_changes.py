@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from PySide6.QtCore import QObject
 
-from app.bench import Weight
-from app.pages.gravity_run import GravityRun, Phase
-from app.pages.gravity_undo import Confirm, LeaveOut
-from pipeline.workbench import gravity_results as results
-from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_settings import DOWN, INVERSE, MOUNT, ORIENTATION_NOISE, TILT
+from contactbench.app.bench import Weight
+from contactbench.app.pages.gravity_run import GravityRun, Phase
+from contactbench.app.pages.gravity_undo import Confirm, LeaveOut
+from contactbench.pipeline.workbench import gravity_results as results
+from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_settings import DOWN, INVERSE, MOUNT, ORIENTATION_NOISE, TILT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.session import Session
-    from pipeline.workbench.gravity_poses import PoseRow
-    from pipeline.workbench.gravity_results import Outcome
-    from pipeline.workbench.gravity_solving import Finding
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.gravity_poses import PoseRow
+    from contactbench.pipeline.workbench.gravity_results import Outcome
+    from contactbench.pipeline.workbench.gravity_solving import Finding
 
 _BEFORE: dict[str, Any] = {  # where nothing was set
     MOUNT: [0.0, 0.0, 0.0],

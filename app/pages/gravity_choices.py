@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from PySide6.QtCore import QObject
 
-from app.pages.gravity_run import GravityRun, Phase
-from pipeline.calibration import Level
-from pipeline.workbench.steps import Step
+from contactbench.app.pages.gravity_run import GravityRun, Phase
+from contactbench.pipeline.calibration import Level
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -18,23 +18,23 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from pipeline.calibration import Limits
-from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
-from pipeline.calibration.wording import plain
-from widgets.capture_state import CaptureState
-from widgets.coverage import Coverage
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.residual_table import ResidualTable
-from widgets.scrolled import Scrolled
-from widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
+from contactbench.pipeline.calibration import Limits
+from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.calibration.wording import plain
+from contactbench.widgets.capture_state import CaptureState
+from contactbench.widgets.coverage import Coverage
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.residual_table import ResidualTable
+from contactbench.widgets.scrolled import Scrolled
+from contactbench.widgets.verdict_box import REFUSE, USABLE, Shrinking, VerdictBox
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.workbench.gravity_solving import Finding, Proposal
+    from contactbench.pipeline.workbench.gravity_solving import Finding, Proposal
 
 _UNDETERMINED = 0.05  # m: beyond, a number says nothing
 _HIGH, _THREE_LINES = 38, 54  # px

@@ -8,25 +8,25 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from app.bench import Weight
-from pipeline.calibration import Level
-from pipeline.errors import InputError
-from pipeline.workbench import gravity_results as results
-from pipeline.workbench.gravity import GravityWork
-from pipeline.workbench.gravity_check import GravityCheck
-from pipeline.workbench.gravity_settings import gravity_settings
-from pipeline.workbench.steps import Step
-from pipeline.workbench.tape import Tape
+from contactbench.app.bench import Weight
+from contactbench.pipeline.calibration import Level
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench import gravity_results as results
+from contactbench.pipeline.workbench.gravity import GravityWork
+from contactbench.pipeline.workbench.gravity_check import GravityCheck
+from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.pipeline.workbench.tape import Tape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from app.bench import Bench
-    from pipeline.calibration import PoseSample
-    from pipeline.calibration.verify import StillVerification
-    from pipeline.workbench.gravity_results import Outcome
-    from pipeline.workbench.gravity_settings import GravitySettings
-    from pipeline.workbench.gravity_solving import Finding
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.calibration import PoseSample
+    from contactbench.pipeline.calibration.verify import StillVerification
+    from contactbench.pipeline.workbench.gravity_results import Outcome
+    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.workbench.gravity_solving import Finding
 
 
 _DIGITS = re.compile(r"\d+")

@@ -8,15 +8,15 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDoubleSpinBox, QGridLayout, QLabel, QLineEdit, QWidget
 
-from app.pages.known_check import TALL, KnownCheckPanel
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.verification.known import WEIGHT
-from pipeline.workbench.known_checks import StillReading
+from contactbench.app.pages.known_check import TALL, KnownCheckPanel
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.verification.known import WEIGHT
+from contactbench.pipeline.workbench.known_checks import StillReading
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from app.bench import Bench
+    from contactbench.app.bench import Bench
 
 _HUNG_S, _OFF_S = 30.0, 0.01  # on the virtual bench
 

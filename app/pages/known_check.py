@@ -15,25 +15,25 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.bench import Weight
-from pipeline.errors import InputError
-from pipeline.verification.known import Outcome
-from pipeline.workbench.known_checks import (
+from contactbench.app.bench import Weight
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.known import Outcome
+from contactbench.pipeline.workbench.known_checks import (
     KnownChecks,
     KnownOutcome,
     PressReading,
     StillReading,
     known_outcome,
 )
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.verdict_box import GOOD, LOCKED, REFUSE, USABLE, VerdictBox
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from app.bench import Bench
-    from pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 
 TALL = 36  # px
 _LEVELS = {Outcome.PASSED: GOOD, Outcome.UNDECIDED: USABLE, Outcome.FAILED: REFUSE}

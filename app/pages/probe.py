@@ -9,22 +9,28 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QFileDialog, QLabel, QVBoxLayout, QWidget
 
-from app.page import Page
-from app.pages.probe_housing import bench_address
-from app.pages.probe_placing import Placing
-from app.pages.probe_sections import FacetsSection, MeshSection, NextBar, PlaceSection, SurfaceSection
-from app.pages.probe_stages import TARGETS, ProbeStages, key_of
-from pipeline.workbench.steps import Step
-from widgets.phrases import said
-from widgets.scrolled import Scrolled
-from widgets.theme import accent
+from contactbench.app.page import Page
+from contactbench.app.pages.probe_housing import bench_address
+from contactbench.app.pages.probe_placing import Placing
+from contactbench.app.pages.probe_sections import (
+    FacetsSection,
+    MeshSection,
+    NextBar,
+    PlaceSection,
+    SurfaceSection,
+)
+from contactbench.app.pages.probe_stages import TARGETS, ProbeStages, key_of
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.phrases import said
+from contactbench.widgets.scrolled import Scrolled
+from contactbench.widgets.theme import accent
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent
 
-    from app.bench import Bench
-    from pipeline.workbench.steps import StepStatus
-    from widgets.scene import Pick
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.widgets.scene import Pick
 
 _MESHES = "(*.stl *.ply *.obj *.off *.3mf *.glb *.gltf)"
 

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.url import DeviceAddress, Protocol
-from pipeline.errors import InputError
-from pipeline.preparation.alignment import from_transform
+from contactbench.pipeline.devices.url import DeviceAddress, Protocol
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.preparation.alignment import from_transform
 
 if TYPE_CHECKING:
-    from pipeline.preparation.alignment import Alignment
-    from pipeline.session.state import State
-    from pipeline.workbench.probe import Mesh, ProbeWork
+    from contactbench.pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.session.state import State
+    from contactbench.pipeline.workbench.probe import Mesh, ProbeWork
 
 SENSOR = "devices.sensor"
 
@@ -68,7 +68,7 @@ def take_housing(
         mesh = work.take(Path(options.mesh), "m", progress, cancelled)  # type: ignore[arg-type]
         aligned = mesh.original.frame == "S"
         return Housing(mesh, None if aligned else from_transform(np.eye(4)), "m", None)
-    from pipeline.demo.housing import housing_of  # it brings what draws the demo's pictures
+    from contactbench.pipeline.demo.housing import housing_of  # it brings what draws the demo's pictures
 
     content, T_SP, alpha = housing_of(options.probe)
     with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from pipeline.errors import InputError
-from pipeline.preparation.alignment import from_angles
-from pipeline.workbench.probe_alignment import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.workbench.probe_alignment import (
     PointPair,
     back_to_mesh,
     by_axes,
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from app.pages.probe_sections import NextBar, PlaceSection
-    from app.pages.probe_stages import ProbeStages
-    from app.pages.probe_view import Shown
-    from pipeline.mesh import Probe
-    from pipeline.preparation.alignment import Alignment
+    from contactbench.app.pages.probe_sections import NextBar, PlaceSection
+    from contactbench.app.pages.probe_stages import ProbeStages
+    from contactbench.app.pages.probe_view import Shown
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.preparation.alignment import Alignment
 
 
 class Placing(QObject):

@@ -20,17 +20,17 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from pipeline.mesh.units import NAMES
-from widgets.alignment_panel import AlignmentPanel
-from widgets.mesh_report import MeshReport
-from widgets.phrases import said
-from widgets.progress import show_value
-from widgets.tradeoff_chart import TradeoffChart
+from contactbench.pipeline.mesh.units import NAMES
+from contactbench.widgets.alignment_panel import AlignmentPanel
+from contactbench.widgets.mesh_report import MeshReport
+from contactbench.widgets.phrases import said
+from contactbench.widgets.progress import show_value
+from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 if TYPE_CHECKING:
-    from pipeline.workbench.probe import Mesh
+    from contactbench.pipeline.workbench.probe import Mesh
 
-_CLOSINGS = ("", "fair", "ruled", "hull", "open")  # as `pipeline.mesh.shell.Closing` has them
+_CLOSINGS = ("", "fair", "ruled", "hull", "open")  # as `contactbench.pipeline.mesh.shell.Closing` has them
 _TARGETS = ("facets", "max_deviation", "max_contact_error")
 
 

@@ -7,27 +7,27 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.bench import Weight
-from app.pages.probe_housing import Housing, bench_address, take_housing
-from app.pages.probe_undo import UseProbe
-from app.pages.probe_view import ProbeView, Shown
-from app.pages.probe_work import Worker
-from pipeline.workbench.probe import Mesh, Plan, Preview, ProbeWork
-from pipeline.workbench.probe_ladder import Trade, trade_of
-from pipeline.workbench.probe_shell import recipe_of, used_probe
-from pipeline.workbench.steps import Step
+from contactbench.app.bench import Weight
+from contactbench.app.pages.probe_housing import Housing, bench_address, take_housing
+from contactbench.app.pages.probe_undo import UseProbe
+from contactbench.app.pages.probe_view import ProbeView, Shown
+from contactbench.app.pages.probe_work import Worker
+from contactbench.pipeline.workbench.probe import Mesh, Plan, Preview, ProbeWork
+from contactbench.pipeline.workbench.probe_ladder import Trade, trade_of
+from contactbench.pipeline.workbench.probe_shell import recipe_of, used_probe
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from app.bench import Bench
-    from app.pages.probe_sections import NextBar
-    from pipeline.mesh import Probe
-    from pipeline.preparation.alignment import Alignment
-    from pipeline.preparation.ladder import Ladder
-    from pipeline.preparation.prepare import Dense
-    from pipeline.session import State
+    from contactbench.app.bench import Bench
+    from contactbench.app.pages.probe_sections import NextBar
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.preparation.ladder import Ladder
+    from contactbench.pipeline.preparation.prepare import Dense
+    from contactbench.pipeline.session import State
 
 _SETTLE_MS = 350
 TARGETS = ("facets", "max_deviation", "max_contact_error")

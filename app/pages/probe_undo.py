@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QUndoCommand
 
-from pipeline.workbench.probe_commit import Before, before, bring_back, commit
+from contactbench.pipeline.workbench.probe_commit import Before, before, bring_back, commit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench
-    from pipeline.session import Session
-    from pipeline.workbench.probe import Preview
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.probe import Preview
 
 
 class UseProbe(QUndoCommand):

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pipeline.mesh import Probe
-    from pipeline.preparation.alignment import Alignment
-    from pipeline.workbench.probe import Preview
-    from widgets.scene import Scene
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.workbench.probe import Preview
+    from contactbench.widgets.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QCoreApplication, QObject
 
-from pipeline.errors import InputError
-from pipeline.mesh.engines import Cancelled
-from pipeline.workbench.steps import Step
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench
-    from app.jobs import Job
-    from app.pages.probe_sections import NextBar
+    from contactbench.app.bench import Bench
+    from contactbench.app.jobs import Job
+    from contactbench.app.pages.probe_sections import NextBar
 
 
 class Worker(QObject):

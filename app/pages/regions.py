@@ -10,29 +10,29 @@ from PySide6.QtCore import QEvent
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QVBoxLayout, QWidget
 
-from app.bench import Weight
-from app.page import Page
-from app.pages.regions_doing import Doing
-from app.pages.regions_files import read_regions, write_regions
-from app.pages.regions_keeping import Keeper
-from app.pages.regions_panel import Mode, RegionsPanel, View
-from app.pages.regions_tools import BOX, BRUSH, ERASER, FILL, LOOK, PLANE
-from app.pages.regions_undo import RegionStep
-from pipeline.errors import InputError
-from pipeline.mesh.engines import Cancelled
-from pipeline.workbench.regions_session import open_work, standing, surface_key
-from pipeline.workbench.steps import Step
-from widgets.region_brush import STEP, RegionBrush
+from contactbench.app.bench import Weight
+from contactbench.app.page import Page
+from contactbench.app.pages.regions_doing import Doing
+from contactbench.app.pages.regions_files import read_regions, write_regions
+from contactbench.app.pages.regions_keeping import Keeper
+from contactbench.app.pages.regions_panel import Mode, RegionsPanel, View
+from contactbench.app.pages.regions_tools import BOX, BRUSH, ERASER, FILL, LOOK, PLANE
+from contactbench.app.pages.regions_undo import RegionStep
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.workbench.regions_session import open_work, standing, surface_key
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.region_brush import STEP, RegionBrush
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench
-    from app.jobs import Job
-    from pipeline.mesh.regions import Change, RegionModel
-    from pipeline.workbench.regions import RegionsWork
-    from pipeline.workbench.steps import StepStatus
-    from widgets.scene.scene import Pick
+    from contactbench.app.bench import Bench
+    from contactbench.app.jobs import Job
+    from contactbench.pipeline.mesh.regions import Change, RegionModel
+    from contactbench.pipeline.workbench.regions import RegionsWork
+    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.widgets.scene.scene import Pick
 
 
 class RegionsPage(Page):

@@ -6,23 +6,23 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from app.bench import Weight
-from app.undo import SessionCommand
-from pipeline.errors import InputError
-from pipeline.mesh.engines import Cancelled
-from pipeline.workbench.regions_session import apply
-from pipeline.workbench.regions_tools import Clear
-from pipeline.workbench.steps import Step
+from contactbench.app.bench import Weight
+from contactbench.app.undo import SessionCommand
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.workbench.regions_session import apply
+from contactbench.pipeline.workbench.regions_tools import Clear
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.jobs import Job
-    from app.pages.regions import RegionsPage
-    from pipeline.session import Session
-    from pipeline.session.actions import Record
-    from pipeline.workbench.regions import RegionsWork
-    from pipeline.workbench.regions_tools import Found, Tool
+    from contactbench.app.jobs import Job
+    from contactbench.app.pages.regions import RegionsPage
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.workbench.regions import RegionsWork
+    from contactbench.pipeline.workbench.regions_tools import Found, Tool
 
     Progress = Callable[[float], None]
     Stop = Callable[[], bool]

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication
 
-from app.bench import Weight
-from pipeline.mesh.regions import RegionSet, load_regions, save_regions
+from contactbench.app.bench import Weight
+from contactbench.pipeline.mesh.regions import RegionSet, load_regions, save_regions
 
 if TYPE_CHECKING:
-    from app.pages.regions import RegionsPage
+    from contactbench.app.pages.regions import RegionsPage
 
 
 def read_regions(page: RegionsPage, file: Path) -> None:

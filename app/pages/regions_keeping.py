@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from app.bench import Weight
-from pipeline.workbench.regions_session import keep
+from contactbench.app.bench import Weight
+from contactbench.pipeline.workbench.regions_session import keep
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.workbench.regions import RegionsWork
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.regions import RegionsWork
 
 PAUSE = 1500  # ms after the last change
 

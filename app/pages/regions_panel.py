@@ -15,16 +15,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.pages.regions_fields import muted
-from app.pages.regions_shape import ShapePanel
-from app.pages.regions_tools import ToolPanel
-from pipeline.workbench.regions_session import Standing
-from pipeline.workbench.steps import StepState
-from widgets.icons import Sign, icon, state_icon
-from widgets.phrases import said
-from widgets.progress import show_value
-from widgets.region_list import RegionListWidget
-from widgets.scrolled import Scrolled
+from contactbench.app.pages.regions_fields import muted
+from contactbench.app.pages.regions_shape import ShapePanel
+from contactbench.app.pages.regions_tools import ToolPanel
+from contactbench.pipeline.workbench.regions_session import Standing
+from contactbench.pipeline.workbench.steps import StepState
+from contactbench.widgets.icons import Sign, icon, state_icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.progress import show_value
+from contactbench.widgets.region_list import RegionListWidget
+from contactbench.widgets.scrolled import Scrolled
 
 
 class Mode(Enum):

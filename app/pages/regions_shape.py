@@ -8,12 +8,12 @@ from PySide6.QtCore import QSize, Signal
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QComboBox, QGridLayout, QGroupBox, QPushButton, QSpinBox, QWidget
 
-from app.pages.regions_fields import AXES, length_field, unit_vector
-from pipeline.workbench.regions_tools import Clear, Grow, Mirror, Shrink, Smooth
-from widgets.icons import icon
+from contactbench.app.pages.regions_fields import AXES, length_field, unit_vector
+from contactbench.pipeline.workbench.regions_tools import Clear, Grow, Mirror, Shrink, Smooth
+from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
-    from pipeline.workbench.regions_tools import Tool
+    from contactbench.pipeline.workbench.regions_tools import Tool
 
 
 class ShapePanel(QGroupBox):

@@ -24,16 +24,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.pages.regions_fields import AXES, length_field, muted, unit_vector
-from pipeline.workbench.regions_tools import Box, Flood, Plane
-from widgets.icons import icon
-from widgets.region_brush import LARGEST, SMALLEST, USUAL
+from contactbench.app.pages.regions_fields import AXES, length_field, muted, unit_vector
+from contactbench.pipeline.workbench.regions_tools import Box, Flood, Plane
+from contactbench.widgets.icons import icon
+from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.workbench.regions_tools import Tool
-    from widgets.scene.scene import Pick
+    from contactbench.pipeline.workbench.regions_tools import Tool
+    from contactbench.widgets.scene.scene import Pick
 
 LOOK, BRUSH, ERASER, FILL, BOX, PLANE = "look", "brush", "eraser", "fill", "box", "plane"
 _MARGIN = 1.0  # mm around picked corners: two picks on a flat side span no box

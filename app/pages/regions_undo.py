@@ -10,7 +10,7 @@ from PySide6.QtGui import QUndoCommand
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.workbench.regions import RegionsWork
+    from contactbench.pipeline.workbench.regions import RegionsWork
 
 
 class RegionStep(QUndoCommand):

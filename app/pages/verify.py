@@ -6,37 +6,41 @@ from typing import TYPE_CHECKING, ClassVar
 
 from PySide6.QtWidgets import QLabel, QPushButton, QTabWidget, QVBoxLayout, QWidget
 
-from app.bench import Weight
-from app.page import Page
-from app.pages.verify_editing import MarkerEditing
-from app.pages.verify_leaving import Leaving
-from app.pages.verify_live import LiveShow
-from app.pages.verify_markers import MarkersPanel
-from app.pages.verify_point import PointPanel
-from app.pages.verify_result import ResultPanel
-from app.pages.verify_scene import TouchScene
-from app.pages.verify_settings import SettingsPanel
-from app.pages.verify_touch import TouchPanel
-from app.pages.verify_undo import ChangeSettings
-from app.pages.verify_virtual import Toucher
-from pipeline.contact import ContactSolver
-from pipeline.errors import InputError
-from pipeline.workbench.markers import Markers, kept
-from pipeline.workbench.steps import Step, StepState
-from pipeline.workbench.verify import Tool, VerifyWork, tool_key, tool_of, why_locked
-from pipeline.workbench.verify_outcome import Outcome, outcome_of
-from pipeline.workbench.verify_settings import checked_parameters, parameters_of, plain_parameters
-from widgets.phrases import said
-from widgets.scrolled import Scrolled
-from widgets.sounds import Sounds
+from contactbench.app.bench import Weight
+from contactbench.app.page import Page
+from contactbench.app.pages.verify_editing import MarkerEditing
+from contactbench.app.pages.verify_leaving import Leaving
+from contactbench.app.pages.verify_live import LiveShow
+from contactbench.app.pages.verify_markers import MarkersPanel
+from contactbench.app.pages.verify_point import PointPanel
+from contactbench.app.pages.verify_result import ResultPanel
+from contactbench.app.pages.verify_scene import TouchScene
+from contactbench.app.pages.verify_settings import SettingsPanel
+from contactbench.app.pages.verify_touch import TouchPanel
+from contactbench.app.pages.verify_undo import ChangeSettings
+from contactbench.app.pages.verify_virtual import Toucher
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.markers import Markers, kept
+from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.workbench.verify import Tool, VerifyWork, tool_key, tool_of, why_locked
+from contactbench.pipeline.workbench.verify_outcome import Outcome, outcome_of
+from contactbench.pipeline.workbench.verify_settings import (
+    checked_parameters,
+    parameters_of,
+    plain_parameters,
+)
+from contactbench.widgets.phrases import said
+from contactbench.widgets.scrolled import Scrolled
+from contactbench.widgets.sounds import Sounds
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench
-    from app.jobs import Job
-    from pipeline.workbench.steps import StepStatus
-    from widgets.scene.scene import Pick
+    from contactbench.app.bench import Bench
+    from contactbench.app.jobs import Job
+    from contactbench.pipeline.workbench.steps import StepStatus
+    from contactbench.widgets.scene.scene import Pick
 
 _MARKERS, _HOW, _POINT, _TOUCH, _RESULT = range(5)
 

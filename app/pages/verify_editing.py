@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog
 
-from app.bench import Weight
-from app.pages.verify_undo import ChangeMarkers
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
-from pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
+from contactbench.app.bench import Weight
+from contactbench.app.pages.verify_undo import ChangeMarkers
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, on_surface, spread
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.pages.verify import VerifyPage
-    from widgets.scene.scene import Pick
+    from contactbench.app.pages.verify import VerifyPage
+    from contactbench.widgets.scene.scene import Pick
 
 Point = tuple[float, float, float]
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QInputDialog
 
-from app.bench import Weight
+from contactbench.app.bench import Weight
 
 if TYPE_CHECKING:
-    from app.pages.verify import VerifyPage
+    from contactbench.app.pages.verify import VerifyPage
 
 _LONGEST = 200  # characters of a reason
 

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject
 
-from app.bench import Weight
-from app.pages.verify_scene import firm_contact
-from pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
-from pipeline.kernel import Reason
-from pipeline.verification.protocol import State
-from widgets.marker_table import ShownMarker
-from widgets.phrases import said
+from contactbench.app.bench import Weight
+from contactbench.app.pages.verify_scene import firm_contact
+from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE
+from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.verification.protocol import State
+from contactbench.widgets.marker_table import ShownMarker
+from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
-    from app.pages.verify import VerifyPage
-    from pipeline.kernel import Contact
-    from pipeline.workbench.verify_touches import TouchOf, TouchView
+    from contactbench.app.pages.verify import VerifyPage
+    from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.workbench.verify_touches import TouchOf, TouchView
 
 _KEPT_TICKS = 45  # how long a decision stays on the screen after the probe was let go, ticks
 _SAID = (State.ACCEPTED, State.REJECTED)

@@ -19,8 +19,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from widgets.icons import icon
-from widgets.marker_table import MarkerTable, ShownMarker
+from contactbench.widgets.icons import icon
+from contactbench.widgets.marker_table import MarkerTable, ShownMarker
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

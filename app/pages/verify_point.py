@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QWidget
 
-from app.pages.known_check import TALL, KnownCheckPanel
-from pipeline.verification.known import TOUCH
-from pipeline.workbench.known_checks import PressReading
+from contactbench.app.pages.known_check import TALL, KnownCheckPanel
+from contactbench.pipeline.verification.known import TOUCH
+from contactbench.pipeline.workbench.known_checks import PressReading
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from app.bench import Bench
-    from pipeline.calibration import GravityModel
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.calibration import GravityModel
 
 _PRESS_N, _PRESS_S = 10.0, 1.3  # on the virtual bench
 

@@ -8,13 +8,13 @@ from PySide6.QtCore import Qt, QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from widgets.icons import Sign, icon
-from widgets.phrases import said
+from contactbench.widgets.icons import Sign, icon
+from contactbench.widgets.phrases import said
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline.workbench.verify_outcome import Outcome
+    from contactbench.pipeline.workbench.verify_outcome import Outcome
 
 _TALL, _ICON = 36, 34
 

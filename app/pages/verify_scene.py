@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.heatmap.finer import drawing_of
-from pipeline.heatmap.heatmap import default_bandwidth, heatmap
-from pipeline.kernel import Reason
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.heatmap import default_bandwidth, heatmap
+from contactbench.pipeline.kernel import Reason
 
 if TYPE_CHECKING:
-    from app.bench import Bench
-    from pipeline.kernel import Contact
-    from pipeline.mesh import Probe
-    from pipeline.workbench.live import Reading
-    from pipeline.workbench.markers import Markers
-    from pipeline.workbench.verify_touches import TouchView
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.workbench.live import Reading
+    from contactbench.pipeline.workbench.markers import Markers
+    from contactbench.pipeline.workbench.verify_touches import TouchView
 
 _EVERY_S = 0.5
 _MOST = 4_000

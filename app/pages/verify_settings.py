@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QHBoxLayout, QLabel, QSpinBox, QWidget
 
-from app.pages.verify_markers import narrow
+from contactbench.app.pages.verify_markers import narrow
 
 if TYPE_CHECKING:
-    from pipeline.verification.result import VerificationParameters
+    from contactbench.pipeline.verification.result import VerificationParameters
 
 _TALL = 36
 

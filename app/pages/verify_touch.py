@@ -14,11 +14,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.pages.verify_markers import narrow
-from widgets.error_view import ErrorView
-from widgets.icons import icon
-from widgets.phrases import said
-from widgets.touch_state import TouchState
+from contactbench.app.pages.verify_markers import narrow
+from contactbench.widgets.error_view import ErrorView
+from contactbench.widgets.icons import icon
+from contactbench.widgets.phrases import said
+from contactbench.widgets.touch_state import TouchState
 
 _TALL = 36
 

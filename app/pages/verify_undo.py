@@ -9,8 +9,8 @@ from PySide6.QtGui import QUndoCommand
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from app.bench import Bench
-    from pipeline.workbench.markers import Markers
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.workbench.markers import Markers
 
 
 class ChangeMarkers(QUndoCommand):

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from pipeline.verification.protocol import State
+from contactbench.pipeline.verification.protocol import State
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from app.bench import Bench
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.given import Done
-    from pipeline.workbench.verify_touches import LiveTouches, TouchView
+    from contactbench.app.bench import Bench
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.given import Done
+    from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchView
 
 _HELD_S, _PAUSE_S, _MOST_TRIES = 1.2, 0.4, 3
 

@@ -1,11 +1,11 @@
 """Gravity calibration: from still, contact-free poses to bias, weight and centre of mass, with uncertainty."""
 
-from pipeline.calibration.calibrate import Calibration, calibrate
-from pipeline.calibration.contact_error import ContactTask
-from pipeline.calibration.fit import PoseNoise
-from pipeline.calibration.model import PARAMETERS, GravityModel
-from pipeline.calibration.poses import PoseError, PoseSample
-from pipeline.calibration.verdict import Level, Limits, Verdict
+from contactbench.pipeline.calibration.calibrate import Calibration, calibrate
+from contactbench.pipeline.calibration.contact_error import ContactTask
+from contactbench.pipeline.calibration.fit import PoseNoise
+from contactbench.pipeline.calibration.model import PARAMETERS, GravityModel
+from contactbench.pipeline.calibration.poses import PoseError, PoseSample
+from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict
 
 __all__ = [
     "PARAMETERS",

@@ -9,12 +9,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri, fdtri
 
-from pipeline.calibration import nuisance
-from pipeline.calibration.causes import Cause, causes, convention_cause, overruled
-from pipeline.calibration.comparison import PLAIN, Candidate, Comparison, compare
-from pipeline.calibration.contact_error import ContactTask, usual_task
-from pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration import nuisance
+from contactbench.pipeline.calibration.causes import Cause, causes, convention_cause, overruled
+from contactbench.pipeline.calibration.comparison import PLAIN, Candidate, Comparison, compare
+from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task
+from contactbench.pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     DOWN_W,
     GRAVITY,
@@ -22,20 +22,20 @@ from pipeline.calibration.model import (
     TORQUE_BIAS,
     GravityModel,
 )
-from pipeline.calibration.observability import Observability, observe, observe_weightless
-from pipeline.calibration.outliers import Rejection, deviates, refit, rejection
-from pipeline.calibration.poses import PoseError, Stack, stack
-from pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
-from pipeline.calibration.verdict import Level, Limits, Verdict, judge, same_readings
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.observability import Observability, observe, observe_weightless
+from contactbench.pipeline.calibration.outliers import Rejection, deviates, refit, rejection
+from contactbench.pipeline.calibration.poses import PoseError, Stack, stack
+from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
+from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge, same_readings
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from pipeline.calibration.poses import PoseSample
+    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from contactbench.pipeline.calibration.poses import PoseSample
 
 # Odds from which a cause is believed that nobody has asked for.
 _STRONG = 20.0

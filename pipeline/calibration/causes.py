@@ -8,25 +8,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import nuisance
-from pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
-from pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
-from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
-from pipeline.calibration.diagnosis.odds import NONE
-from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.fit import PoseNoise
-from pipeline.calibration.poses import named
-from pipeline.calibration.wording import plain
+from contactbench.pipeline.calibration import nuisance
+from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
+from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
+from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
+from contactbench.pipeline.calibration.diagnosis.odds import NONE
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.fit import PoseNoise
+from contactbench.pipeline.calibration.poses import named
+from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from pipeline.calibration.poses import PoseSample, Stack
-    from pipeline.calibration.reml import NoisePrior
+    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from contactbench.pipeline.calibration.poses import PoseSample, Stack
+    from contactbench.pipeline.calibration.reml import NoisePrior
 
 _TOLD = 0.01  # probability from which a cause is listed
 _LIKELY = 0.95  # a mistake that overrules what the residuals say by themselves

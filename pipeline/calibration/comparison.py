@@ -14,17 +14,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, logsumexp
 
-from pipeline.calibration import nuisance
-from pipeline.calibration.fit import jacobian, nothing_beside, predict, whitener
-from pipeline.calibration.outliers import LARGEST_SHARE, deviates, find_bumped, limit, refit
-from pipeline.calibration.reml import NoisyFit, fit_with_noise, over_unknowns
+from contactbench.pipeline.calibration import nuisance
+from contactbench.pipeline.calibration.fit import jacobian, nothing_beside, predict, whitener
+from contactbench.pipeline.calibration.outliers import LARGEST_SHARE, deviates, find_bumped, limit, refit
+from contactbench.pipeline.calibration.reml import NoisyFit, fit_with_noise, over_unknowns
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.fit import Terms
-    from pipeline.calibration.poses import Stack
-    from pipeline.calibration.reml import NoisePrior
+    from contactbench.pipeline.calibration.fit import Terms
+    from contactbench.pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.reml import NoisePrior
 
 PLAIN, NOISE = "plain", "noise"
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import DOWN_W, cross_matrix, prediction_jacobian, upright
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.model import DOWN_W, cross_matrix, prediction_jacobian, upright
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
     GRAVITY,
@@ -27,12 +27,12 @@ from pipeline.calibration.model import (
     cross_matrix,
     prediction_jacobian,
 )
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.poses import Stack
 
 # What a parameter could be if the poses say nothing of it: N, N, m, N·m. Only directions that the poses do
 # not show get this uncertainty; it is wide, so that everything computed from it says "unknown".

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.fit import Terms
-from pipeline.calibration.model import cross_matrix
+from contactbench.pipeline.calibration.fit import Terms
+from contactbench.pipeline.calibration.model import cross_matrix
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.poses import Stack
 
 DRIFT, REZERO, CABLE, MOUNT = "drift", "rezero", "cable", "mount"
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.fit import BLIND
-from pipeline.calibration.model import cross_matrix
+from contactbench.pipeline.calibration.fit import BLIND
+from contactbench.pipeline.calibration.model import cross_matrix
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.robot import Robot
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -59,7 +59,7 @@ class Convention:
     degrees : bool
         Angles are in degrees, else rad.
     robot : str
-        For joints: which robot, as in pipeline.robot.
+        For joints: which robot, as in contactbench.pipeline.robot.
     inverse : bool
         The numbers mean R_SW instead of R_WS.
 

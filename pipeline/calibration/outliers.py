@@ -17,26 +17,26 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtri
 
-from pipeline.calibration.fit import jacobian, solve_with_offset, whitener
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration.fit import jacobian, solve_with_offset, whitener
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
     GRAVITY,
     TORQUE_BIAS,
     cross_matrix,
 )
-from pipeline.calibration.poses import named
-from pipeline.calibration.reml import fit_with_noise
-from pipeline.calibration.wording import plain
+from contactbench.pipeline.calibration.poses import named
+from contactbench.pipeline.calibration.reml import fit_with_noise
+from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.fit import Fit, PoseNoise, Terms
-    from pipeline.calibration.poses import PoseSample, Stack
-    from pipeline.calibration.reml import NoisePrior, NoisyFit
+    from contactbench.pipeline.calibration.fit import Fit, PoseNoise, Terms
+    from contactbench.pipeline.calibration.poses import PoseSample, Stack
+    from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit
 
 # One clean set in a hundred may lose a pose.
 FALSE_ALARM = 0.01

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import DOWN_W, upright
-from pipeline.errors import InputError
-from pipeline.robot import Clearance, ClearanceCheck
+from contactbench.pipeline.calibration.model import DOWN_W, upright
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Clearance, ClearanceCheck
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.robot import Robot
+    from contactbench.pipeline.robot import Robot
 
 _PLASTIC = 1.324717957244746  # the real root of x³ = x + 1
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, chdtri
 
-from pipeline.calibration.fit import (
+from contactbench.pipeline.calibration.fit import (
     ALL,
     Fit,
     PoseNoise,
@@ -32,12 +32,12 @@ from pipeline.calibration.fit import (
     two_stage,
     whitener,
 )
-from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.poses import Stack
 
 USUAL_ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 # Standard deviations of logarithms: of a guess, and of a figure that is doubted. Noise that is not known is guessed

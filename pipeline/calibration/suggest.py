@@ -9,20 +9,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.contact_error import ContactTask, largest_eigenvalue, usual_task, worst_sigma
-from pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
-from pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
-from pipeline.calibration.reachable import describe
-from pipeline.calibration.wording import plain
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.contact_error import (
+    ContactTask,
+    largest_eigenvalue,
+    usual_task,
+    worst_sigma,
+)
+from contactbench.pipeline.calibration.fit import UNKNOWN, PoseNoise, felt, parameter_covariance
+from contactbench.pipeline.calibration.model import GRAVITY, GravityModel, length, prediction_jacobian
+from contactbench.pipeline.calibration.reachable import describe
+from contactbench.pipeline.calibration.wording import plain
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.reachable import Reachable
+    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.reachable import Reachable
 
 # What a pose means before anything was measured: a probe of half a kilogram, like the bundled ones.
 USUAL_LOAD = GravityModel(np.array([0.0, 0.0, -5.0]), np.zeros(3), np.array([0.0, 0.0, 0.05]), np.zeros(3))

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.outliers import limit
-from pipeline.calibration.poses import named, stack
-from pipeline.calibration.wording import plain
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.outliers import limit
+from contactbench.pipeline.calibration.poses import named, stack
+from contactbench.pipeline.calibration.wording import plain
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.causes import Cause
+    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.causes import Cause
 
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
 _RESTLESS = 50.0  # drift and hum make a mean several times worse than its samples promise, but not this much

@@ -9,20 +9,20 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
-from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.calibration.model import prediction_jacobian
-from pipeline.calibration.poses import named, stack
-from pipeline.calibration.verdict import Level, Limits, Verdict
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.poses import named, stack
+from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.contact_error import ContactTask
-    from pipeline.calibration.poses import PoseSample
+    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.contact_error import ContactTask
+    from contactbench.pipeline.calibration.poses import PoseSample
 
     Floats = NDArray[np.float64]
 

@@ -1,4 +1,4 @@
-"""Commands, one module a subject; :mod:`pipeline.cli` puts them together. Nothing here computes.
+"""Commands, one module a subject; :mod:`contactbench.pipeline.cli` puts them together. Nothing here computes.
 
 These modules import nothing heavy at their top, so that ``--help`` answers at once.
 """

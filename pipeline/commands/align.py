@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import numbers, refuse_overwriting
-from pipeline.commands.probe_options import (
+from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.commands.probe_options import (
     MeshArgument,
     OutOption,
     UnitsOption,
@@ -16,13 +16,13 @@ from pipeline.commands.probe_options import (
     open_mesh,
     share,
 )
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.preparation.alignment import Alignment, TouchAlignment
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
 
 
 def align(
@@ -90,9 +90,9 @@ def align(
     as_json: JsonOption = False,
 ) -> None:
     """Move a mesh from its own frame P into the sensor frame S."""
-    from pipeline.mesh.sidecar import save_probe_file
-    from pipeline.preparation.alignment import Advice
-    from pipeline.preparation.steps import align_step, refuse_aligned
+    from contactbench.pipeline.mesh.sidecar import save_probe_file
+    from contactbench.pipeline.preparation.alignment import Advice
+    from contactbench.pipeline.preparation.steps import align_step, refuse_aligned
 
     _check_files(file, out, save, (alignment, points, touches))
     way = _one_way(mount, alignment, points, frame, flange_face, axes, touches)
@@ -193,7 +193,7 @@ def chosen_mount(mount: str | None, alignment: Path | None) -> Alignment | None:
     typer.BadParameter
         Both were.
     """
-    from pipeline.preparation.alignment import AlignmentError, from_angles, from_json
+    from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
 
     if mount is not None and alignment is not None:
         raise typer.BadParameter("--mount and --alignment contradict each other: give one.")
@@ -217,8 +217,8 @@ def _by_touches(
     noise: tuple[float, float],
     placement: float,
 ) -> TouchAlignment:
-    from pipeline.contact import WrenchNoise
-    from pipeline.preparation.alignment import align_touches, read_touches
+    from contactbench.pipeline.contact import WrenchNoise
+    from contactbench.pipeline.preparation.alignment import align_touches, read_touches
 
     start = chosen_mount(mount, alignment)
     if start is None:
@@ -246,14 +246,14 @@ def _by_shape(
 ) -> Alignment:
     import numpy as np
 
-    from pipeline.preparation.alignment import (
+    from contactbench.pipeline.preparation.alignment import (
         align_axes,
         align_flange,
         align_frame,
         align_points,
         find_mounting_face,
     )
-    from pipeline.preparation.alignment.point_csv import read_points
+    from contactbench.pipeline.preparation.alignment.point_csv import read_points
 
     if points is not None:
         return align_points(*read_points(points))
@@ -277,8 +277,8 @@ def _tell(found: Alignment, by_touch: TouchAlignment | None) -> None:
 
 
 def _write(file: Path, found: Alignment) -> None:
-    from pipeline.durable import write_durably
-    from pipeline.preparation.alignment import AlignmentError
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.preparation.alignment import AlignmentError
 
     try:
         write_durably(file, found.to_json().encode())

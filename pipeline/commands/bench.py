@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
-from pipeline.errors import InputError
+from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from types import FrameType
 
-    from pipeline.devices.url import DeviceAddress
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.serve import ServedBench
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
 bench_app = typer.Typer(
     no_args_is_help=True,
@@ -59,8 +59,8 @@ def run(
     as_json: JsonOption = False,
 ) -> None:
     """Run a script on the virtual bench."""
-    from pipeline.simulation.virtual.run import run_script
-    from pipeline.simulation.virtual.slips import SLIPPED_S
+    from contactbench.pipeline.simulation.virtual.run import run_script
+    from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
     where = _address(probe, mesh, sensor, seed, rate, script)
     ran = run_script(_bench(where), out, truth, str(_without_paths(where)))
@@ -113,7 +113,7 @@ def serve(
     """Serve the virtual bench on real lines."""
     if pty and sri_port is not None:
         raise typer.BadParameter("--pty and --sri-port contradict each other: give one.")
-    from pipeline.simulation.virtual.serve import ServedBench
+    from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
     bench = _bench(_address(probe, mesh, sensor, seed, rate, script))
     before = signal.signal(signal.SIGTERM, _interrupt)
@@ -134,7 +134,7 @@ def _address(
     """Return the address of the bench: its door checks what was given."""
     from urllib.parse import urlencode
 
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.url import DeviceAddress
 
     options = {
         **({"probe": probe} if mesh is None else {"mesh": str(mesh)}),
@@ -166,7 +166,7 @@ def _without_paths(where: DeviceAddress) -> DeviceAddress:
 
 
 def _bench(where: DeviceAddress) -> VirtualBench:
-    from pipeline.streams.virtual import bench_at
+    from contactbench.pipeline.streams.virtual import bench_at
 
     return bench_at(where)
 
@@ -185,8 +185,8 @@ def _run(served: ServedBench) -> None:
 
 
 def _obey(served: ServedBench) -> None:
-    from pipeline.simulation.virtual.commands import read_command
-    from pipeline.simulation.virtual.script import read_object
+    from contactbench.pipeline.simulation.virtual.commands import read_command
+    from contactbench.pipeline.simulation.virtual.script import read_object
 
     for number, line in enumerate(sys.stdin, 1):
         if not line.strip():

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import (
+from contactbench.pipeline.commands.options import (
     EulerOption,
     InverseOption,
     MountOption,
@@ -18,7 +18,7 @@ from pipeline.commands.options import (
     numbers,
     refuse_overwriting,
 )
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -81,7 +81,7 @@ def weight(
     inputs = {"calibration": calibration, "unloaded": unloaded, "loaded": loaded}
     refuse_overwriting(out, list(inputs.values()))
     convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.verification.known_weight import WeightParameters, weight_content
+    from contactbench.pipeline.verification.known_weight import WeightParameters, weight_content
 
     given = WeightParameters.checked(
         {
@@ -136,7 +136,7 @@ def touch(
     inputs = {"calibration": calibration, "probe": probe, "touch": recording}
     refuse_overwriting(out, list(inputs.values()))
     convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
-    from pipeline.verification.known_touch import TouchParameters, touch_content
+    from contactbench.pipeline.verification.known_touch import TouchParameters, touch_content
 
     given = TouchParameters.checked(
         {
@@ -157,7 +157,7 @@ def _point(point: str | None, markers: Path | None, marker: str | None) -> list[
         )
     if point is not None:
         return numbers(point, 3, "--point")
-    from pipeline.verification import load_markers
+    from contactbench.pipeline.verification import load_markers
 
     assert markers is not None  # noqa: S101 - for the type checker; seen to above
     known = load_markers(markers)
@@ -188,16 +188,16 @@ def _orientations(
 
 
 def _now() -> str:
-    from pipeline.calibration.files.calibration_file import creation_time
+    from contactbench.pipeline.calibration.files.calibration_file import creation_time
 
     return creation_time().strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
 def _finish(content: Mapping[str, Any], out: Path | None, *, as_json: bool) -> None:
     """Write, show, and end with the exit code."""
-    from pipeline.durable import write_durably
-    from pipeline.errors import InputError
-    from pipeline.verification.known import to_bytes
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.errors import InputError
+    from contactbench.pipeline.verification.known import to_bytes
 
     if out is not None:
         try:

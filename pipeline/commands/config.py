@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import MountOption, numbers
-from pipeline.console import JsonOption, print_json, say, show_tables
+from contactbench.pipeline.commands.options import MountOption, numbers
+from contactbench.pipeline.console import JsonOption, print_json, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.config.runtime.bench import ExportSettings
-    from pipeline.config.runtime.differ import Differences
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime.bench import ExportSettings
+    from contactbench.pipeline.config.runtime.differ import Differences
 
 config_app = typer.Typer(
     help="Export, check and compare the bundle that a robot's runtime loads.",
@@ -113,9 +113,9 @@ def export(
 ) -> None:
     """Write a bundle."""
     files = _inputs(session, calibration, probe, verification, report, known_weight, known_touch)
-    from pipeline.calibration.files.calibration_file import creation_time
-    from pipeline.config.runtime import UnverifiedError
-    from pipeline.config.runtime.bench import export_from_files
+    from contactbench.pipeline.calibration.files.calibration_file import creation_time
+    from contactbench.pipeline.config.runtime import UnverifiedError
+    from contactbench.pipeline.config.runtime.bench import export_from_files
 
     if rate is None and cutoff is not None and session is None:
         raise typer.BadParameter("--cutoff: give --rate too.")
@@ -164,8 +164,8 @@ def export(
 )
 def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
     """Load a bundle and say what it is."""
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.config.runtime.self_test import replay
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime.self_test import replay
 
     found = RuntimeConfig.load(bundle)
     model, replayed = found.model, replay(found, str(bundle))
@@ -200,8 +200,8 @@ def diff(
     as_json: JsonOption = False,
 ) -> None:
     """Compare two bundles."""
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.config.runtime.differ import differences
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime.differ import differences
 
     found = differences(RuntimeConfig.load(one), RuntimeConfig.load(other))
     _show_differences(found)
@@ -215,7 +215,7 @@ def diff(
 )
 def schema() -> None:
     """Print the JSON Schema."""
-    from pipeline.config.runtime.canonical import json_schema
+    from contactbench.pipeline.config.runtime.canonical import json_schema
 
     typer.echo(json_schema().decode(), nl=False)
 
@@ -239,8 +239,8 @@ def _inputs(
 def _of_session(
     folder: Path, given: Mapping[str, Any], settings_file: Path | None, unverified: bool
 ) -> RuntimeConfig:
-    from pipeline.config.runtime.bench import export_from_session
-    from pipeline.session import Session
+    from contactbench.pipeline.config.runtime.bench import export_from_session
+    from contactbench.pipeline.session import Session
 
     with Session.open(folder, write=False) as session:
         settings = _settings(session.state.settings, given, settings_file)
@@ -251,8 +251,8 @@ def _settings(
     stored: Mapping[str, Any], given: Mapping[str, Any], settings_file: Path | None
 ) -> ExportSettings:
     """Return settings: what was given, else what a session says; parts of a file take the place of both."""
-    from pipeline.config.runtime.options import ExportOptions
-    from pipeline.config.runtime.settings_file import with_file
+    from contactbench.pipeline.config.runtime.options import ExportOptions
+    from contactbench.pipeline.config.runtime.settings_file import with_file
 
     settings = ExportOptions.stored(stored, given).settings()
     if settings_file is None:
@@ -293,8 +293,8 @@ def _say_zero(config: RuntimeConfig) -> None:
 
 
 def _say_doubts(config: RuntimeConfig) -> None:
-    from pipeline.config.runtime.checks import unchecked
-    from pipeline.config.vertical import NO_ADMITTANCE, down_along_z
+    from contactbench.pipeline.config.runtime.checks import unchecked
+    from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
 
     model = config.model
     for reason in model.provenance.stale:

@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import MountOption, numbers
-from pipeline.console import Bar, JsonOption, print_json, say, show_tables
-from pipeline.errors import InputError
+from contactbench.pipeline.commands.options import MountOption, numbers
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.control.command import Command
-    from pipeline.control.loop import Loop
-    from pipeline.control.settings import Variant
-    from pipeline.control.trace import Trace
-    from pipeline.simulation.scenes import PlatformMotion
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.loop import Loop
+    from contactbench.pipeline.control.settings import Variant
+    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.simulation.scenes import PlatformMotion
 
 control_app = typer.Typer(
     help="Motion control by touch, in simulation: tune it for a probe, run a bundle on a virtual robot.",
@@ -43,7 +43,7 @@ def variants_of(text: str) -> tuple[Variant, ...]:
     InputError
         There is none of that name.
     """
-    from pipeline.control.settings import Variant
+    from contactbench.pipeline.control.settings import Variant
 
     if text == "both":
         return tuple(Variant)
@@ -87,8 +87,8 @@ def tune(
     """Choose gains."""
     import math
 
-    from pipeline.control.tuning import Wanted
-    from pipeline.study.control_tuning import run as study
+    from contactbench.pipeline.control.tuning import Wanted
+    from contactbench.pipeline.study.control_tuning import run as study
 
     chosen = _variant_of(variant)
     with Bar("trying gains", counted=True) as bar:
@@ -156,14 +156,14 @@ def run(
     as_json: JsonOption = False,
 ) -> None:
     """Run a bundle's controller on a virtual robot."""
-    from pipeline.commands.control_frames import Frames
-    from pipeline.commands.record import ended_by_signals
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.config.runtime.mounts import mount_of_angles
-    from pipeline.control.loop import run_loop
-    from pipeline.control.virtual import check_address, virtual_robot
-    from pipeline.durable import write_durably
-    from pipeline.runtime.run import check_runnable
+    from contactbench.pipeline.commands.control_frames import Frames
+    from contactbench.pipeline.commands.record import ended_by_signals
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime.mounts import mount_of_angles
+    from contactbench.pipeline.control.loop import run_loop
+    from contactbench.pipeline.control.virtual import check_address, virtual_robot
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.runtime.run import check_runnable
 
     check_address(robot)
     if not 1 <= seconds <= 3000:
@@ -218,7 +218,7 @@ def run(
 def _motion(name: str, size: float, period: float) -> PlatformMotion | None:
     import math
 
-    from pipeline.simulation.scenes import PlatformMotion
+    from contactbench.pipeline.simulation.scenes import PlatformMotion
 
     if name not in _MOTIONS:
         raise InputError(f"--motion {name!r}: give one of {', '.join(_MOTIONS)}.")
@@ -248,7 +248,7 @@ def _paced(watch: Callable[[Command, Loop], None]) -> Callable[[Command, Loop], 
 def _facts(config: RuntimeConfig, trace: Trace) -> dict[str, Any]:
     import numpy as np
 
-    from pipeline.control.states import State
+    from contactbench.pipeline.control.states import State
 
     limit = config.model.limits.max_force_N
     tracking = trace.was(State.TRACK)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
+from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 
 if TYPE_CHECKING:
-    from pipeline.control.command import Command
-    from pipeline.control.loop import Loop
+    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.loop import Loop
 
 
 class Frames:

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-    from pipeline.devices.emulate import Emulator
-    from pipeline.devices.emulate.signals import Six
+    from contactbench.pipeline.devices.emulate import Emulator
+    from contactbench.pipeline.devices.emulate.signals import Six
 
 emulate_app = typer.Typer(rich_markup_mode=None)
 _LOOK_S = 0.1  # how long an end may go unnoticed
@@ -60,7 +60,7 @@ def emulate(
         raise typer.BadParameter("--pty and --port contradict each other: give one.")
     if seconds is not None and not 0 < seconds < 1e9:
         raise typer.BadParameter(f"--seconds {seconds}: give a positive number.")
-    from pipeline.devices.emulate import FaultEvent, Script, emulator, swinging
+    from contactbench.pipeline.devices.emulate import FaultEvent, Script, emulator, swinging
 
     script = Script([FaultEvent.parse(text) for text in fault or ()])
     carrier = "serial" if pty else ("tcp" if port is not None and device != "rdt" else None)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import (
+from contactbench.pipeline.commands.options import (
     DelayOption,
     DownOption,
     EulerOption,
@@ -34,18 +34,18 @@ from pipeline.commands.options import (
     pose_noise,
     refuse_overwriting,
 )
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
     from rich.table import Table
 
-    from pipeline.calibration import Calibration
-    from pipeline.calibration.diagnosis.diagnose import Diagnosis
-    from pipeline.calibration.files.pose_csv import PoseTable
-    from pipeline.calibration.mounting import MountCalibration
-    from pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
+    from contactbench.pipeline.calibration.files.pose_csv import PoseTable
+    from contactbench.pipeline.calibration.mounting import MountCalibration
+    from contactbench.pipeline.calibration.orientation import Convention
 
 _NOT_GOOD_ENOUGH = 1
 _HOUR = 3600.0  # s
@@ -125,14 +125,18 @@ def calibrate(
         "down_W": down_direction(down),
         "task": contact_task(tip, contact_force),
     }
-    from pipeline.calibration import calibrate as fit
-    from pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from pipeline.calibration.files.calibration_file import Source, creation_time, save_calibration
+    from contactbench.pipeline.calibration import calibrate as fit
+    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from contactbench.pipeline.calibration.files.calibration_file import (
+        Source,
+        creation_time,
+        save_calibration,
+    )
 
     table = _poses(poses, written_as, R_ES, robot_poses, delay)
     mounted = None
     if estimate_mount:
-        from pipeline.calibration.mounting import estimate_mount as fit_mount
+        from contactbench.pipeline.calibration.mounting import estimate_mount as fit_mount
 
         mounted = fit_mount(table.poses, **said)
         calibration = mounted.calibration
@@ -142,7 +146,7 @@ def calibrate(
     source = Source.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
     if report:
-        from pipeline.calibration.report.page import write_report
+        from contactbench.pipeline.calibration.report.page import write_report
 
         write_report(calibration, report, source=source, created=created)
     _show(calibration, mounted)
@@ -156,7 +160,7 @@ def _poses(
     file: Path, written_as: Convention | None, R_ES: Any, robot_poses: Path | None, delay: str | None
 ) -> PoseTable:
     """Read poses or find them in a recording, and tell how, with what was left out."""
-    from pipeline.calibration.files.capture_recording import read_any_poses
+    from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
 
     with Bar("looking for still poses") as bar:
         table = read_any_poses(
@@ -176,7 +180,7 @@ def _poses(
 
 def _mount_record(mounted: MountCalibration | None, R_ES: Any) -> Any:
     """Return the mounting that was found, or given: what a file must know, for poses are the flange's."""
-    from pipeline.calibration.files.calibration_file import Mount
+    from contactbench.pipeline.calibration.files.calibration_file import Mount
 
     if mounted is not None:
         return Mount.of(mounted.R_SE, mounted.rotation_covariance)
@@ -192,7 +196,7 @@ def _facts(
 ) -> dict[str, Any]:
     import math
 
-    from pipeline.calibration import PARAMETERS
+    from contactbench.pipeline.calibration import PARAMETERS
 
     values = dict(zip(PARAMETERS, calibration.model.vector.tolist(), strict=True))
     condition = calibration.condition
@@ -258,8 +262,8 @@ def _table(calibration: Calibration) -> Table:
     import numpy as np
     from rich.table import Table
 
-    from pipeline.calibration.fit import UNKNOWN
-    from pipeline.calibration.wording import with_sigma
+    from contactbench.pipeline.calibration.fit import UNKNOWN
+    from contactbench.pipeline.calibration.wording import with_sigma
 
     table = Table(box=None)
     for heading in ("", "x", "y", "z", "unit"):
@@ -294,7 +298,7 @@ def _table(calibration: Calibration) -> Table:
 
 def _trusted(value: float, sigma: float, unknown: float) -> str:
     """Write a value with its uncertainty, or that nobody knows."""
-    from pipeline.calibration.wording import with_sigma
+    from contactbench.pipeline.calibration.wording import with_sigma
 
     return "unknown" if sigma > _UNKNOWN_SHARE * unknown else " ± ".join(with_sigma(value, sigma))
 
@@ -335,9 +339,9 @@ def diagnose(
 ) -> None:
     """Tell whether poses are in the conventions that were said."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from pipeline.calibration.diagnosis.diagnose import diagnose as run
-    from pipeline.calibration.diagnosis.prior import Prior
+    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose as run
+    from contactbench.pipeline.calibration.diagnosis.prior import Prior
 
     noise, sigma = pose_noise(noise_force, noise_torque), orientation_sigma(orientation_noise)
     if sigma is not None:
@@ -403,7 +407,7 @@ def verify_still(
 ) -> None:
     """Check a calibration on poses that it has not seen."""
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.verify import verify_still as check
+    from contactbench.pipeline.calibration.verify import verify_still as check
 
     fitted, R_ES = _calibration(calibration, mount)
     table = _poses(poses, written_as, R_ES, robot_poses, delay)
@@ -452,7 +456,7 @@ def compensate(
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
     refuse_overwriting(out, [calibration])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.files.compensate_file import compensate_file
+    from contactbench.pipeline.calibration.files.compensate_file import compensate_file
 
     fitted, R_ES = _calibration(calibration, mount)
     with Bar("compensating") as bar:
@@ -477,7 +481,7 @@ def compensate(
 
 def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
     """Return a calibration, and R_ES: as the option says, or as it was estimated with the calibration."""
-    from pipeline.calibration.files.calibration_file import load_record
+    from contactbench.pipeline.calibration.files.calibration_file import load_record
 
     record = load_record(file)
     if mount is not None:

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.options import MountOption, refuse_overwriting
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.commands.options import MountOption, refuse_overwriting
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.heatmap import Heatmap
-    from pipeline.heatmap.contacts import Contacts
-    from pipeline.heatmap.windowing import Selection
-    from pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.heatmap import Heatmap
+    from contactbench.pipeline.heatmap.contacts import Contacts
+    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 heatmap_app = typer.Typer(rich_markup_mode=None)
 
@@ -136,8 +136,8 @@ def heatmap(
     judged = quantity is QuantityName.error and markers is None
     given = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
     refuse_overwriting(out, given)
-    from pipeline.commands.heatmap_inputs import chosen, found_contacts, probe_in_sensor_frame
-    from pipeline.heatmap.windowing import Selection, windowed
+    from contactbench.pipeline.commands.heatmap_inputs import chosen, found_contacts, probe_in_sensor_frame
+    from contactbench.pipeline.heatmap.windowing import Selection, windowed
 
     metres = None if bandwidth is None else bandwidth / 1000
     selection = Selection(
@@ -163,8 +163,8 @@ def heatmap(
 
 def _check_weight(file: Path, found: Contacts, selection: Selection) -> None:
     """Refuse, with the file's name, a weight that the contacts do not have."""
-    from pipeline.heatmap import HeatmapError
-    from pipeline.heatmap.windowing import weights_of
+    from contactbench.pipeline.heatmap import HeatmapError
+    from contactbench.pipeline.heatmap.windowing import weights_of
 
     try:
         weights_of(found, selection)
@@ -198,7 +198,7 @@ def _made(
     marker_distance: float,
 ) -> tuple[Heatmap, dict[str, int], list[str]]:
     """Return the heatmap, how many were left out for which reason, and what is to be said of it."""
-    from pipeline.heatmap.windowing import drawn
+    from contactbench.pipeline.heatmap.windowing import drawn
 
     left_out, notes = dict(found.left_out), list(found.notes)
     values, use = _values(found, selection, markers, marker_distance, left_out, notes)
@@ -215,7 +215,7 @@ def _values(
     notes: list[str],
 ) -> tuple[NDArray[np.float64] | None, NDArray[np.bool_]]:
     """Return what each contact (n,) has of the quantity, and which of them (n,) count."""
-    from pipeline.heatmap.windowing import shown
+    from contactbench.pipeline.heatmap.windowing import shown
 
     if selection.quantity in (QuantityName.force, QuantityName.peak) and found.forces is None:
         raise typer.BadParameter(f"--quantity {selection.quantity} needs the forces: give --wrenches.")
@@ -240,9 +240,9 @@ def _write_film(
 
     import numpy as np
 
-    from pipeline.heatmap.film import FilmSettings, write_film
-    from pipeline.heatmap.playback import Playback
-    from pipeline.heatmap.windowing import in_order
+    from contactbench.pipeline.heatmap.film import FilmSettings, write_film
+    from contactbench.pipeline.heatmap.playback import Playback
+    from contactbench.pipeline.heatmap.windowing import in_order
 
     if selection.quantity == QuantityName.error:
         errors, use = _errors(found, markers, marker_distance, {}, [])
@@ -264,8 +264,8 @@ def _errors(
     """Return the errors (n,), m, and which of them (n,) count: those of touches, or of settled samples at a marker."""
     import numpy as np
 
-    from pipeline.heatmap import HeatmapError
-    from pipeline.heatmap.contacts import read_points
+    from contactbench.pipeline.heatmap import HeatmapError
+    from contactbench.pipeline.heatmap.contacts import read_points
 
     if found.known_errors is not None:
         if markers is not None:
@@ -303,13 +303,13 @@ def _count(left_out: dict[str, int], why: str, which: NDArray[np.bool_]) -> None
 
 
 def _write(made: Heatmap, out: Path) -> None:
-    from pipeline.durable import write_durably
-    from pipeline.errors import InputError
-    from pipeline.heatmap.files import encode_glb, encode_ply
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.errors import InputError
+    from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
 
     kind = out.suffix.lower()
     if kind == ".png":
-        from pipeline.heatmap.picture import encode_png
+        from contactbench.pipeline.heatmap.picture import encode_png
 
         data = encode_png(made)
     else:

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from pipeline.commands.options import mount_rotation
-from pipeline.console import Bar, say
+from contactbench.pipeline.commands.options import mount_rotation
+from contactbench.pipeline.console import Bar, say
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from pipeline.heatmap.contacts import Contacts
-    from pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.heatmap.contacts import Contacts
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _HEAD = 4096  # bytes that tell a verification from a table
 
@@ -47,9 +47,9 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
             raise typer.BadParameter("give the probe that was touched: --probe PROBE.ply.")
         yield Files(contacts, probe, calibration)
         return
-    from pipeline.session import Session
-    from pipeline.session.making import mount_of
-    from pipeline.session.recompute import lay_out, newest_inputs
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.making import mount_of
+    from contactbench.pipeline.session.recompute import lay_out, newest_inputs
 
     with Session.open(contacts, write=False) as session, tempfile.TemporaryDirectory() as scratch:
         roles = newest_inputs(session.state, "report" if judged else "heatmap")
@@ -63,8 +63,8 @@ def chosen(contacts: Path, probe: Path | None, calibration: Path | None, *, judg
 
 def probe_in_sensor_frame(file: Path) -> ProbeFile:
     """Return a probe; HeatmapError if it was never aligned with the sensor."""
-    from pipeline.heatmap import HeatmapError
-    from pipeline.mesh.sidecar import load_probe_file
+    from contactbench.pipeline.heatmap import HeatmapError
+    from contactbench.pipeline.mesh.sidecar import load_probe_file
 
     content = load_probe_file(file)
     for sentence in content.notes:
@@ -86,8 +86,8 @@ def found_contacts(
     min_force: float,
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
-    from pipeline.calibration.files.capture_recording import is_recording
-    from pipeline.heatmap.contacts import read_contacts
+    from contactbench.pipeline.calibration.files.capture_recording import is_recording
+    from contactbench.pipeline.heatmap.contacts import read_contacts
 
     if is_recording(files.contacts):
         if wrenches is not None:
@@ -99,9 +99,9 @@ def found_contacts(
         return read_contacts(files.contacts, wrenches)
     if wrenches is not None:
         raise typer.BadParameter("--wrenches is for a CSV file of contacts; a verification has forces.")
-    from pipeline.heatmap.touched import touches_of
-    from pipeline.report.making import check_sources, sha256_of
-    from pipeline.report.reading import read_verification
+    from contactbench.pipeline.heatmap.touched import touches_of
+    from contactbench.pipeline.report.making import check_sources, sha256_of
+    from contactbench.pipeline.report.reading import read_verification
 
     verification = read_verification(files.contacts)
     used = {"verification": files.contacts, "probe": files.probe}
@@ -114,10 +114,10 @@ def _located(files: Files, content: ProbeFile, mount: str | None, delay: float, 
         raise typer.BadParameter(
             "a recording needs --calibration: the weight of the probe is in its readings."
         )
-    from pipeline.calibration.files.calibration_file import load_calibration
-    from pipeline.contact import Gates
-    from pipeline.heatmap.contacts import locate_recording
-    from pipeline.session.making import mount_rotation as of_degrees
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.contact import Gates
+    from contactbench.pipeline.heatmap.contacts import locate_recording
+    from contactbench.pipeline.session.making import mount_rotation as of_degrees
 
     model = load_calibration(files.calibration).model
     R_ES = mount_rotation(mount) if mount is not None else of_degrees(files.mount)

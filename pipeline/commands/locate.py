@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import numbers
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.commands.options import numbers
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from pipeline.contact import Gates, TouchModel, WrenchNoise
-    from pipeline.contact.stream import LocateSummary, Locator
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
+    from contactbench.pipeline.contact.stream import LocateSummary, Locator
+    from contactbench.pipeline.mesh import Probe
 
 locate_app = typer.Typer(rich_markup_mode=None)
 
@@ -35,7 +35,7 @@ class Units(StrEnum):
 
 
 class MethodName(StrEnum):
-    """Ways to locate a contact, as in pipeline.contact.methods."""
+    """Ways to locate a contact, as in contactbench.pipeline.contact.methods."""
 
     contactbench = "contactbench"
     scan = "scan"
@@ -137,8 +137,8 @@ def locate(
     _check_usage(out, method, track, as_json)
     placed = None if mount is None else numbers(mount, 6, "--mount")
     limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
-    from pipeline.contact import Gates, WrenchNoise
-    from pipeline.contact.stream import locate_file, refuse_overwriting
+    from contactbench.pipeline.contact import Gates, WrenchNoise
+    from contactbench.pipeline.contact.stream import locate_file, refuse_overwriting
 
     refuse_overwriting(out, probe)
     given = {
@@ -200,8 +200,8 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
     """Read the mesh, and what is to be said of it; `mount` is in `units`, or else in those of the file."""
     import warnings
 
-    from pipeline.mesh import MeshWarning, load_probe
-    from pipeline.mesh.load import read_mesh
+    from contactbench.pipeline.mesh import MeshWarning, load_probe
+    from contactbench.pipeline.mesh.load import read_mesh
 
     read = read_mesh(path, "auto" if units is None else units.value)
     T_SP = None if mount is None else _mount(mount, units or Units(read.units))
@@ -210,7 +210,7 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
         probe = load_probe(path, read.units, T_SP)
     sentences = [*read.notes, *probe.health.sentences]
     if T_SP is None and read.raw.settled:
-        from pipeline.mesh.sidecar import load_probe_file
+        from contactbench.pipeline.mesh.sidecar import load_probe_file
 
         known = load_probe_file(path)
         sentences += known.notes
@@ -224,8 +224,8 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
 
 def _model(torsion_arm: float | None, force: float | None, torque: float | None) -> TouchModel:
     """Return what is known of a touch: mm, N and mN·m; None: the default."""
-    from pipeline.contact import TouchModel, WrenchNoise
-    from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+    from contactbench.pipeline.contact import TouchModel, WrenchNoise
+    from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 
     error = WrenchNoise(
         DEFAULT_FORCE_N if force is None else force, DEFAULT_TORQUE_NM if torque is None else torque / 1000
@@ -239,10 +239,10 @@ def _locator(
     method: MethodName, probe: Probe, noise: WrenchNoise, gates: Gates, model: TouchModel
 ) -> Locator:
     if method is MethodName.contactbench:  # the others need more to be imported
-        from pipeline.contact import ContactSolver
+        from contactbench.pipeline.contact import ContactSolver
 
         return ContactSolver(probe, noise, gates, model)
-    from pipeline.contact import methods
+    from contactbench.pipeline.contact import methods
 
     return methods.make(method.value, probe, noise, gates, model)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from pipeline.console import say
+from contactbench.pipeline.console import say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration import ContactTask, PoseNoise
-    from pipeline.calibration.orientation import Convention
-    from pipeline.calibration.reachable import Reachable
+    from contactbench.pipeline.calibration import ContactTask, PoseNoise
+    from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration.reachable import Reachable
 
 EulerOption = Annotated[
     str | None,
@@ -147,7 +147,7 @@ def convention(
     typer.BadParameter
         The options contradict one another.
     """
-    from pipeline.calibration.orientation import Convention, Kind
+    from contactbench.pipeline.calibration.orientation import Convention, Kind
 
     chosen = [
         name
@@ -173,7 +173,7 @@ def convention(
     if vector:
         return Convention(Kind.ROTATION_VECTOR, degrees=not radians, inverse=inverse)
     if robot:
-        from pipeline.robot import Robot
+        from contactbench.pipeline.robot import Robot
 
         Robot.named(robot)  # an unknown name is said before the file is read
         return Convention(Kind.JOINTS, degrees=not radians, robot=robot, inverse=inverse)
@@ -199,7 +199,7 @@ def orientation_sigma(text: str | None) -> float | None:
     """
     if text is None:
         return None
-    from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+    from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 
     if text in ORIENTATION_NOISE_DEG:
         return math.radians(ORIENTATION_NOISE_DEG[text])
@@ -259,7 +259,7 @@ def pose_noise(force: float | None, torque: float | None) -> PoseNoise | None:
         return None
     if force is None or torque is None:
         raise typer.BadParameter("--noise-force and --noise-torque: give both or none.")
-    from pipeline.calibration import PoseNoise
+    from contactbench.pipeline.calibration import PoseNoise
 
     return PoseNoise(force, torque)
 
@@ -272,7 +272,7 @@ def contact_task(tip: str | None, force: float) -> ContactTask:
     """
     import numpy as np
 
-    from pipeline.calibration import ContactTask
+    from contactbench.pipeline.calibration import ContactTask
 
     point = np.array([0.0, 0.0, 100.0] if tip is None else numbers(tip, 3, "--tip")) / 1000
     normal = np.array([0.0, 0.0, -1.0 if point[2] < 0 else 1.0])
@@ -301,13 +301,13 @@ def reachable(
     """
     import numpy as np
 
-    from pipeline.calibration.reachable import by_hand, by_robot
+    from contactbench.pipeline.calibration.reachable import by_hand, by_robot
 
     if (robot is None) != (joints is None):
         raise typer.BadParameter("--robot and --joints go together: which robot, and where it is now.")
     if robot is None or joints is None:
         return by_hand(max_tilt=np.radians(max_tilt), down_W=down_W)
-    from pipeline.robot import Clearance, Robot
+    from contactbench.pipeline.robot import Clearance, Robot
 
     arm = Robot.named(robot)
     q_now = np.radians(numbers(joints, len(arm.lower), "--joints"))

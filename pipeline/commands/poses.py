@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.gravity import CalibrationArgument
-from pipeline.commands.options import (
+from contactbench.pipeline.commands.gravity import CalibrationArgument
+from contactbench.pipeline.commands.options import (
     AllJointsOption,
     DelayOption,
     DownOption,
@@ -37,14 +37,14 @@ from pipeline.commands.options import (
     reachable,
     refuse_overwriting,
 )
-from pipeline.console import Bar, JsonOption, print_json, say
-from pipeline.errors import InputError
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.calibration.suggest import Plan
+    from contactbench.pipeline.calibration.suggest import Plan
 
 _FEWEST_POSES = 3
 
@@ -72,8 +72,8 @@ def next_pose(
     as_json: JsonOption = False,
 ) -> None:
     """Say which pose would improve a calibration most."""
-    from pipeline.calibration.files.calibration_file import load_calibration
-    from pipeline.calibration.suggest import suggest_pose
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration.suggest import suggest_pose
 
     fitted = load_calibration(calibration)
     choice = reachable(
@@ -130,10 +130,10 @@ def plan_poses(
     """Plan poses that together leave the least error at the contact."""
     import numpy as np
 
-    from pipeline.calibration import PoseNoise
-    from pipeline.calibration.model import STANDARD_GRAVITY
-    from pipeline.calibration.suggest import USUAL_LOAD
-    from pipeline.calibration.suggest import plan_poses as plan
+    from contactbench.pipeline.calibration import PoseNoise
+    from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+    from contactbench.pipeline.calibration.suggest import USUAL_LOAD
+    from contactbench.pipeline.calibration.suggest import plan_poses as plan
 
     if not 0 < mass < 1000:
         raise InputError(f"--mass: {mass} kg is no mass of a tool; give what hangs on the sensor, about")
@@ -209,9 +209,9 @@ def captures(
     """Find in a recording where the sensor stood still."""
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from pipeline.calibration.files.calibration_file import load_calibration
-    from pipeline.calibration.files.capture_recording import capture_any
-    from pipeline.calibration.files.pose_csv import write_poses
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration.files.capture_recording import capture_any
+    from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model
     with Bar("looking for still poses") as bar:
@@ -253,7 +253,7 @@ def captures(
 
 
 def _write(out: Path, planned: Plan) -> None:
-    from pipeline.durable import write_durably
+    from contactbench.pipeline.durable import write_durably
 
     text = io.StringIO()
     rows = writer(text, lineterminator="\n")

@@ -7,9 +7,9 @@ from typing import Annotated
 
 import typer
 
-from pipeline.commands.align import align
-from pipeline.commands.options import numbers, refuse_overwriting
-from pipeline.commands.probe_options import (
+from contactbench.pipeline.commands.align import align
+from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.commands.probe_options import (
     AlphaOption,
     CloseOption,
     ContactErrorOption,
@@ -31,8 +31,8 @@ from pipeline.commands.probe_options import (
     planned,
     share,
 )
-from pipeline.console import Bar, JsonOption, print_json, say, show_tables
-from pipeline.durable import make_folder
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.durable import make_folder
 
 probe_app = typer.Typer(
     help="Prepare a probe's mesh: inspect, shell, align, simplify, ladder, or all in one go.",
@@ -51,7 +51,7 @@ probe_app = typer.Typer(
 )
 def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto, as_json: JsonOption = False) -> None:
     """Say what is wrong with a mesh."""
-    from pipeline.mesh.inspect import inspect as look
+    from contactbench.pipeline.mesh.inspect import inspect as look
 
     with Bar("inspecting", counted=True) as bar:
         found = look(file, units.value, progress=share(bar))
@@ -85,8 +85,8 @@ def shell(
     as_json: JsonOption = False,
 ) -> None:
     """Make the closed surface that a finger could touch."""
-    from pipeline.mesh.sidecar import save_probe_file
-    from pipeline.preparation.steps import shell_step
+    from contactbench.pipeline.mesh.sidecar import save_probe_file
+    from contactbench.pipeline.preparation.steps import shell_step
 
     content = open_mesh(file, units, out)
     with Bar("finding the outer shell", counted=True) as bar:
@@ -133,8 +133,8 @@ def simplify(
     as_json: JsonOption = False,
 ) -> None:
     """Give a probe fewer facets, and say what that costs."""
-    from pipeline.mesh.sidecar import save_probe_file
-    from pipeline.preparation.steps import simplify_step
+    from contactbench.pipeline.mesh.sidecar import save_probe_file
+    from contactbench.pipeline.preparation.steps import simplify_step
 
     plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
     content = open_mesh(file, units, out)
@@ -182,8 +182,8 @@ def ladder(
     as_json: JsonOption = False,
 ) -> None:
     """Weigh accuracy against speed over a range of facet counts."""
-    from pipeline.contact import WrenchNoise
-    from pipeline.preparation.ladder import (
+    from contactbench.pipeline.contact import WrenchNoise
+    from contactbench.pipeline.preparation.ladder import (
         DEFAULT_FACETS,
         ExpectedTouches,
         Goal,
@@ -254,9 +254,9 @@ def prepare(
     as_json: JsonOption = False,
 ) -> None:
     """Read, close, align, simplify, and write the probe."""
-    from pipeline.commands.align import chosen_mount
-    from pipeline.mesh.sidecar import check_target, save_probe_file
-    from pipeline.preparation.prepare import prepare as prepare_file
+    from contactbench.pipeline.commands.align import chosen_mount
+    from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
+    from contactbench.pipeline.preparation.prepare import prepare as prepare_file
 
     refuse_overwriting(out, [file])
     check_target(out)

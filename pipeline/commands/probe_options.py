@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import numbers, refuse_overwriting
-from pipeline.console import Bar, say
+from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.console import Bar, say
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh.shell import Closing
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.mesh.simplify import Target
+    from contactbench.pipeline.mesh.shell import Closing
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.mesh.simplify import Target
 
     Plan = Callable[[ProbeFile], tuple[Target, dict[str, Any] | None]]
 
@@ -95,10 +95,10 @@ def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeF
     """Read a mesh and say what was noticed; refuse to write over it, or where nothing can be written."""
     refuse_overwriting(out, [file])
     if out is not None:
-        from pipeline.mesh.sidecar import check_target
+        from contactbench.pipeline.mesh.sidecar import check_target
 
         check_target(out)
-    from pipeline.preparation.steps import import_mesh
+    from contactbench.pipeline.preparation.steps import import_mesh
 
     content = import_mesh(file, units.value)
     for note in content.notes:
@@ -108,7 +108,7 @@ def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeF
 
 def closings(names: list[ClosingName] | None) -> Closing | list[Closing]:
     """Return what ``--close`` asks for: one for all, or one after the other."""
-    from pipeline.mesh.shell import Closing
+    from contactbench.pipeline.mesh.shell import Closing
 
     if not names:
         return Closing.AUTO
@@ -150,7 +150,7 @@ def planned(
     InputError
         A number is out of its range.
     """
-    from pipeline.mesh.simplify import Count, MaxDeviation, check_ratio
+    from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, check_ratio
 
     if sum(each is not None for each in (facets, max_deviation, max_contact_error)) > 1:
         raise typer.BadParameter("--facets, --max-deviation and --max-contact-error: give one of them.")
@@ -159,8 +159,8 @@ def planned(
     if facets is not None or max_deviation is not None:
         target = Count(facets) if facets is not None else MaxDeviation((max_deviation or 0.0) / 1000)
         return lambda _: (target, None)
-    from pipeline.preparation.ladder import ExpectedTouches
-    from pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
+    from contactbench.pipeline.preparation.ladder import ExpectedTouches
+    from contactbench.pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
 
     low, high = numbers(forces, 2, "--forces")
     limit = DEFAULT_LIMIT if max_contact_error is None else max_contact_error / 1000

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from pipeline.devices.drive import Health
-    from pipeline.recording.recorder import Recorder
-    from pipeline.streams import Pair
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.recording.recorder import Recorder
+    from contactbench.pipeline.streams import Pair
 
 record_app = typer.Typer(rich_markup_mode=None)
 
@@ -59,9 +59,9 @@ def record(
     as_json: JsonOption = False,
 ) -> None:
     """Record a force/torque sensor."""
-    from pipeline.recording import RecordingWriter
-    from pipeline.recording.recorder import Recorder
-    from pipeline.streams import open_pair
+    from contactbench.pipeline.recording import RecordingWriter
+    from contactbench.pipeline.recording.recorder import Recorder
+    from contactbench.pipeline.streams import open_pair
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
@@ -118,7 +118,7 @@ def _end(out: Path, given: Mapping[str, Health], recorder: Recorder, as_json: bo
 )
 def ports(as_json: JsonOption = False) -> None:
     """List the serial ports of this machine."""
-    from pipeline.devices.transport import list_ports
+    from contactbench.pipeline.devices.transport import list_ports
 
     found = list_ports()
     for port in found:
@@ -147,7 +147,7 @@ def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Cha
 
 def broken(pair: Pair) -> bool:
     """Tell whether a stream has ended before its end: it failed, or its recording cannot be read on."""
-    from pipeline.devices.drive import State
+    from contactbench.pipeline.devices.drive import State
 
     return any(
         stream.health.failure is not None or (stream.done.is_set() and stream.health.state is State.LOST)
@@ -266,7 +266,7 @@ def _tell(out: Path, given: Mapping[str, Health], recorder: Recorder, kept: bool
 
 
 def _facts(health: Health) -> dict[str, Any]:
-    from pipeline.recording.recorder import health_facts
+    from contactbench.pipeline.recording.recorder import health_facts
 
     usual, worst = health.lateness or (None, None)
     return {**health_facts(health), "lateness_p99_s": usual, "lateness_max_s": worst}

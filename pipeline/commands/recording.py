@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.options import RobotOption, refuse_overwriting
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.commands.options import RobotOption, refuse_overwriting
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
-    from pipeline.recording import FlangeTrack, Recording, WrenchTrack
+    from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
 
 recording_app = typer.Typer(
     help="Look into recordings of sensors and robots, and convert them.",
@@ -100,7 +100,7 @@ def convert(
     if ending not in (".csv", ".npz"):
         raise typer.BadParameter(f"--out {out}: end its name with .csv or .npz.")
     refuse_overwriting(out, [file])
-    from pipeline.recording.convert import write_csv, write_npz
+    from contactbench.pipeline.recording.convert import write_csv, write_npz
 
     found = _read(file)
     left_out: tuple[str, ...] = ()
@@ -127,8 +127,8 @@ def convert(
 )
 def delay(file: FileArgument, as_json: JsonOption = False) -> None:
     """Estimate how much later the sensor is heard than the robot."""
-    from pipeline.recording import RecordingError
-    from pipeline.recording.delay import estimate_delay
+    from contactbench.pipeline.recording import RecordingError
+    from contactbench.pipeline.recording.delay import estimate_delay
 
     found = _read(file)
     if len(found.wrenches) != 1 or len(found.flanges) != 1:
@@ -178,8 +178,8 @@ def import_bag(
     as_json: JsonOption = False,
 ) -> None:
     """Make a recording of a ROS 2 bag."""
-    from pipeline.recording.ros2 import Wanted, import_ros2
-    from pipeline.robot import Robot
+    from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
+    from contactbench.pipeline.robot import Robot
 
     arm = None if robot is None else Robot.named(robot)
     wanted = Wanted(wrench_topic, pose_topic, arm, base, flange, header_stamps)
@@ -204,7 +204,7 @@ def import_bag(
 
 
 def _read(file: Path) -> Recording:
-    from pipeline.recording import read_recording
+    from contactbench.pipeline.recording import read_recording
 
     with Bar("reading") as bar:
         return read_recording(file, bar)
@@ -247,7 +247,7 @@ def _latency(track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
 def _wrench_facts(topic: str, track: WrenchTrack) -> dict[str, Any]:
     import numpy as np
 
-    from pipeline.devices.sample import Status
+    from contactbench.pipeline.devices.sample import Status
 
     steps = np.diff(track.sequence[track.sequence >= 0])
     return {

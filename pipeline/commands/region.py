@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.options import refuse_overwriting
-from pipeline.commands.region_facets import facets_app
-from pipeline.commands.region_session import MeshArgument, RegionArgument, Session, show
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.commands.region_facets import facets_app
+from contactbench.pipeline.commands.region_session import MeshArgument, RegionArgument, Session, show
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
-    from pipeline.mesh.regions import Transferred
+    from contactbench.pipeline.mesh.regions import Transferred
 
 region_app = typer.Typer(
     name="region",
@@ -178,8 +178,8 @@ def export(
     as_json: JsonOption = False,
 ) -> None:
     """Write the regions to a file of their own."""
-    from pipeline.mesh.regions import RegionError, save_regions
-    from pipeline.mesh.sidecar import sidecar_of
+    from contactbench.pipeline.mesh.regions import RegionError, save_regions
+    from contactbench.pipeline.mesh.sidecar import sidecar_of
 
     session = Session(mesh)
     if out.resolve() == sidecar_of(mesh).resolve():
@@ -204,7 +204,7 @@ def import_regions(
     as_json: JsonOption = False,
 ) -> None:
     """Replace all regions by those of a file."""
-    from pipeline.mesh.regions import RegionSet, load_regions
+    from contactbench.pipeline.mesh.regions import RegionSet, load_regions
 
     session = Session(mesh)
     before = session.model.labels.copy()
@@ -235,9 +235,9 @@ def transfer(
     """Carry the regions of one mesh over to another."""
     import warnings
 
-    from pipeline.mesh import MeshWarning
-    from pipeline.mesh.regions import transfer as carry
-    from pipeline.mesh.regions.exchange import mesh_hash
+    from contactbench.pipeline.mesh import MeshWarning
+    from contactbench.pipeline.mesh.regions import transfer as carry
+    from contactbench.pipeline.mesh.regions.exchange import mesh_hash
 
     refuse_overwriting(new, [old])
     source, target = Session(old), Session(new)

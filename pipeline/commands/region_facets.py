@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.options import numbers
-from pipeline.commands.region_session import MeshArgument, RegionArgument, Session, metres
-from pipeline.console import JsonOption, say
+from contactbench.pipeline.commands.options import numbers
+from contactbench.pipeline.commands.region_session import MeshArgument, RegionArgument, Session, metres
+from contactbench.pipeline.console import JsonOption, say
 
 if TYPE_CHECKING:
     import numpy as np
@@ -49,7 +49,7 @@ def box(
     as_json: JsonOption = False,
 ) -> None:
     """Give a region the facets in a box."""
-    from pipeline.mesh.regions import in_box
+    from contactbench.pipeline.mesh.regions import in_box
 
     corners = metres(low, "--low"), metres(high, "--high")
     session = Session(mesh)
@@ -78,7 +78,7 @@ def plane(
     as_json: JsonOption = False,
 ) -> None:
     """Give a region the facets on one side of a plane."""
-    from pipeline.mesh.regions import half_space
+    from contactbench.pipeline.mesh.regions import half_space
 
     where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
     session = Session(mesh)
@@ -100,7 +100,7 @@ def flood(
     as_json: JsonOption = False,
 ) -> None:
     """Give a region the facets around a point, up to creases."""
-    from pipeline.mesh.regions import flood as fill
+    from contactbench.pipeline.mesh.regions import flood as fill
 
     where = metres(at, "--at")
     session = Session(mesh)
@@ -131,7 +131,7 @@ def brush(
     as_json: JsonOption = False,
 ) -> None:
     """Paint a region with a round brush."""
-    from pipeline.mesh.regions import Brush
+    from contactbench.pipeline.mesh.regions import Brush
 
     tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
     where = [metres(text, "--at") for text in at]
@@ -157,7 +157,7 @@ def grow(
     as_json: JsonOption = False,
 ) -> None:
     """Let a region grow at its border."""
-    from pipeline.mesh.regions import grow as extend
+    from contactbench.pipeline.mesh.regions import grow as extend
 
     session = Session(mesh)
     rank = session.rank(region)
@@ -177,7 +177,7 @@ def shrink(
     as_json: JsonOption = False,
 ) -> None:
     """Let a region shrink at its border."""
-    from pipeline.mesh.regions import shrink as reduce
+    from contactbench.pipeline.mesh.regions import shrink as reduce
 
     session = Session(mesh)
     rank = session.rank(region)
@@ -199,7 +199,7 @@ def smooth(
     as_json: JsonOption = False,
 ) -> None:
     """Straighten the border of a region."""
-    from pipeline.mesh.regions import smooth as straighten
+    from contactbench.pipeline.mesh.regions import smooth as straighten
 
     session = Session(mesh)
     rank = session.rank(region)
@@ -226,7 +226,7 @@ def mirror(
     as_json: JsonOption = False,
 ) -> None:
     """Give a region the facets on the other side of a plane, too."""
-    from pipeline.mesh.regions import mirror as reflect
+    from contactbench.pipeline.mesh.regions import mirror as reflect
 
     direction, where = numbers(normal, 3, "--normal"), metres(point, "--point")
     session = Session(mesh)

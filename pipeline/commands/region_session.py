@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from pipeline.commands.options import numbers
-from pipeline.console import print_json, running_command, say
+from contactbench.pipeline.commands.options import numbers
+from contactbench.pipeline.console import print_json, running_command, say
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.regions import FacetGraph, RegionModel
-    from pipeline.mesh.regions.undo_file import KeptSteps
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel
+    from contactbench.pipeline.mesh.regions.undo_file import KeptSteps
 
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="MESH", help="Probe, .ply in metres in S; names are in the .json beside it.")
@@ -37,8 +37,8 @@ class Session:
     """
 
     def __init__(self, mesh: Path) -> None:
-        from pipeline.mesh.regions import RegionModel
-        from pipeline.mesh.sidecar import load_probe_file
+        from contactbench.pipeline.mesh.regions import RegionModel
+        from contactbench.pipeline.mesh.sidecar import load_probe_file
 
         self.mesh = mesh
         self._content = load_probe_file(mesh)
@@ -51,7 +51,7 @@ class Session:
     @property
     def graph(self) -> FacetGraph:
         """The probe's facets and their neighbours."""
-        from pipeline.mesh.regions import FacetGraph
+        from contactbench.pipeline.mesh.regions import FacetGraph
 
         if self._graph is None:
             self._graph = FacetGraph(self.probe)
@@ -96,8 +96,8 @@ class Session:
 
     def save(self, result: dict[str, Any]) -> None:
         """Write the probe with the model's regions, and the command that made them into its history, if it did."""
-        from pipeline.mesh.regions.undo_file import KeptStep
-        from pipeline.mesh.sidecar import save_probe_file
+        from contactbench.pipeline.mesh.regions.undo_file import KeptStep
+        from contactbench.pipeline.mesh.sidecar import save_probe_file
 
         text = self.model.undo_text
         if text is None:
@@ -120,8 +120,8 @@ class Session:
 
     def turn(self, way: Literal["undo", "redo"], as_json: bool) -> None:
         """Undo or redo a step, with what it left in the history, and say which; exit code 1: there is none."""
-        from pipeline.mesh.regions.undo_file import KeptStep
-        from pipeline.mesh.sidecar import save_probe_file
+        from contactbench.pipeline.mesh.regions.undo_file import KeptStep
+        from contactbench.pipeline.mesh.sidecar import save_probe_file
 
         steps, history = self._steps(), self._content.history
         taken, given = (steps.done, steps.undone) if way == "undo" else (steps.undone, steps.done)
@@ -147,14 +147,14 @@ class Session:
         show(self.mesh, self.probe, self.model, as_json, **{word: step.text}, changed=changed)
 
     def _steps(self) -> KeptSteps:
-        from pipeline.mesh.regions.undo_file import load_steps
-        from pipeline.mesh.sidecar import sidecar_of
+        from contactbench.pipeline.mesh.regions.undo_file import load_steps
+        from contactbench.pipeline.mesh.sidecar import sidecar_of
 
         return load_steps((self.mesh, sidecar_of(self.mesh)))
 
     def _keep(self, steps: KeptSteps) -> None:
-        from pipeline.mesh.regions.undo_file import save_steps
-        from pipeline.mesh.sidecar import sidecar_of
+        from contactbench.pipeline.mesh.regions.undo_file import save_steps
+        from contactbench.pipeline.mesh.sidecar import sidecar_of
 
         save_steps(steps, (self.mesh, sidecar_of(self.mesh)))
 

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.commands.options import refuse_overwriting
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 report_app = typer.Typer(rich_markup_mode=None)
 
@@ -49,10 +49,10 @@ def report(
     pairs = [pair.partition("=") for pair in serial or []]
     if not all(device and number for device, _, number in pairs):
         raise typer.BadParameter('--serial needs DEVICE=NUMBER, such as "M8128=SN 7".')
-    from pipeline.calibration.files.calibration_file import creation_time
-    from pipeline.durable import write_durably
-    from pipeline.errors import InputError
-    from pipeline.report.making import report as make
+    from contactbench.pipeline.calibration.files.calibration_file import creation_time
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.errors import InputError
+    from contactbench.pipeline.report.making import report as make
 
     serials = {device: number for device, _, number in pairs}
     name = f"report{out.suffix.lower()}"

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.options import numbers
-from pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.commands.options import numbers
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
 
 if TYPE_CHECKING:
-    from pipeline.study.reproduce.dynamic import DynamicResult
-    from pipeline.study.reproduce.filter import FilterResult
-    from pipeline.study.reproduce.static import StaticResult
+    from contactbench.pipeline.study.reproduce.dynamic import DynamicResult
+    from contactbench.pipeline.study.reproduce.filter import FilterResult
+    from contactbench.pipeline.study.reproduce.static import StaticResult
 
 reproduce_app = typer.Typer(
     help="Repeat the paper's experiments on the virtual bench, its figures beside ours.",
@@ -43,7 +43,7 @@ def static(
     Exit code 1 when a target is missed: 0.6 mm perpendicular, 1.2 times that at 30 degrees - in mm and as a multiple
     of what noise allows - and 95 % of touches without doubt.
     """
-    from pipeline.study.reproduce.static import run
+    from contactbench.pipeline.study.reproduce.static import run
 
     names = [name.strip() for name in probes.split(",")]
     with Bar("pressing markers", counted=True) as bar:
@@ -65,7 +65,7 @@ def filter_(
     gain and cost, lag included. The mean force is 7 N. Needs MuJoCo. Exit code 1 when the spectrum's floor is not the
     noise that was predicted.
     """
-    from pipeline.study.reproduce.filter import run
+    from contactbench.pipeline.study.reproduce.filter import run
 
     with Bar("pressing", counted=True) as bar:
         result = run(probe, seconds=seconds, seed=seed, progress=bar)
@@ -99,8 +99,8 @@ def dynamic(
     same. Needs MuJoCo; the wrench-axis method needs Embree. Exit code 1 when a target is missed: at T = 10 s 0.8
     degrees and 6.5 to 7.5 N, at 5 s 1.8 degrees, at 2 s 4 degrees, always followed.
     """
-    from pipeline.commands.control import variants_of
-    from pipeline.study.reproduce.dynamic import run
+    from contactbench.pipeline.commands.control import variants_of
+    from contactbench.pipeline.study.reproduce.dynamic import run
 
     texts = [each.strip() for each in periods.split(",")]
     with Bar("tracking", counted=True) as bar:

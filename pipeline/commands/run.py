@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.record import Changes, broken, ended_by_signals
-from pipeline.console import say
+from contactbench.pipeline.commands.record import Changes, broken, ended_by_signals
+from contactbench.pipeline.console import say
 
 if TYPE_CHECKING:
     import threading
     from collections.abc import Callable
 
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.devices.drive import Health
-    from pipeline.recording import RecordingInfo
-    from pipeline.runtime import Run
-    from pipeline.runtime.outlet import Target
-    from pipeline.streams import Pair
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.runtime import Run
+    from contactbench.pipeline.runtime.outlet import Target
+    from contactbench.pipeline.streams import Pair
 
 run_app = typer.Typer(rich_markup_mode=None)
 
@@ -80,11 +80,11 @@ def run(
     ] = False,
 ) -> None:
     """Run a runtime config on live streams."""
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.devices.url import DeviceAddress
-    from pipeline.runtime import Outlet, OutputError, Run
-    from pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
-    from pipeline.streams import open_pair
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.runtime import Outlet, OutputError, Run
+    from contactbench.pipeline.runtime.run import check_runnable, check_sensor, hold_for, responsive
+    from contactbench.pipeline.streams import open_pair
 
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
@@ -127,7 +127,7 @@ def run(
 def _targets(
     out: str | None, mcap: Path | None, udp: str | None, about: RecordingInfo, *, allow_remote: bool
 ) -> list[Target]:
-    from pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
+    from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
 
     targets: list[Target] = []
     try:
@@ -198,7 +198,7 @@ def _wait(
 
 
 def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
-    from pipeline.runtime.run import sensor_warnings
+    from contactbench.pipeline.runtime.run import sensor_warnings
 
     model = config.model
     known = pair.about().devices[0]
@@ -216,7 +216,7 @@ def _say_begin(config: RuntimeConfig, pair: Pair) -> None:
 
 
 def _say_rate(config: RuntimeConfig, pair: Pair) -> None:
-    from pipeline.runtime.run import rate_warning
+    from contactbench.pipeline.runtime.run import rate_warning
 
     words = rate_warning(config, pair.sensor.health.rate)
     if words is not None:
@@ -231,7 +231,7 @@ def _say_changes(changes: queue.SimpleQueue[tuple[str, Health]], told: Changes) 
 
 
 def _say_motion(config: RuntimeConfig, runner: Run) -> None:
-    from pipeline.runtime.run import motion_warning
+    from contactbench.pipeline.runtime.run import motion_warning
 
     words = motion_warning(config, runner.positions)
     if words is not None:
@@ -240,7 +240,7 @@ def _say_motion(config: RuntimeConfig, runner: Run) -> None:
 
 def _say_zero(runner: Run, before: str) -> str:
     """Say what is known of the sensor's zero where that is not what it was; returns what it is."""
-    from pipeline.runtime.run import zero_words
+    from contactbench.pipeline.runtime.run import zero_words
 
     zero = runner.zero
     if zero is None or zero.state == before:
@@ -262,7 +262,7 @@ def _say_zero_at_end(config: RuntimeConfig, runner: Run) -> None:
 
 
 def _say_end(config: RuntimeConfig, pair: Pair, runner: Run) -> None:
-    from pipeline.runtime.run import mark_warnings
+    from contactbench.pipeline.runtime.run import mark_warnings
 
     _say_rate(config, pair)
     _say_motion(config, runner)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.commands.session_keep import add_keeping_commands
-from pipeline.commands.session_record import FolderArgument, add_record_command
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.commands.session_keep import add_keeping_commands
+from contactbench.pipeline.commands.session_record import FolderArgument, add_record_command
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
-    from pipeline.session import Session, State
-    from pipeline.session.state import Result
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.state import Result
 
 session_app = typer.Typer(
     help="Keep every action, sample and result of a bench session in one folder.",
@@ -29,7 +29,7 @@ _WRONG = 1
 @session_app.command(epilog="Example: contactbench session new bench-1")
 def new(folder: FolderArgument, as_json: JsonOption = False) -> None:
     """Make a session in a folder that is new or empty."""
-    from pipeline.session import Session
+    from contactbench.pipeline.session import Session
 
     with Session.create(folder) as session:
         identity = session.state.id
@@ -63,8 +63,8 @@ def add(
     as_json: JsonOption = False,
 ) -> None:
     """Copy a raw input into a session; what was computed from one that it replaces becomes stale."""
-    from pipeline.session.actions import files_of
-    from pipeline.session.companions import about_of, companions_of
+    from contactbench.pipeline.session.actions import files_of
+    from contactbench.pipeline.session.companions import about_of, companions_of
 
     beside, about = companions_of(file, companion or []), about_of(file)
     with _writing(folder) as session:
@@ -127,9 +127,9 @@ def compute(
     as_json: JsonOption = False,
 ) -> None:
     """Compute a result from the newest inputs of its kind, raw or computed, and record it with all it follows from."""
-    from pipeline.session.actions import files_of
-    from pipeline.session.recompute import compute as run
-    from pipeline.session.recompute import newest_inputs, settings_of
+    from contactbench.pipeline.session.actions import files_of
+    from contactbench.pipeline.session.recompute import compute as run
+    from contactbench.pipeline.session.recompute import newest_inputs, settings_of
 
     chosen = dict(_choice(text) for text in inputs or [])
     with _writing(folder) as session:
@@ -174,7 +174,7 @@ def info(folder: FolderArgument, as_json: JsonOption = False) -> None:
 
     Of a damaged session, what is whole. Nothing is written. Exit code 1: it is damaged.
     """
-    from pipeline.session import Session
+    from contactbench.pipeline.session import Session
 
     with Session.open(folder, write=False, damaged=True) as session:
         state, stale, notes, damage = session.state, session.stale(), session.notes, session.damage
@@ -310,9 +310,9 @@ def rezero(
 @session_app.command(epilog="Example: contactbench session replay bench-1")
 def replay(folder: FolderArgument, as_json: JsonOption = False) -> None:
     """Compute every result again from raw inputs and compare the bytes. Exit code 1: one differs or cannot be."""
-    from pipeline.session import Session
-    from pipeline.session.replay import Outcome
-    from pipeline.session.replay import replay as run
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.replay import Outcome
+    from contactbench.pipeline.session.replay import replay as run
 
     with Session.open(folder, write=False) as session, Bar("replaying", counted=True) as bar:
         found = run(session, bar)
@@ -328,7 +328,7 @@ def replay(folder: FolderArgument, as_json: JsonOption = False) -> None:
 
 
 def _writing(folder: Path) -> Session:
-    from pipeline.session import Session
+    from contactbench.pipeline.session import Session
 
     session = Session.open(folder)
     for note in session.notes:

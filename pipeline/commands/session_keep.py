@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.commands.session_record import FolderArgument
-from pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.commands.session_record import FolderArgument
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 _WRONG = 1
 
@@ -28,7 +28,7 @@ def add_keeping_commands(app: typer.Typer) -> None:
 
 def verify(folder: FolderArgument, as_json: JsonOption = False) -> None:
     """Check the hash chain, every record, and size and content of every file. Exit code 1: something is wrong."""
-    from pipeline.session.check import check
+    from contactbench.pipeline.session.check import check
 
     with Bar("checking files", counted=True) as bar:
         found = check(folder, bar)
@@ -49,7 +49,7 @@ def repair(folder: FolderArgument, as_json: JsonOption = False) -> None:
 
     Never a whole record; the journal as it was is kept. Exit code 1: a recording could not be adopted.
     """
-    from pipeline.session.check import repair as run
+    from contactbench.pipeline.session.check import repair as run
 
     done = run(folder)
     for sentence in (done.sentence, *done.adopted):
@@ -73,7 +73,7 @@ def salvage(
 
     The damaged session is not changed. Exit code 1: a record or a file is lost.
     """
-    from pipeline.session.salvage import salvage as run
+    from contactbench.pipeline.session.salvage import salvage as run
 
     with Bar("copying files", counted=True) as bar:
         done = run(folder, out, bar)
@@ -102,7 +102,7 @@ def export(
     as_json: JsonOption = False,
 ) -> None:
     """Pack a session into one zip file, after checking it. Exit code 1: a recording that is being made is not in it."""
-    from pipeline.session.archive import export_archive
+    from contactbench.pipeline.session.archive import export_archive
 
     done = export_archive(folder, out)
     for note in done.notes:
@@ -122,7 +122,7 @@ def unpack(
     as_json: JsonOption = False,
 ) -> None:
     """Unpack a session into a new folder, checking every byte of it first."""
-    from pipeline.session.archive import import_archive
+    from contactbench.pipeline.session.archive import import_archive
 
     import_archive(archive, out)
     say(f"{out}: a whole session.")

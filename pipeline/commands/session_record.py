@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.record import Changes, ended_by_signals, wait
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.commands.record import Changes, ended_by_signals, wait
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
-    from pipeline.devices.drive import Health
-    from pipeline.recording import RecordingInfo
-    from pipeline.session import Session
-    from pipeline.session.live import LiveRecording
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.live import LiveRecording
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the session.")]
 
@@ -54,7 +54,7 @@ def record(
     """Record a sensor into a session."""
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
-    from pipeline.session import Session
+    from contactbench.pipeline.session import Session
 
     with Session.open(folder) as session:
         for words in session.notes:
@@ -81,8 +81,8 @@ def _record(
     note: str,
 ) -> tuple[LiveRecording, dict[str, Health]]:
     """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
-    from pipeline.session.live import LiveRecording
-    from pipeline.streams import open_pair
+    from contactbench.pipeline.session.live import LiveRecording
+    from contactbench.pipeline.streams import open_pair
 
     changes = Changes()
     live: LiveRecording
@@ -123,8 +123,8 @@ def _with_serial(about: RecordingInfo, serial: str | None) -> RecordingInfo:
 
 def _keep(live: LiveRecording, streams: dict[str, Health]) -> str | None:
     """Put the recording into the journal; return its place, if there was anything."""
-    from pipeline.recording.recorder import health_facts
-    from pipeline.session.actions import files_of
+    from contactbench.pipeline.recording.recorder import health_facts
+    from contactbench.pipeline.session.actions import files_of
 
     if not any(health.samples for health in streams.values()):
         live.discard()
@@ -147,7 +147,7 @@ def _keep(live: LiveRecording, streams: dict[str, Health]) -> str | None:
 
 
 def _facts(live: LiveRecording, streams: dict[str, Health]) -> dict[str, object]:
-    from pipeline.recording.recorder import health_facts
+    from contactbench.pipeline.recording.recorder import health_facts
 
     return {
         **{device: health_facts(health) for device, health in streams.items()},

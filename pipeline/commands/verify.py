@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pipeline.commands.options import (
+from contactbench.pipeline.commands.options import (
     EulerOption,
     InverseOption,
     MountOption,
@@ -17,15 +17,15 @@ from pipeline.commands.options import (
     numbers,
     refuse_overwriting,
 )
-from pipeline.console import JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import JsonOption, print_json, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from rich.table import Table
 
-    from pipeline.verification import Verification
-    from pipeline.verification.figures import Summary
+    from contactbench.pipeline.verification import Verification
+    from contactbench.pipeline.verification.figures import Summary
 
 _FAILED = 1
 
@@ -106,7 +106,7 @@ def verify(
         inputs["reference"] = reference
     refuse_overwriting(out, list(inputs.values()))
     convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
-    from pipeline.verification.result import VerificationParameters, verify_files
+    from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
     left_out = dict(_left_out(text) for text in leave_out or ())
     windows = [numbers(text, 2, "--force") for text in force or ["8,10"]]
@@ -160,8 +160,8 @@ def generate(
     if (region is None) != everywhere:
         raise typer.BadParameter("say where: --region N or --all, one of them.")
     refuse_overwriting(out, [probe])
-    from pipeline.verification import grid_markers, spread_markers
-    from pipeline.verification.result import load_surface
+    from contactbench.pipeline.verification import grid_markers, spread_markers
+    from contactbench.pipeline.verification.result import load_surface
 
     surface = load_surface(probe)
     made = (
@@ -185,9 +185,9 @@ def snap(
 ) -> None:
     """Move markers to the nearest points of a probe's surface, and tell how far each was from it."""
     refuse_overwriting(out, [markers, probe])
-    from pipeline.verification import load_markers
-    from pipeline.verification import snap as snapped
-    from pipeline.verification.result import load_surface
+    from contactbench.pipeline.verification import load_markers
+    from contactbench.pipeline.verification import snap as snapped
+    from contactbench.pipeline.verification.result import load_surface
 
     found = snapped(load_markers(markers), load_surface(probe), limit / 1e3)
     found.markers.save(out)
@@ -214,8 +214,8 @@ def _in_order(order: str, left_out: dict[str, str]) -> list[str]:
 
 
 def _write(out: Path, data: bytes) -> None:
-    from pipeline.durable import write_durably
-    from pipeline.errors import InputError
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.errors import InputError
 
     try:
         write_durably(out, data)
@@ -224,7 +224,7 @@ def _write(out: Path, data: bytes) -> None:
 
 
 def _show(found: Verification) -> None:
-    from pipeline.verification.model_error import model_error_words
+    from contactbench.pipeline.verification.model_error import model_error_words
 
     for sentence in found.warnings:
         say(f"warning: {sentence}", "yellow")

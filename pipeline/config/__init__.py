@@ -1,6 +1,6 @@
 """A calibration in the words of those who use it: each consumer's names, units, frames and signs."""
 
-from pipeline.config.consumers import ft_calib_yaml, ros2_yaml
-from pipeline.config.vertical import VerticalResidual, vertical_residual
+from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from contactbench.pipeline.config.vertical import VerticalResidual, vertical_residual
 
 __all__ = ["VerticalResidual", "ft_calib_yaml", "ros2_yaml", "vertical_residual"]

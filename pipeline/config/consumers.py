@@ -30,8 +30,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline import __version__
-from pipeline.calibration.model import (
+from contactbench import __version__
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     DOWN_W,
     FORCE_BIAS,
@@ -40,16 +40,16 @@ from pipeline.calibration.model import (
     TORQUE_BIAS,
     length,
 )
-from pipeline.config.vertical import down_along_z, residual_of, vertical_residual
-from pipeline.errors import InputError
+from contactbench.pipeline.config.vertical import down_along_z, residual_of, vertical_residual
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.config.vertical import VerticalResidual
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.config.vertical import VerticalResidual
 
 # Of ros2_controllers, for Jazzy, Kilted, and Lyrical and Rolling: read, not run.
 CHECKED = ("4.42.1", "5.17.0", "6.9.0")

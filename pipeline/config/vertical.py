@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import DOWN_W, length
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.model import DOWN_W, length
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration import GravityModel
+    from contactbench.pipeline.calibration import GravityModel
 
 NO_ADMITTANCE: Final = (
     "ros2.yaml holds only the broadcaster's offset: the admittance controller of ros2_control cannot take the weight of"

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from pipeline.contact.facet_marks import MARKS
-from pipeline.contact.shortest import WIDTH, shortest
-from pipeline.kernel import Reason
+from contactbench.pipeline.contact.facet_marks import MARKS
+from contactbench.pipeline.contact.shortest import WIDTH, shortest
+from contactbench.pipeline.kernel import Reason
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -21,7 +21,7 @@ _MARK_TEXTS = np.array((*MARKS, ""), dtype=np.bytes_)  # the last: not known
 
 
 class Answers(Protocol):
-    """What a method says about n wrenches: :class:`pipeline.kernel.Batch` or the like."""
+    """What a method says about n wrenches: :class:`contactbench.pipeline.kernel.Batch` or the like."""
 
     @property
     def points(self) -> npt.NDArray[np.float64]:

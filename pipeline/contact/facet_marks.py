@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 MARKS = ("measured", "invented", "untouchable")
 """The words, in the order of their numbers; the C library has the same numbers (``cb_contact.on``)."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 LARGEST_ODDS = 1e9
 BEHIND_M = 0.003  # along the force: nearer surfaces are one, seen through the noise
@@ -147,7 +147,7 @@ class Gates:
         return listed
 
     def kernel_arguments(self) -> dict[str, Any]:
-        """Return the keyword arguments of :class:`pipeline.kernel.Solver` that are limits and odds."""
+        """Return the keyword arguments of :class:`contactbench.pipeline.kernel.Solver` that are limits and odds."""
         return {
             "min_force": self.min_force,
             "cos_friction": cos(radians(self.friction_angle)),

@@ -21,16 +21,16 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline import kernel
-from pipeline.contact.gates import Gates
-from pipeline.contact.noise import WrenchNoise
-from pipeline.contact.paraboloid import fit_contact_face, locate_with_scipy
-from pipeline.contact.solver import ContactSolver
-from pipeline.contact.touch_model import TouchModel
-from pipeline.contact.wrench_axis import EmbreeAxis
-from pipeline.errors import InputError
-from pipeline.kernel import Batch, Contact
-from pipeline.mesh import Probe
+from contactbench.pipeline import kernel
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.paraboloid import fit_contact_face, locate_with_scipy
+from contactbench.pipeline.contact.solver import ContactSolver
+from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Batch, Contact
+from contactbench.pipeline.mesh import Probe
 
 Float = NDArray[np.float64]
 

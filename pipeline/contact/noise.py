@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 _CHANNELS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 

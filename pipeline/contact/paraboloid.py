@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import least_squares
 
-from pipeline.contact.solver import ContactSolver
-from pipeline.errors import InputError
-from pipeline.kernel import Batch
-from pipeline.mesh import Probe
+from contactbench.pipeline.contact.solver import ContactSolver
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Batch
+from contactbench.pipeline.mesh import Probe
 
 Float = NDArray[np.float64]
 

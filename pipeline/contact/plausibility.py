@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.kernel import Reason, SurfaceIndex
+from contactbench.pipeline.kernel import Reason, SurfaceIndex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import numpy.typing as npt
 
-    from pipeline.contact.contact_csv import Answers
-    from pipeline.contact.stream import Locator
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.contact.contact_csv import Answers
+    from contactbench.pipeline.contact.stream import Locator
+    from contactbench.pipeline.mesh import Probe
 
 UNEXPLAINED = (Reason.IMPLAUSIBLE, Reason.TANGENTIAL, Reason.OFF_SURFACE)
 NOT_LOCATED = (Reason.LOW_FORCE, Reason.SATURATED, Reason.STALE, Reason.NOT_FINITE)

@@ -5,12 +5,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline import kernel
-from pipeline.contact.facet_marks import MARKS, facet_marks
-from pipeline.contact.gates import Gates
-from pipeline.contact.noise import WrenchNoise
-from pipeline.contact.touch_model import TouchModel
-from pipeline.mesh import Probe
+from contactbench.pipeline import kernel
+from contactbench.pipeline.contact.facet_marks import MARKS, facet_marks
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.mesh import Probe
 
 
 class ContactSolver(kernel.Solver):
@@ -73,7 +73,7 @@ class ContactSolver(kernel.Solver):
         )
 
     def on(self, contact: kernel.Contact) -> str | None:
-        """Say what a contact lies on, one of `pipeline.contact.facet_marks.MARKS`; None: it has no facet."""
+        """Give what a contact lies on, of `contactbench.pipeline.contact.facet_marks.MARKS`; None: it has no facet."""
         return None if contact.face is None else MARKS[self._marks[contact.face]]
 
     @cached_property

@@ -13,20 +13,20 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 
 import numpy as np
 
-from pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
-from pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE, facet_marks
-from pipeline.contact.plausibility import Plausibility, Sample, unexplained
-from pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
-from pipeline.durable import scratch_beside, sync_folder
-from pipeline.errors import InputError
-from pipeline.tables import BLOCK_BYTES, open_table
+from contactbench.pipeline.contact.contact_csv import HEADER, REASONS, Answers, ContactRows
+from contactbench.pipeline.contact.facet_marks import INVENTED, MARKS, UNTOUCHABLE, facet_marks
+from contactbench.pipeline.contact.plausibility import Plausibility, Sample, unexplained
+from contactbench.pipeline.contact.wrench_csv import WrenchFileError, WrenchReader, WrenchRows
+from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.tables import BLOCK_BYTES, open_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import numpy.typing as npt
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 __all__ = ["LocateSummary", "WrenchFileError", "locate_file", "refuse_overwriting", "whole_output"]
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 from math import isfinite
 
-from pipeline.contact.noise import WrenchNoise
-from pipeline.errors import InputError
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.errors import InputError
 
 DEFAULT_FORCE_N, DEFAULT_TORQUE_NM = 0.05, 0.001
 

@@ -6,9 +6,9 @@ from importlib import import_module
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.contact.solver import ContactSolver
-from pipeline.errors import InputError
-from pipeline.kernel import Batch, Contact
+from contactbench.pipeline.contact.solver import ContactSolver
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Batch, Contact
 
 Float = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from pipeline.tables import BLOCK_BYTES, TableError, TableReader, Wording
+from contactbench.pipeline.tables import BLOCK_BYTES, TableError, TableReader, Wording
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class Admittance:

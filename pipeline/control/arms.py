@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 class Arm(Protocol):
     """
-    A chain of n joints from the base B to the flange E; `pipeline.robot.Robot` is one.
+    A chain of n joints from the base B to the flange E; `contactbench.pipeline.robot.Robot` is one.
 
     Joint values are rad, or m for one that slides; B stands upright and is taken as the world W.
     """

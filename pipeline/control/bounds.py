@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.control.tilt import Reading, Tilt
 
 if TYPE_CHECKING:
-    from pipeline.control.foundation import Foundation
-    from pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.foundation import Foundation
+    from contactbench.pipeline.control.settings import ControlSettings
 
 _SECONDS = 10.0
 

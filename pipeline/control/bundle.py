@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.config.runtime.values import gates_of, touch_model_of
-from pipeline.contact.noise import WrenchNoise
-from pipeline.control.command import Mount
-from pipeline.control.sensing import Intake
-from pipeline.errors import InputError
+from contactbench.pipeline.config.runtime.values import gates_of, touch_model_of
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.control.command import Mount
+from contactbench.pipeline.control.sensing import Intake
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from pipeline.config.runtime.config import RuntimeConfig
-    from pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.control.settings import ControlSettings
 
 
 def intake_of(config: RuntimeConfig, settings: ControlSettings, method: str = "contactbench") -> Intake:

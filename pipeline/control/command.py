@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.inverse import Step
-    from pipeline.control.sensing import Sensed
-    from pipeline.control.states import Change, State
+    from contactbench.pipeline.control.inverse import Step
+    from contactbench.pipeline.control.sensing import Sensed
+    from contactbench.pipeline.control.states import Change, State
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from pipeline.config.runtime.model import (
+from contactbench.pipeline.config.runtime.model import (
     AngleGainsPart,
     ControllerPart,
     ForceGainsPart,
@@ -15,7 +15,7 @@ from pipeline.config.runtime.model import (
     TouchPart,
     WatchPart,
 )
-from pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.settings import ControlSettings, Variant
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,34 +8,34 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.admittance import Admittance
-from pipeline.control.axes import pressing
-from pipeline.control.bundle import intake_of, mount_of
-from pipeline.control.command import Command, Mount
-from pipeline.control.content import settings_of
-from pipeline.control.foundation import Foundation
-from pipeline.control.inertia import Inertia
-from pipeline.control.inverse import solve_step
-from pipeline.control.probing import StiffnessProbe
-from pipeline.control.settings import ControlSettings, Variant, for_tool
-from pipeline.control.states import Safety, State
-from pipeline.control.surface import Surface
-from pipeline.control.tare import Tare
-from pipeline.control.tilt import Tilt
-from pipeline.control.upright import Upright
-from pipeline.errors import InputError
+from contactbench.pipeline.control.admittance import Admittance
+from contactbench.pipeline.control.axes import pressing
+from contactbench.pipeline.control.bundle import intake_of, mount_of
+from contactbench.pipeline.control.command import Command, Mount
+from contactbench.pipeline.control.content import settings_of
+from contactbench.pipeline.control.foundation import Foundation
+from contactbench.pipeline.control.inertia import Inertia
+from contactbench.pipeline.control.inverse import solve_step
+from contactbench.pipeline.control.probing import StiffnessProbe
+from contactbench.pipeline.control.settings import ControlSettings, Variant, for_tool
+from contactbench.pipeline.control.states import Safety, State
+from contactbench.pipeline.control.surface import Surface
+from contactbench.pipeline.control.tare import Tare
+from contactbench.pipeline.control.tilt import Tilt
+from contactbench.pipeline.control.upright import Upright
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.config.runtime.config import RuntimeConfig
-    from pipeline.control.arms import Arm
-    from pipeline.control.inverse import Step
-    from pipeline.control.sensing import Intake, Sensed
-    from pipeline.devices.sample import WrenchSample
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.control.arms import Arm
+    from contactbench.pipeline.control.inverse import Step
+    from contactbench.pipeline.control.sensing import Intake, Sensed
+    from contactbench.pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.mesh import Probe
 
     Pose = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -137,7 +137,7 @@ class Controller:
         quaternion_ES : (4,), optional
             How it is turned, for a bundle that does not say.
         method : str
-            A name of `pipeline.contact.methods.METHODS`.
+            A name of `contactbench.pipeline.contact.methods.METHODS`.
         variant : Variant, optional
             Another one than the bundle's.
         settings : ControlSettings, optional

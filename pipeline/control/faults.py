@@ -7,12 +7,12 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 _ZERO = (0.0,) * 6
 

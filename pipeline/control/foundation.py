@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.simulation.scenes.tissue import FACE_DEPTH_M, spread
+from contactbench.pipeline.simulation.scenes.tissue import FACE_DEPTH_M, spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 _PLACES = 1500
 _DEPTHS = 400

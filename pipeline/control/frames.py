@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.command import Command
-    from pipeline.control.loop import Loop
+    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.loop import Loop
 
     Three = tuple[float, float, float]
 
@@ -94,7 +94,7 @@ def beginning_of(loop: Loop, robot: str) -> Beginning:
 
 def frame_of(command: Command, loop: Loop) -> Frame:
     """Return the period that a loop has just gone on by."""
-    from pipeline.control.loop import arm_of  # not above: who reads frames needs no physics
+    from contactbench.pipeline.control.loop import arm_of  # not above: who reads frames needs no physics
 
     scene, sensed = loop.scene, command.sensed
     R_BE, p_BE_B = arm_of(scene).flange_pose(scene.true_joints)

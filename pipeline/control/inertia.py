@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.axes import cross
+from contactbench.pipeline.control.axes import cross
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
+    from contactbench.pipeline.calibration import GravityModel
 
 _PLACES = 3
 

@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.arms import Arm
+    from contactbench.pipeline.control.arms import Arm
 
 _LENGTH_M = 0.3  # an arm's length for which 1 rad counts as much as 0.3 m
 _SCALE = np.repeat([1 / _LENGTH_M, 1.0], 3)

@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.control.arms import CartesianMount
-from pipeline.control.axes import cross
-from pipeline.control.faults import FaultyLine, ScriptedFault
-from pipeline.control.states import State
-from pipeline.control.trace import STATES, Trace
-from pipeline.devices.sample import Status, WrenchSample
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import ArmScene
+from contactbench.pipeline.control.arms import CartesianMount
+from contactbench.pipeline.control.axes import cross
+from contactbench.pipeline.control.faults import FaultyLine, ScriptedFault
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.trace import STATES, Trace
+from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import ArmScene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.arms import Arm
-    from pipeline.control.command import Command
-    from pipeline.control.controller import Controller
-    from pipeline.simulation.scenes import Moment, MovedScene
-    from pipeline.simulation.sensor_model import SensorModel
+    from contactbench.pipeline.control.arms import Arm
+    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.controller import Controller
+    from contactbench.pipeline.simulation.scenes import Moment, MovedScene
+    from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 WARM_S = 3600.0  # a sensor is used warm
 _LONGEST_S = 3600.0

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pipeline.control.admittance import Admittance
-from pipeline.control.following import Follower
-from pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
-from pipeline.errors import InputError
+from contactbench.pipeline.control.admittance import Admittance
+from contactbench.pipeline.control.following import Follower
+from contactbench.pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.control.foundation import Foundation
-    from pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.foundation import Foundation
+    from contactbench.pipeline.control.settings import ControlSettings
 
 Axis = Literal["force", "about x", "about y"]
 AXES: tuple[Axis, ...] = ("force", "about x", "about y")

@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact.gates import Gates
-from pipeline.contact.methods import make
-from pipeline.contact.noise import WrenchNoise
-from pipeline.devices.sample import Status
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.devices.sample import Status
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.contact.touch_model import TouchModel
-    from pipeline.devices.sample import WrenchSample
-    from pipeline.kernel import Contact
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.contact.touch_model import TouchModel
+    from contactbench.pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.kernel import Contact
+    from contactbench.pipeline.mesh import Probe
 
 _STUCK = 6  # equal readings; of a sensor with noise two are rare
 _RECENT = 5
@@ -91,7 +91,7 @@ class Intake:
     model : TouchModel, optional
         What is known of a touch beside the noise.
     method : str
-        A name of `pipeline.contact.methods.METHODS`.
+        A name of `contactbench.pipeline.contact.methods.METHODS`.
     located_from : float
         N; with less, no place is asked for.
     stale : float

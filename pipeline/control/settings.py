@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.errors import InputError
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from pipeline.control.foundation import Foundation
+    from contactbench.pipeline.control.foundation import Foundation
 
 USUAL_STIFFNESS = 2000.0  # N/m, of a convex probe at 7 N on soft tissue
 _SETTLING_S = 0.04

@@ -44,13 +44,13 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from pipeline.control.inverse import Held
-from pipeline.control.sensing import Fault
+from contactbench.pipeline.control.inverse import Held
+from contactbench.pipeline.control.sensing import Fault
 
 if TYPE_CHECKING:
-    from pipeline.control.inverse import Step
-    from pipeline.control.sensing import Sensed
-    from pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.inverse import Step
+    from contactbench.pipeline.control.sensing import Sensed
+    from contactbench.pipeline.control.settings import ControlSettings
 
 _LOW_S, _LOST_S, _GIVEN_UP_S, _STOPPED_S, _LATE_S = 0.1, 0.3, 2.0, 0.3, 0.05
 _NEAR, _STEADY_S = 0.15, 0.2  # of the wanted force, and for how long, before tracking

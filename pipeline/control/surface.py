@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.axes import cross
-from pipeline.control.following import Follower
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.control.axes import cross
+from contactbench.pipeline.control.following import Follower
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.tilt import Reading, Tilt
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.foundation import Foundation, Press
+    from contactbench.pipeline.control.foundation import Foundation, Press
 
 _SOFTEST, _STIFFEST = USUAL_MODULUS / 20, USUAL_MODULUS * 20
 

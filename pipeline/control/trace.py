@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.states import State
+from contactbench.pipeline.control.states import State
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.states import Change
+    from contactbench.pipeline.control.states import Change
 
 STATES = tuple(State)
 

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.admittance import Admittance
-from pipeline.control.axes import turn_of
-from pipeline.control.settings import Variant
+from contactbench.pipeline.control.admittance import Admittance
+from contactbench.pipeline.control.axes import turn_of
+from contactbench.pipeline.control.settings import Variant
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.settings import ControlSettings
-    from pipeline.control.surface import Surface
+    from contactbench.pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.surface import Surface
 
 _UP = np.array([0.0, 0.0, 1.0])
 

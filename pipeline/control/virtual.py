@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.config.runtime.values import gates_of
-from pipeline.control.controller import Controller
-from pipeline.control.foundation import Foundation
-from pipeline.control.loop import arm_of
-from pipeline.control.settings import ControlSettings
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import (
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.config.runtime.values import gates_of
+from contactbench.pipeline.control.controller import Controller
+from contactbench.pipeline.control.foundation import Foundation
+from contactbench.pipeline.control.loop import arm_of
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import (
     ArmScene,
     MovedScene,
     Payload,
@@ -25,13 +25,13 @@ from pipeline.simulation.scenes import (
     Tissue,
     Truth,
 )
-from pipeline.simulation.sensor_model import SensorModel, SensorSettings
+from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.config.runtime.config import RuntimeConfig
-    from pipeline.control.settings import Variant
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.control.settings import Variant
 
 ROBOTS = ("virtual://arm", "virtual://platform")
 _FASTEST_HZ = 1000.0

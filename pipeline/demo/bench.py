@@ -8,33 +8,33 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.demo.checking import check, clear
-from pipeline.demo.compare import compare_methods
-from pipeline.demo.files import write_bytes, write_csv
-from pipeline.demo.gravity import calibrate_folder
-from pipeline.demo.housing import MeshResult, prepare_probe
-from pipeline.demo.picture import Located, PictureError, draw
-from pipeline.demo.report import DemoReport, ProbeResult, ours
-from pipeline.demo.tool import draw_tool
-from pipeline.demo.touching import draw_points, locate_folder, press_markers
-from pipeline.demo.weighing import weigh_by_formula, weigh_on_bench
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.mesh import Probe, load_probe
-from pipeline.mesh.engines import EngineError
-from pipeline.simulation.scenes import Truth
-from pipeline.simulation.scenes.physics import physics
+from contactbench import assets
+from contactbench.pipeline.demo.checking import check, clear
+from contactbench.pipeline.demo.compare import compare_methods
+from contactbench.pipeline.demo.files import write_bytes, write_csv
+from contactbench.pipeline.demo.gravity import calibrate_folder
+from contactbench.pipeline.demo.housing import MeshResult, prepare_probe
+from contactbench.pipeline.demo.picture import Located, PictureError, draw
+from contactbench.pipeline.demo.report import DemoReport, ProbeResult, ours
+from contactbench.pipeline.demo.tool import draw_tool
+from contactbench.pipeline.demo.touching import draw_points, locate_folder, press_markers
+from contactbench.pipeline.demo.weighing import weigh_by_formula, weigh_on_bench
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe, load_probe
+from contactbench.pipeline.mesh.engines import EngineError
+from contactbench.pipeline.simulation.scenes import Truth
+from contactbench.pipeline.simulation.scenes.physics import physics
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from pipeline.calibration import Calibration
-    from pipeline.demo.compare import MethodErrors
-    from pipeline.demo.gravity import GravityResult
-    from pipeline.demo.tool import Tool
-    from pipeline.demo.touching import Found, Pressed
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.demo.compare import MethodErrors
+    from contactbench.pipeline.demo.gravity import GravityResult
+    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.demo.touching import Found, Pressed
 
     Prepared = tuple[MeshResult | None, str | None]
 

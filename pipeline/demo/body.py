@@ -1,6 +1,7 @@
 """Render probes, in a process of its own: without a graphics driver VTK ends its process.
 
-The child is ``python -m pipeline.demo.body FILE``; it takes the views as JSON on standard input and leaves the
+The child is ``python -m contactbench.pipeline.demo.body FILE``; it takes the views as JSON on standard input
+and leaves the
 images in FILE. What VTK has to say about missing displays stays in the child.
 """
 
@@ -18,9 +19,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-import assets
-from pipeline.demo.view import View
-from pipeline.errors import InputError
+from contactbench import assets
+from contactbench.pipeline.demo.view import View
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -81,7 +82,7 @@ def render_bodies(bodies: Sequence[Body]) -> list[Image]:
     orders = json.dumps([asdict(body) for body in bodies])
     with TemporaryDirectory() as folder:
         file = Path(folder, "bodies.npz")
-        command = [sys.executable, "-m", "pipeline.demo.body", str(file)]
+        command = [sys.executable, "-m", "contactbench.pipeline.demo.body", str(file)]
         try:
             subprocess.run(  # noqa: S603  (this interpreter and this module)
                 command, input=orders.encode(), capture_output=True, check=True, timeout=_PATIENCE_S

@@ -7,34 +7,34 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.files.calibration_file import creation_time
-from pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
-from pipeline.config.runtime.bench import ExportSettings, export_from_files
-from pipeline.config.runtime.pack import KNOWN
-from pipeline.contact import Gates
-from pipeline.control.content import controller_of
-from pipeline.control.foundation import Foundation
-from pipeline.control.settings import ControlSettings
-from pipeline.demo.files import write_bytes
-from pipeline.demo.tool import RATE_HZ, SENSOR_MODEL
-from pipeline.errors import InputError
-from pipeline.mesh.sidecar import load_probe_file
-from pipeline.recording.replay import Replay
-from pipeline.report.making import report
-from pipeline.runtime import Run, RunError
-from pipeline.runtime.run import check_runnable
-from pipeline.simulation.virtual.markers import markers
-from pipeline.verification import Marker, MarkerError, MarkerSet
-from pipeline.verification.result import VerificationParameters, verify_files
+from contactbench.pipeline.calibration.files.calibration_file import creation_time
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
+from contactbench.pipeline.config.runtime.bench import ExportSettings, export_from_files
+from contactbench.pipeline.config.runtime.pack import KNOWN
+from contactbench.pipeline.contact import Gates
+from contactbench.pipeline.control.content import controller_of
+from contactbench.pipeline.control.foundation import Foundation
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.demo.files import write_bytes
+from contactbench.pipeline.demo.tool import RATE_HZ, SENSOR_MODEL
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.recording.replay import Replay
+from contactbench.pipeline.report.making import report
+from contactbench.pipeline.runtime import Run, RunError
+from contactbench.pipeline.runtime.run import check_runnable
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.verification import Marker, MarkerError, MarkerSet
+from contactbench.pipeline.verification.result import VerificationParameters, verify_files
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline.demo.tool import Tool
-    from pipeline.devices.sample import WrenchSample
-    from pipeline.runtime import Answer
-    from pipeline.verification import Verification
-    from pipeline.verification.figures import TouchFigure
+    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.runtime import Answer
+    from contactbench.pipeline.verification import Verification
+    from contactbench.pipeline.verification.figures import TouchFigure
 
 BUNDLE = "runtime"
 WRITTEN = ("markers.csv", "verification.json", "report.html", "contacts.jsonl")

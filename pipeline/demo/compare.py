@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
-from pipeline.contact.methods import METHODS
-from pipeline.errors import InputError
+from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.methods import METHODS
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.contact import Batch
-    from pipeline.contact.methods import Method
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.contact import Batch
+    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.mesh import Probe
 
 ALL = "all"
 
@@ -37,7 +37,7 @@ class MethodErrors:
     Attributes
     ----------
     method : str
-        As in pipeline.contact.methods.
+        As in contactbench.pipeline.contact.methods.
     where : str
         Which touches: "all"; "face" and "head" where they were drawn; "0°" and "30°" on markers.
     touches : int

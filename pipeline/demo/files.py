@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.demo.tool import RATE_HZ
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.demo.tool import RATE_HZ
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation import Touches
-    from pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation import Touches
+    from contactbench.pipeline.simulation.scenes import Moment
 
 
 _CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration import Calibration, GravityModel, Level, calibrate
-from pipeline.calibration.files.calibration_file import Source, save_calibration
-from pipeline.calibration.files.pose_csv import read_poses
-from pipeline.calibration.report.page import write_report
+from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
+from contactbench.pipeline.calibration.files.calibration_file import Source, save_calibration
+from contactbench.pipeline.calibration.files.pose_csv import read_poses
+from contactbench.pipeline.calibration.report.page import write_report
 
 if TYPE_CHECKING:
     from pathlib import Path

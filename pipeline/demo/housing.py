@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.demo.files import write_bytes
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.engines import EngineError
-from pipeline.mesh.probe import Probe
-from pipeline.mesh.regions import Region, RegionSet
-from pipeline.mesh.shell import Closing
-from pipeline.mesh.sidecar import ProbeFile, save_probe_file
-from pipeline.mesh.simplify import Count
-from pipeline.preparation.alignment import from_matrix
-from pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+from contactbench import assets
+from contactbench.pipeline.demo.files import write_bytes
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.engines import EngineError
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.shell import Closing
+from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from contactbench.pipeline.mesh.simplify import Count
+from contactbench.pipeline.preparation.alignment import from_matrix
+from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -14,17 +14,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.demo.body import Body, PictureError, render_bodies
-from pipeline.demo.compare import errors_mm, settled
-from pipeline.demo.view import View
+from contactbench import assets
+from contactbench.pipeline.demo.body import Body, PictureError, render_bodies
+from contactbench.pipeline.demo.compare import errors_mm, settled
+from contactbench.pipeline.demo.view import View
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.contact import Batch, Contact
+    from contactbench.pipeline.contact import Batch, Contact
 
 __all__ = ["Located", "PictureError", "draw"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.demo.compare import ALL, OURS
+from contactbench.pipeline.demo.compare import ALL, OURS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from pipeline.demo.checking import CheckResult
-    from pipeline.demo.compare import MethodErrors
-    from pipeline.demo.gravity import GravityResult
-    from pipeline.demo.housing import MeshResult
+    from contactbench.pipeline.demo.checking import CheckResult
+    from contactbench.pipeline.demo.compare import MethodErrors
+    from contactbench.pipeline.demo.gravity import GravityResult
+    from contactbench.pipeline.demo.housing import MeshResult
 
 # Noise alone gives a mean error of 0.9 times the bound, and the facets add little; a wrong sign, frame or unit
 # gives many times it. The mean, because one rare wrong facet would rule the root mean square of few touches.

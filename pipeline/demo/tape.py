@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.demo.tool import RATE_HZ, SENSOR_MODEL, WARM_S
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.errors import InputError
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.demo.tool import RATE_HZ, SENSOR_MODEL, WARM_S
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from pipeline.demo.tool import Tool
-    from pipeline.simulation.scenes import Scene
+    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.simulation.scenes import Scene
 
 STEP_S = 1 / RATE_HZ
 _STARTED_NS = 1_700_000_000 * 10**9  # any day, but always the same: the same seed gives the same bytes

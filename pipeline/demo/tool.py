@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel
-from pipeline.contact import WrenchNoise
-from pipeline.simulation.scenes.physics import Payload
-from pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
-from pipeline.simulation.weighing import draw_load
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.simulation.scenes.physics import Payload
+from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
+from contactbench.pipeline.simulation.weighing import draw_load
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,32 +7,32 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.calibration.files.compensate_file import compensate_file
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.contact.stream import locate_file
-from pipeline.contact.wrench_csv import WrenchReader
-from pipeline.demo.files import write_marked, write_recording, write_truth, write_wrenches
-from pipeline.demo.tape import STEP_S, Tape
-from pipeline.demo.tool import RATE_HZ, WARM_S, orientations_in_use
-from pipeline.filtering import KalmanFilter
-from pipeline.recording import read_recording
-from pipeline.recording.convert import write_csv as convert_to_csv
-from pipeline.simulation import Touches, draw_touches
-from pipeline.simulation.scenes import Press, TouchScene
-from pipeline.simulation.sensor_model import SensorModel
-from pipeline.simulation.virtual.markers import markers
+from contactbench import assets
+from contactbench.pipeline.calibration.files.compensate_file import compensate_file
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.contact.stream import locate_file
+from contactbench.pipeline.contact.wrench_csv import WrenchReader
+from contactbench.pipeline.demo.files import write_marked, write_recording, write_truth, write_wrenches
+from contactbench.pipeline.demo.tape import STEP_S, Tape
+from contactbench.pipeline.demo.tool import RATE_HZ, WARM_S, orientations_in_use
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.recording import read_recording
+from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
+from contactbench.pipeline.simulation import Touches, draw_touches
+from contactbench.pipeline.simulation.scenes import Press, TouchScene
+from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.simulation.virtual.markers import markers
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import Calibration
-    from pipeline.contact import Batch
-    from pipeline.demo.tool import Tool
-    from pipeline.mesh import Probe
-    from pipeline.simulation.scenes import Moment, Truth
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.contact import Batch
+    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.simulation.scenes import Moment, Truth
 
 FACE, HEAD = "face", "head"
 TILTS = (0.0, 30.0)  # degrees between the force and the inward normal

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import PoseNoise
-from pipeline.calibration.files.capture_recording import capture_recording
-from pipeline.calibration.files.pose_csv import write_poses
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.demo.tape import STEP_S, Tape
-from pipeline.simulation.scenes import BenchScene
-from pipeline.simulation.weighing import bump, weigh
+from contactbench.pipeline.calibration import PoseNoise
+from contactbench.pipeline.calibration.files.capture_recording import capture_recording
+from contactbench.pipeline.calibration.files.pose_csv import write_poses
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.demo.tape import STEP_S, Tape
+from contactbench.pipeline.simulation.scenes import BenchScene
+from contactbench.pipeline.simulation.weighing import bump, weigh
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from pipeline.demo.tool import Tool
-    from pipeline.simulation.scenes import Truth
+    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.simulation.scenes import Truth
 
 POSES = 9
 _HOLD_S = 2.5

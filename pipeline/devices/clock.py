@@ -9,7 +9,7 @@ from enum import IntEnum
 from itertools import chain, pairwise
 from typing import TYPE_CHECKING, TypeVar
 
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline import kernel
+from contactbench.pipeline import kernel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
-    from pipeline.devices.sample import FlangeSample
+    from contactbench.pipeline.devices.sample import FlangeSample
 
 LONGEST_GAP_S = 0.25
 """Between two poses: beyond, nothing is interpolated."""

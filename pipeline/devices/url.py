@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from urllib.parse import quote, urlencode
 
-from pipeline.devices.url_options import (
+from contactbench.pipeline.devices.url_options import (
     BENCH_OPTIONS,
     AddressError,
     BenchOptions,
@@ -17,7 +17,13 @@ from pipeline.devices.url_options import (
     numbers_option,
     read_options,
 )
-from pipeline.devices.url_place import bench_host, check_nowhere, path_of, socket_of, split_address
+from contactbench.pipeline.devices.url_place import (
+    bench_host,
+    check_nowhere,
+    path_of,
+    socket_of,
+    split_address,
+)
 
 __all__ = ["PROFILES", "STEPWISE", "AddressError", "BenchOptions", "Carrier", "DeviceAddress", "Protocol"]
 
@@ -122,7 +128,7 @@ class DeviceAddress:
     joints_degrees : tuple of floats or None
         Of a typed pose: joint angles of `robot`.
     robot : str or None
-        Whose joints an address or a file of poses gives, as in pipeline.robot.
+        Whose joints an address or a file of poses gives, as in contactbench.pipeline.robot.
     tool : tuple of 6 floats or None
         Of a UR robot: the tool of its pendant as it is typed there, x, y, z in m and a rotation vector in rad.
     bench : BenchOptions or None

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from urllib.parse import parse_qsl
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class AddressError(InputError):

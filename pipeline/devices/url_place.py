@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 from urllib.parse import unquote, urlsplit
 
-from pipeline.devices.url_options import AddressError
+from contactbench.pipeline.devices.url_options import AddressError
 
 if TYPE_CHECKING:
     from urllib.parse import SplitResult

@@ -5,9 +5,9 @@ Samples are rows (n, c) with one column per channel; channels are independent an
 infinity is a missing sample of its channel: the last answer is held. Before a channel's first sample it is NaN.
 """
 
-from pipeline.filtering.kalman import KalmanFigures, KalmanFilter
-from pipeline.filtering.lowpass import LowPass
-from pipeline.filtering.spectrum import CutoffSuggestion, Spectrum, spectrum, suggest_cutoff
+from contactbench.pipeline.filtering.kalman import KalmanFigures, KalmanFilter
+from contactbench.pipeline.filtering.lowpass import LowPass
+from contactbench.pipeline.filtering.spectrum import CutoffSuggestion, Spectrum, spectrum, suggest_cutoff
 
 __all__ = [
     "CutoffSuggestion",

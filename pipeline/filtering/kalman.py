@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.linalg.lapack import dgttrs
 
-from pipeline.errors import InputError
-from pipeline.filtering.rows import Bools, Floats, alike, as_row, as_rows, positive, time_steps
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering.rows import Bools, Floats, alike, as_row, as_rows, positive, time_steps
 
 _BLOCK = 16384  # rows at a time: a whole recording needs no second copy, and a block stays in the cache
 

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 from scipy.integrate import quad
 from scipy.signal import butter, sosfilt, sosfilt_zi, sosfiltfilt
 
-from pipeline.errors import InputError
-from pipeline.filtering.rows import Bools, Columns, Floats, alike, as_row, as_rows, positive
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering.rows import Bools, Columns, Floats, alike, as_row, as_rows, positive
 
 
 class LowPass:

@@ -6,7 +6,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]

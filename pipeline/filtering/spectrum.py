@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.signal import get_window
 from scipy.stats import chi2
 
-from pipeline.errors import InputError
-from pipeline.filtering.lowpass import LowPass
-from pipeline.filtering.rows import Bools, Floats, as_rows, positive
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering.lowpass import LowPass
+from contactbench.pipeline.filtering.rows import Bools, Floats, as_rows, positive
 
 _SEGMENT_SECONDS = (
     2.0  # lines 1 Hz apart are told apart: enough for hands and robots, and a minute gives 59 of them

@@ -15,12 +15,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csr_array
 
-from pipeline.kernel import Geodesic, SurfaceIndex
+from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 REACH = 3.0  # bandwidths
 _CELL = 0.5  # bandwidths

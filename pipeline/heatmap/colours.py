@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 MAP = "cividis"
 NO_DATA = (0.85, 0.85, 0.87)

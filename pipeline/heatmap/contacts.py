@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, WrenchNoise
-from pipeline.contact.contact_csv import HEADER, REASONS
-from pipeline.contact.wrench_csv import WrenchReader
-from pipeline.heatmap.heatmap import HeatmapError
-from pipeline.heatmap.judging import measured_noise, settled, usual_step, with_calibration
-from pipeline.tables import TableReader, Wording
+from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
+from contactbench.pipeline.contact.contact_csv import HEADER, REASONS
+from contactbench.pipeline.contact.wrench_csv import WrenchReader
+from contactbench.pipeline.heatmap.heatmap import HeatmapError
+from contactbench.pipeline.heatmap.judging import measured_noise, settled, usual_step, with_calibration
+from contactbench.pipeline.tables import TableReader, Wording
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.mesh import Probe
-    from pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
@@ -203,7 +203,7 @@ def locate_recording(
     InputError
         The recording cannot be used.
     """
-    from pipeline.recording import read_recording
+    from contactbench.pipeline.recording import read_recording
 
     recording = read_recording(file, progress)
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:
@@ -242,9 +242,9 @@ def _compensated(
     delay: float,
 ) -> Iterator[tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]]:
     """Yield times, wrenches without weight and bias, and orientations of the readings that are good and have a pose."""
-    from pipeline.calibration.files.pose_csv import sensor_orientations
-    from pipeline.calibration.orientation import Convention
-    from pipeline.recording.convert import poses_at
+    from contactbench.pipeline.calibration.files.pose_csv import sensor_orientations
+    from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.recording.convert import poses_at
 
     for begin in range(0, len(track.times), _BLOCK_ROWS):
         rows = slice(begin, begin + _BLOCK_ROWS)

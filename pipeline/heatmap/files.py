@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline import __version__
-from pipeline.heatmap.bells import vertex_normals
-from pipeline.heatmap.colours import colours, linear
+from contactbench import __version__
+from contactbench.pipeline.heatmap.bells import vertex_normals
+from contactbench.pipeline.heatmap.colours import colours, linear
 
 if TYPE_CHECKING:
-    from pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 UNKNOWN = -1.0  # stands for "no data" in glTF, which has no NaN; no quantity is negative
 

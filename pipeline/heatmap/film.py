@@ -15,24 +15,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.durable import scratch_beside, sync_folder
-from pipeline.errors import InputError
-from pipeline.heatmap import picture
-from pipeline.heatmap.bells import vertex_normals
-from pipeline.heatmap.colours import colours
-from pipeline.heatmap.heatmap import HeatmapError
-from pipeline.heatmap.windowing import empty_words
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.engines.errors import Cancelled
+from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.heatmap import picture
+from contactbench.pipeline.heatmap.bells import vertex_normals
+from contactbench.pipeline.heatmap.colours import colours
+from contactbench.pipeline.heatmap.heatmap import HeatmapError
+from contactbench.pipeline.heatmap.windowing import empty_words
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.engines.errors import Cancelled
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.heatmap.heatmap import Heatmap
-    from pipeline.heatmap.playback import Playback
-    from pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.heatmap.playback import Playback
+    from contactbench.pipeline.heatmap.windowing import Selection
 
 SUFFIXES = (".mp4", ".gif")
 SLOWEST, FASTEST = 0.1, 50.0  # times the real speed

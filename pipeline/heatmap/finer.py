@@ -7,7 +7,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from pipeline.mesh.probe import Probe, build_probe
+from contactbench.pipeline.mesh.probe import Probe, build_probe
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.heatmap.bells import REACH, Bells, vertex_areas
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.heatmap.bells import REACH, Bells, vertex_areas
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 Quantity = Literal["density", "force", "peak", "error", "uncertainty"]
 Normalisation = Literal["contacts", "seconds", "rate"]

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import WrenchNoise
+from contactbench.pipeline.contact import WrenchNoise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
+    from contactbench.pipeline.calibration import GravityModel
 
 _BESIDE = 0.1  # s before and after a sample in which its force must be the same
 _CHANGE = 0.05  # of the force, between the one and the other

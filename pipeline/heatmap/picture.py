@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.heatmap.bells import vertex_normals
-from pipeline.heatmap.colours import MAP, NO_DATA, colours
-from pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.heatmap.bells import vertex_normals
+from contactbench.pipeline.heatmap.colours import MAP, NO_DATA, colours
+from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.heatmap.heatmap import Heatmap
 
 _ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides are seen
 _MARGIN = 1.25  # of the touched part's size

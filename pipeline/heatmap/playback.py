@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.heatmap.bells import Bells
-from pipeline.heatmap.finer import drawing_of
-from pipeline.heatmap.heatmap import (
+from contactbench.pipeline.heatmap.bells import Bells
+from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.heatmap import (
     _DENSITY_UNITS,
     _SCALES,
     _UNITS,
@@ -25,13 +25,13 @@ from pipeline.heatmap.heatmap import (
     _check_bandwidth,
     default_bandwidth,
 )
-from pipeline.heatmap.windowing import Selection, force_mask, shown, weights_of
+from contactbench.pipeline.heatmap.windowing import Selection, force_mask, shown, weights_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.heatmap.contacts import Contacts
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.heatmap.contacts import Contacts
+    from contactbench.pipeline.mesh import Probe
 
 _WINDOWS = 16  # places of the window at which the end of the colours is looked for
 _TOP = 95.0  # per cent of the known vertices are below the last colour

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.heatmap.contacts import Contacts
-from pipeline.heatmap.heatmap import HeatmapError
+from contactbench.pipeline.heatmap.contacts import Contacts
+from contactbench.pipeline.heatmap.heatmap import HeatmapError
 
 if TYPE_CHECKING:
-    from pipeline.verification.figures import Verification
+    from contactbench.pipeline.verification.figures import Verification
 
 
 def touches_of(verification: Verification) -> Contacts:

@@ -11,15 +11,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.heatmap.finer import drawing_of
-from pipeline.heatmap.heatmap import HeatmapError, Normalisation, Quantity, default_bandwidth, heatmap
+from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.heatmap import (
+    HeatmapError,
+    Normalisation,
+    Quantity,
+    default_bandwidth,
+    heatmap,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.heatmap.contacts import Contacts
-    from pipeline.heatmap.heatmap import Heatmap
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.heatmap.contacts import Contacts
+    from contactbench.pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.mesh import Probe
 
 OUTSIDE_TIME, OUTSIDE_FORCE = "outside the time window", "outside the force range"
 

@@ -8,8 +8,8 @@ bits: no operation is contracted or reordered.
 import importlib
 import os
 
-from pipeline.errors import InputError
-from pipeline.kernel import _cpu
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import _cpu
 
 
 def _variant() -> str:
@@ -21,7 +21,7 @@ def _variant() -> str:
     return wanted or available[0]
 
 
-_module = importlib.import_module(f"pipeline.kernel._kernel_{_variant()}")
+_module = importlib.import_module(f"contactbench.pipeline.kernel._kernel_{_variant()}")
 
 variant: str = _module.variant
 compiler: str = _module.compiler

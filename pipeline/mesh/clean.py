@@ -9,7 +9,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
 _SEED = 20240521
 

@@ -1,6 +1,6 @@
 """What the mesh package raises and warns with."""
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class MeshError(InputError):

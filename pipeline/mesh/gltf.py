@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import RawMesh, refuse_too_many
-from pipeline.mesh.polygons import strip_triangles
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import RawMesh, refuse_too_many
+from contactbench.pipeline.mesh.polygons import strip_triangles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 
-from pipeline.mesh.clean import flip_flat_facets, merge_vertices
-from pipeline.mesh.errors import MeshError, MeshWarning
-from pipeline.mesh.gltf import read_gltf
-from pipeline.mesh.obj import read_obj
-from pipeline.mesh.off import read_off
-from pipeline.mesh.parse import refuse_too_many
-from pipeline.mesh.ply import read_ply
-from pipeline.mesh.probe import (
+from contactbench.pipeline.mesh.clean import flip_flat_facets, merge_vertices
+from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
+from contactbench.pipeline.mesh.gltf import read_gltf
+from contactbench.pipeline.mesh.obj import read_obj
+from contactbench.pipeline.mesh.off import read_off
+from contactbench.pipeline.mesh.parse import refuse_too_many
+from contactbench.pipeline.mesh.ply import read_ply
+from contactbench.pipeline.mesh.probe import (
     Probe,
     build_probe,
     check_faces,
@@ -29,9 +29,18 @@ from pipeline.mesh.probe import (
     extent,
     refuse_size,
 )
-from pipeline.mesh.stl import read_stl
-from pipeline.mesh.threemf import read_threemf
-from pipeline.mesh.units import LIKELY_M, METRES, NAMES, UnitGuess, Units, guess_units, in_metres, notes_in
+from contactbench.pipeline.mesh.stl import read_stl
+from contactbench.pipeline.mesh.threemf import read_threemf
+from contactbench.pipeline.mesh.units import (
+    LIKELY_M,
+    METRES,
+    NAMES,
+    UnitGuess,
+    Units,
+    guess_units,
+    in_metres,
+    notes_in,
+)
 
 if TYPE_CHECKING:
     import os
@@ -39,7 +48,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from pipeline.mesh.parse import RawMesh
+    from contactbench.pipeline.mesh.parse import RawMesh
 
 # The vertices of one corner differ by float32 rounding between facets, 6e-8 of the coordinate.
 _MERGE = 1e-7
@@ -126,7 +135,8 @@ def load_probe(
 
     Notes
     -----
-    What a file can make this allocate is bounded, see `pipeline.mesh.parse`: files over 512 MiB and more than
+    What a file can make this allocate is bounded, see `contactbench.pipeline.mesh.parse`: files over 512 MiB
+    and more than
     four million facets are refused.
     """
     T_SP = None if mount is None else _rigid(mount)

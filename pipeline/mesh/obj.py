@@ -6,9 +6,9 @@ import io
 import re
 from array import array
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points
-from pipeline.mesh.polygons import Polygons
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points
+from contactbench.pipeline.mesh.polygons import Polygons
 
 _POSITION = re.compile(rb"v" + (rb"\s+(" + NUMBER + rb")") * 3 + rb"(?!\S)")
 _CORNER = re.compile(rb"([+-]?\d{1,18})(?:/[^\s/]*){0,2}")

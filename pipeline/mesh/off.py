@@ -7,9 +7,16 @@ import re
 from array import array
 from typing import TYPE_CHECKING
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points, refuse_too_many
-from pipeline.mesh.polygons import Polygons
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import (
+    NUMBER,
+    RawMesh,
+    decimal_points,
+    plain_text,
+    points,
+    refuse_too_many,
+)
+from contactbench.pipeline.mesh.polygons import Polygons
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
     from array import array
 
     import numpy.typing as npt
 
-    from pipeline.mesh.units import Units
+    from contactbench.pipeline.mesh.units import Units
 
 # Four times what the whole chain is meant for. A polygon of a text file turns two bytes into a facet, so the
 # file's size alone does not bound the memory that its facets take.

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.parse import RawMesh
-from pipeline.mesh.ply_body import read_binary, read_text
-from pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, read_header
+from contactbench.pipeline.mesh.parse import RawMesh
+from contactbench.pipeline.mesh.ply_body import read_binary, read_text
+from contactbench.pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, read_header
 
 if TYPE_CHECKING:
     import numpy.typing as npt

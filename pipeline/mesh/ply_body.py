@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, decimal_points, plain_text, points, refuse_too_many
-from pipeline.mesh.ply_header import INDICES, INTEGERS, KINDS, STRIPS
-from pipeline.mesh.polygons import strip_triangles, triangulate
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import NUMBER, decimal_points, plain_text, points, refuse_too_many
+from contactbench.pipeline.mesh.ply_header import INDICES, INTEGERS, KINDS, STRIPS
+from contactbench.pipeline.mesh.polygons import strip_triangles, triangulate
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     import numpy.typing as npt
 
-    from pipeline.mesh.ply_header import Element, Header
+    from contactbench.pipeline.mesh.ply_header import Element, Header
 
 # Integers per facet that have a meaning here.
 LABELS = ("region", "invented")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import MeshError
 
 # `save_probe` writes it; merging or cleaning such a mesh again could renumber what a session refers to.
 SETTLED = "contactbench probe 1"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.health import MeshHealth, measure_health
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.health import MeshHealth, measure_health
 
 if TYPE_CHECKING:
     from collections.abc import Callable

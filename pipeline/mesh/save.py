@@ -6,15 +6,15 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pipeline.durable import write_durably
-from pipeline.mesh.colours import facet_colours
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.ply import encode_ply
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.mesh.colours import facet_colours
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.ply import encode_ply
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
 
 def save_probe(probe: Probe, path: str | os.PathLike[str]) -> None:

@@ -14,12 +14,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, get_args
 
-from pipeline import __version__
-from pipeline.durable import write_durably
-from pipeline.mesh.errors import MeshError, MeshWarning
-from pipeline.mesh.load import load_probe
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.exchange import (
+from contactbench import __version__
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
+from contactbench.pipeline.mesh.load import load_probe
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.exchange import (
     SIZE_LIMIT,
     mesh_hash,
     parse_json,
@@ -27,15 +27,15 @@ from pipeline.mesh.regions.exchange import (
     read_region,
     write_region,
 )
-from pipeline.mesh.regions.region import RegionSet, check_list
-from pipeline.mesh.save import encode_probe
+from contactbench.pipeline.mesh.regions.region import RegionSet, check_list
+from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Mapping
 
-    from pipeline.mesh.probe import Probe
-    from pipeline.mesh.regions.region import Region
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.regions.region import Region
 
 SCHEMA, VERSION = "contactbench.probe", 1
 Frame = Literal["P", "S"]

@@ -13,9 +13,9 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from pipeline.kernel import SurfaceIndex, crossings
-from pipeline.mesh.health import MeshHealth, label_parts, measure_health
-from pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh.health import MeshHealth, label_parts, measure_health
+from contactbench.pipeline.mesh.probe import degenerate_facets
 
 if TYPE_CHECKING:
     import numpy.typing as npt

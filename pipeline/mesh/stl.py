@@ -8,8 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points, refuse_too_many
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import (
+    NUMBER,
+    RawMesh,
+    decimal_points,
+    plain_text,
+    points,
+    refuse_too_many,
+)
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -16,13 +16,13 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.parse import RawMesh, points, refuse_too_many
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.parse import RawMesh, points, refuse_too_many
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.units import Units
+    from contactbench.pipeline.mesh.units import Units
 
 _MODEL = "3d/3dmodel.model"
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/"

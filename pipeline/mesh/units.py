@@ -7,8 +7,8 @@ import re
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.probe import LARGEST_M, SMALLEST_M
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.probe import LARGEST_M, SMALLEST_M
 
 Units = Literal["m", "cm", "mm", "in"]
 

@@ -13,10 +13,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh import MeshWarning
-from pipeline.mesh.regions import RegionError, RegionSet, transfer
-from pipeline.mesh.regions.exchange import decode_json, load_regions, mesh_hash, parse_json, read_limited
-from pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.mesh import MeshWarning
+from contactbench.pipeline.mesh.regions import RegionError, RegionSet, transfer
+from contactbench.pipeline.mesh.regions.exchange import (
+    decode_json,
+    load_regions,
+    mesh_hash,
+    parse_json,
+    read_limited,
+)
+from contactbench.pipeline.mesh.sidecar import load_probe_file
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -25,9 +31,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.regions import RegionReport
-    from pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions import RegionReport
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 # Vertices that are the same but for the rounding of an alignment there and back, m.
 _SAME_M = 1e-9

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal
 
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.shell import Closing
-from pipeline.mesh.soundness import check_soundness
-from pipeline.preparation.steps import (
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.shell import Closing
+from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.preparation.steps import (
     align_step,
     import_mesh,
     refuse_aligned,
@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping, Sequence
 
-    from pipeline.mesh.regions import RegionReport
-    from pipeline.mesh.shell import Shell
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.mesh.simplify import Engine, Simplified, Target
-    from pipeline.mesh.soundness import Soundness
-    from pipeline.mesh.units import Units
-    from pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.mesh.regions import RegionReport
+    from contactbench.pipeline.mesh.shell import Shell
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.mesh.simplify import Engine, Simplified, Target
+    from contactbench.pipeline.mesh.soundness import Soundness
+    from contactbench.pipeline.mesh.units import Units
+    from contactbench.pipeline.preparation.alignment import Alignment
 
     Chosen = tuple[Target, Mapping[str, Any] | None]
 
@@ -168,7 +168,7 @@ def place(
     alignment : Alignment or None
         None: it stays in its own frame.
     painted : callable, optional
-        Takes the aligned shell and gives it with its regions; see `pipeline.preparation.painted`.
+        Takes the aligned shell and gives it with its regions; see `contactbench.pipeline.preparation.painted`.
     """
     content = dense.content if alignment is None else align_step(dense.content, alignment)
     return content if painted is None else painted(content)

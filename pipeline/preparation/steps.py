@@ -9,24 +9,24 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pipeline.mesh import MeshError, MeshWarning
-from pipeline.mesh.load import read_mesh, settle
-from pipeline.mesh.regions import RegionSet, transfer
-from pipeline.mesh.shell import Closing, make_shell
-from pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
-from pipeline.mesh.simplify import Count, MaxDeviation, simplify
-from pipeline.preparation.alignment import AlignmentError
+from contactbench.pipeline.mesh import MeshError, MeshWarning
+from contactbench.pipeline.mesh.load import read_mesh, settle
+from contactbench.pipeline.mesh.regions import RegionSet, transfer
+from contactbench.pipeline.mesh.shell import Closing, make_shell
+from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, sidecar_of
+from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, simplify
+from contactbench.pipeline.preparation.alignment import AlignmentError
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Mapping, Sequence
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.regions import RegionReport, Transferred
-    from pipeline.mesh.shell import Shell
-    from pipeline.mesh.simplify import Engine, Simplified, Target
-    from pipeline.mesh.units import Units
-    from pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions import RegionReport, Transferred
+    from contactbench.pipeline.mesh.shell import Shell
+    from contactbench.pipeline.mesh.simplify import Engine, Simplified, Target
+    from contactbench.pipeline.mesh.units import Units
+    from contactbench.pipeline.preparation.alignment import Alignment
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pipeline.mesh.simplify import MaxError
-from pipeline.preparation.ladder import ExpectedTouches, Goal, contact_error_criterion
+from contactbench.pipeline.mesh.simplify import MaxError
+from contactbench.pipeline.preparation.ladder import ExpectedTouches, Goal, contact_error_criterion
 
 if TYPE_CHECKING:
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 DEFAULT_LIMIT = 1e-4
 # Times the limit: the surface itself may not move further anywhere, or letters and ribs that hold less than a twentieth

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import zstandard
 
-from pipeline.durable import sync_folder
-from pipeline.recording.errors import RecordingError
-from pipeline.recording.wire import MAGIC, MESSAGE_HEAD, Opcode, mapping, record, text
+from contactbench.pipeline.durable import sync_folder
+from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, Opcode, mapping, record, text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from pipeline.devices import pose_track
-from pipeline.durable import scratch_beside, sync_folder
-from pipeline.recording.errors import RecordingError
+from contactbench.pipeline.devices import pose_track
+from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.recording.errors import RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.recording.reader import Recording
-    from pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.recording.reader import Recording
+    from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
 
 _WRENCH_COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz")
 _POSE_COLUMNS = ("qw", "qx", "qy", "qz", "px", "py", "pz")

@@ -15,13 +15,13 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from pipeline.recording.convert import LONGEST_GAP, poses_at
-from pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
+from contactbench.pipeline.recording.errors import RecordingError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
 
 _SAMPLES = 3_000
 _STEP_S = 0.01

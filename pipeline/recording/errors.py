@@ -1,6 +1,6 @@
 """What goes wrong with recordings."""
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class RecordingError(InputError):

@@ -7,7 +7,7 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, get_args
 
-from pipeline import __version__
+from contactbench import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

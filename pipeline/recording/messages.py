@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.recording.info import LATEST
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording.info import LATEST
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from itertools import groupby, islice
 from typing import TYPE_CHECKING
 
-from pipeline.devices.clock import SampleClock
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.url import AddressError, Carrier, DeviceAddress, Protocol
-from pipeline.recording.errors import RecordingError
-from pipeline.recording.info import (
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import AddressError, Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.info import (
     ABOUT_RECORD,
     ARRIVALS_ONLY,
     DEVICE_RECORD,
@@ -20,7 +20,7 @@ from pipeline.recording.info import (
     read_about,
     read_device,
 )
-from pipeline.recording.messages import (
+from contactbench.pipeline.recording.messages import (
     Event,
     MessageError,
     event_room,
@@ -28,9 +28,9 @@ from pipeline.recording.messages import (
     read_flange,
     read_wrench,
 )
-from pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
-from pipeline.recording.stream import McapStream, Message, Metadata
-from pipeline.recording.tracks import FlangeRows, FlangeTrack, WrenchRows, WrenchTrack
+from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA
+from contactbench.pipeline.recording.stream import McapStream, Message, Metadata
+from contactbench.pipeline.recording.tracks import FlangeRows, FlangeTrack, WrenchRows, WrenchTrack
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

@@ -8,18 +8,18 @@ import time
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from pipeline.devices.sample import Status
-from pipeline.errors import InputError
-from pipeline.recording.errors import SampleError
+from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording.errors import SampleError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from types import TracebackType
     from typing import Self
 
-    from pipeline.devices.drive import Health
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.recording.writer import RecordingWriter
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.recording.writer import RecordingWriter
 
 FLUSH_S = 0.5
 # A minute at 1 kHz: a disk may pause that long.

@@ -7,19 +7,19 @@ import time
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.recording.errors import RecordingError
-from pipeline.recording.messages import Event
-from pipeline.recording.reader import RecordingReader
-from pipeline.recording.schemas import FLANGE_SCHEMA, WRENCH_SCHEMA
-from pipeline.recording.stream import McapStream, Message
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.messages import Event
+from contactbench.pipeline.recording.reader import RecordingReader
+from contactbench.pipeline.recording.schemas import FLANGE_SCHEMA, WRENCH_SCHEMA
+from contactbench.pipeline.recording.stream import McapStream, Message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
     from types import TracebackType
 
-    from pipeline.recording.info import DeviceKind, RecordingInfo
+    from contactbench.pipeline.recording.info import DeviceKind, RecordingInfo
 
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
 # An endless track of poses would fill any gap, such as that of a clock which jumped by years.

@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.errors import InputError
-from pipeline.recording.errors import RecordingError, SampleError
-from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from pipeline.recording.ros2_poses import Frames, joint_pose, pose
-from pipeline.recording.ros2_survey import Survey, Topic, ros2_type, survey
-from pipeline.recording.ros2_types import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
-from pipeline.recording.stream import McapStream, Message
-from pipeline.recording.writer import RecordingWriter
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording.errors import RecordingError, SampleError
+from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.recording.ros2_poses import Frames, joint_pose, pose
+from contactbench.pipeline.recording.ros2_survey import Survey, Topic, ros2_type, survey
+from contactbench.pipeline.recording.ros2_types import JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED, decoder
+from contactbench.pipeline.recording.stream import McapStream, Message
+from contactbench.pipeline.recording.writer import RecordingWriter
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from pipeline.robot import Robot
+    from contactbench.pipeline.robot import Robot
 
 _POSE_TYPES = (TF, POSE_STAMPED, JOINT_STATE)
 _LONGEST_NAME = 80

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.robot import Robot
+    from contactbench.pipeline.robot import Robot
 
 Pose = tuple["NDArray[np.float64]", "NDArray[np.float64]"]
 

@@ -6,9 +6,9 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.recording.ros2_poses import numbers
-from pipeline.recording.ros2_types import TF, WRENCH_STAMPED, decoder
-from pipeline.recording.stream import McapStream, Message
+from contactbench.pipeline.recording.ros2_poses import numbers
+from contactbench.pipeline.recording.ros2_types import TF, WRENCH_STAMPED, decoder
+from contactbench.pipeline.recording.stream import McapStream, Message
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

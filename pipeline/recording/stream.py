@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import zstandard
 
-from pipeline.recording.errors import RecordingError
-from pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
+from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Cursor, Opcode
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

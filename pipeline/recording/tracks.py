@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline import kernel
-from pipeline.devices.sample import FROZEN_CHANCE, Status, WrenchSample
+from contactbench.pipeline import kernel
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status, WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.devices.sample import FlangeSample
+    from contactbench.pipeline.devices.sample import FlangeSample
 
 _USABLE = Status.LATE  # everything else says that a reading is no measurement, or that its time is a guess
 

@@ -7,9 +7,9 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal
 
-from pipeline.recording.chunked import ChunkedFile
-from pipeline.recording.errors import RecordingError, SampleError
-from pipeline.recording.info import (
+from contactbench.pipeline.recording.chunked import ChunkedFile
+from contactbench.pipeline.recording.errors import RecordingError, SampleError
+from contactbench.pipeline.recording.info import (
     ABOUT_RECORD,
     DEVICE_RECORD,
     EVENT_TOPIC,
@@ -17,21 +17,21 @@ from pipeline.recording.info import (
     about_record,
     device_record,
 )
-from pipeline.recording.messages import (
+from contactbench.pipeline.recording.messages import (
     LONGEST_MESSAGE,
     Event,
     event_message,
     flange_message,
     wrench_message,
 )
-from pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA, schema
+from contactbench.pipeline.recording.schemas import EVENT_SCHEMA, FLANGE_SCHEMA, WRENCH_SCHEMA, schema
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
     from types import TracebackType
 
-    from pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 
 _Kind = Literal["wrench", "flange", "event"]
 _SCHEMAS: dict[_Kind, str] = {"wrench": WRENCH_SCHEMA, "flange": FLANGE_SCHEMA, "event": EVENT_SCHEMA}

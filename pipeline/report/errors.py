@@ -1,6 +1,6 @@
 """What is wrong with a report's input."""
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class ReportError(InputError):

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import scipy
 
-from pipeline import __version__
-from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
-from pipeline.calibration.wording import plain, signed, with_sigma
-from pipeline.verification.known import TOUCH, WEIGHT
+from contactbench import __version__
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, TORQUE_BIAS
+from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
+from contactbench.pipeline.verification.known import TOUCH, WEIGHT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.calibration.files.calibration_file import CalibrationRecord
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.verification.figures import ForceAccuracy, Summary, TouchFigure, Verification
+    from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.verification.figures import ForceAccuracy, Summary, TouchFigure, Verification
 
 # Kind, what it is called, and what it rests on.
 _CHECKS = (

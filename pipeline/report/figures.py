@@ -19,13 +19,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from pipeline.report.text import printable
+from contactbench.pipeline.report.text import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from pipeline.report.touches import MarkerView
-    from pipeline.verification.figures import Diagnosis, Limits, Summary, TouchFigure
+    from contactbench.pipeline.report.touches import MarkerView
+    from contactbench.pipeline.verification.figures import Diagnosis, Limits, Summary, TouchFigure
 
 BLUE, ORANGE, GREEN, PURPLE, SKY = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9"
 _SERIES = ((BLUE, "o"), (ORANGE, "s"), (GREEN, "^"), (PURPLE, "D"), (SKY, "v"))

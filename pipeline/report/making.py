@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from pipeline.report.errors import ReportError
-from pipeline.verification.known import TOUCH, WEIGHT, read_check
+from contactbench.pipeline.report.errors import ReportError
+from contactbench.pipeline.verification.known import TOUCH, WEIGHT, read_check
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,11 +41,11 @@ def report(
     InputError
         An input is missing, unusable or not the one that was verified, or a parameter is wrong.
     """
-    from pipeline.calibration.files.calibration_file import load_record
-    from pipeline.mesh.sidecar import load_probe_file
-    from pipeline.report.page import ReportContent, report_html
-    from pipeline.report.pdf import report_pdf
-    from pipeline.report.reading import read_verification
+    from contactbench.pipeline.calibration.files.calibration_file import load_record
+    from contactbench.pipeline.mesh.sidecar import load_probe_file
+    from contactbench.pipeline.report.page import ReportContent, report_html
+    from contactbench.pipeline.report.pdf import report_pdf
+    from contactbench.pipeline.report.reading import read_verification
 
     given = _parameters(parameters)
     if not {"verification", "probe"} <= set(inputs) <= set(_ROLES):

@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 from datetime import UTC
 from typing import TYPE_CHECKING, Any
 
-from pipeline import __version__
-from pipeline.mesh.regions.exchange import mesh_hash
-from pipeline.report.errors import ReportError
-from pipeline.report.facts import (
+from contactbench import __version__
+from contactbench.pipeline.mesh.regions.exchange import mesh_hash
+from contactbench.pipeline.report.errors import ReportError
+from contactbench.pipeline.report.facts import (
     calibration_facts,
     check_rows,
     mesh_steps,
@@ -25,17 +25,17 @@ from pipeline.report.facts import (
     vector_words,
     versions,
 )
-from pipeline.report.text import printable
-from pipeline.report.touches import MOST_SHOWN, error_map, marker_views
-from pipeline.verification.model_error import model_error_words
+from contactbench.pipeline.report.text import printable
+from contactbench.pipeline.report.touches import MOST_SHOWN, error_map, marker_views
+from contactbench.pipeline.verification.model_error import model_error_words
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from datetime import datetime
 
-    from pipeline.calibration.files.calibration_file import CalibrationRecord
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.verification.figures import Verification
+    from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.verification.figures import Verification
 
 __all__ = ["ReportContent", "ReportError", "report_html"]
 
@@ -128,8 +128,8 @@ def _context(content: ReportContent) -> dict[str, Any]:
 
 def _pictures(content: ReportContent) -> dict[str, Any]:
     """Draw; what is drawn with takes a while to import."""
-    from pipeline.heatmap.picture import encode_png
-    from pipeline.report.figures import FEWEST_REPEATS, draw
+    from contactbench.pipeline.heatmap.picture import encode_png
+    from contactbench.pipeline.report.figures import FEWEST_REPEATS, draw
 
     verification, probe = content.verification, content.probe.probe
     accepted = [touch for touch in verification.touches if touch.accepted]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from importlib.util import find_spec
 
-from pipeline.report.errors import ReportError
+from contactbench.pipeline.report.errors import ReportError
 
 
 def report_pdf(html: str) -> bytes:

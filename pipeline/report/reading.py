@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from pipeline.report.errors import ReportError
-from pipeline.verification.figures import SCHEMA, VERSION, Verification
+from contactbench.pipeline.report.errors import ReportError
+from contactbench.pipeline.verification.figures import SCHEMA, VERSION, Verification
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.heatmap import Heatmap, heatmap
-from pipeline.heatmap.finer import drawing_of
-from pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.heatmap import Heatmap, heatmap
+from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
-    from pipeline.verification.figures import TouchFigure
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.verification.figures import TouchFigure
 
 MOST_SHOWN = 24  # markers; of more, the worst
 _BANDWIDTH = 3e-3  # m: markers are usually some 10 mm apart

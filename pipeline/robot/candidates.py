@@ -6,9 +6,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.errors import InputError
-from pipeline.robot.clearance import ClearanceCheck
-from pipeline.robot.description import RobotDescription
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot.clearance import ClearanceCheck
+from contactbench.pipeline.robot.description import RobotDescription
 
 WRIST_JOINTS = 3
 # A start from which fewer than one draw in 32 is clear is a start to complain about.

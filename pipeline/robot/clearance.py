@@ -14,9 +14,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.errors import InputError
-from pipeline.robot.description import TOOL, Capsule, RobotDescription, Triple, joint_angles
-from pipeline.robot.model import Kinematics, fixed_axes
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot.description import TOOL, Capsule, RobotDescription, Triple, joint_angles
+from contactbench.pipeline.robot.model import Kinematics, fixed_axes
 
 
 @dataclass(frozen=True)

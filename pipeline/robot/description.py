@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 Triple = tuple[float, float, float]
 

@@ -6,7 +6,7 @@ Lengths, limits and masses are the manufacturer's published figures. Where they 
 
 from math import pi
 
-from pipeline.robot.description import Capsule, Joint, RobotDescription, Triple
+from contactbench.pipeline.robot.description import Capsule, Joint, RobotDescription, Triple
 
 # Hans Robot Elfin3. The chain places every joint frame on the intersection of the axes, so the frames of
 # J1-J2, J3-J4 and J4-J5-J6 share origins and the last three joints are a spherical wrist.

@@ -9,8 +9,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.errors import InputError
-from pipeline.robot.description import Capsule, RobotDescription, Triple
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot.description import Capsule, RobotDescription, Triple
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation

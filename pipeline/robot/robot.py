@@ -6,12 +6,12 @@ from math import pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.errors import InputError
-from pipeline.robot.candidates import WRIST_JOINTS, draw_candidates
-from pipeline.robot.clearance import Clearance, ClearanceCheck
-from pipeline.robot.description import RobotDescription, joint_angles
-from pipeline.robot.known import ROBOTS
-from pipeline.robot.model import Kinematics
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot.candidates import WRIST_JOINTS, draw_candidates
+from contactbench.pipeline.robot.clearance import Clearance, ClearanceCheck
+from contactbench.pipeline.robot.description import RobotDescription, joint_angles
+from contactbench.pipeline.robot.known import ROBOTS
+from contactbench.pipeline.robot.model import Kinematics
 
 
 class Robot:

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.config.runtime.runtime_of import make_runtime
-from pipeline.contact.facet_marks import MARKS, facet_marks
-from pipeline.runtime.lines import Answer
+from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.contact.facet_marks import MARKS, facet_marks
+from contactbench.pipeline.runtime.lines import Answer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
 
 _UNKNOWN = np.full(3, np.nan)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class RunError(InputError):

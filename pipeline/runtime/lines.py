@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline import kernel
+    from contactbench.pipeline import kernel
 
 HEALTH = ("frozen", "silent", "flagged", "no_pose", "clock")
 """Names of the bits of a health word, from the lowest."""
@@ -36,7 +36,7 @@ class Answer:
     zero : kernel.Zero
         What is known of the sensor's zero at this sample.
     on : str, optional
-        What the contact lies on, one of `pipeline.contact.facet_marks.MARKS`; None: there is none.
+        What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none.
 
     Attributes
     ----------

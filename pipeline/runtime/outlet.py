@@ -8,12 +8,12 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Protocol
 
-from pipeline.runtime.errors import OutputError, ReaderGoneError
+from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.lines import Answer
 
 _MOST_WAITING = 10_000  # ten seconds at 1 kHz
 _AT_ONCE = 500

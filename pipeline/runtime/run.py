@@ -11,22 +11,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.url import Protocol
-from pipeline.runtime.engine import Engine
-from pipeline.runtime.errors import RunError
-from pipeline.runtime.lines import health_names
+from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.runtime.engine import Engine
+from contactbench.pipeline.runtime.errors import RunError
+from contactbench.pipeline.runtime.lines import health_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from types import TracebackType
     from typing import Self
 
-    from pipeline import kernel
-    from pipeline.config.runtime import RuntimeConfig
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.devices.url import DeviceAddress
-    from pipeline.runtime.lines import Answer
-    from pipeline.runtime.outlet import Outlet
+    from contactbench.pipeline import kernel
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.runtime.lines import Answer
+    from contactbench.pipeline.runtime.outlet import Outlet
 
 _SWITCH_S = 1e-4
 _RATE_OFF = 0.05
@@ -79,7 +79,7 @@ class Run:
     reasons, unhealthy : Counter
         Samples so far by their reason, and by what is wrong with their health.
     on : Counter
-        Contacts so far by what they lie on, one of `pipeline.contact.facet_marks.MARKS`.
+        Contacts so far by what they lie on, one of `contactbench.pipeline.contact.facet_marks.MARKS`.
     latencies : Latencies
     positions : bool or None
         Whether poses come with positions; None: none came yet.

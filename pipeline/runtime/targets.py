@@ -9,17 +9,17 @@ import socket
 import time
 from typing import TYPE_CHECKING, Any
 
-from pipeline.recording import RecordingError
-from pipeline.recording.chunked import ChunkedFile
-from pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
-from pipeline.runtime.errors import OutputError, ReaderGoneError, RunError
+from contactbench.pipeline.recording import RecordingError
+from contactbench.pipeline.recording.chunked import ChunkedFile
+from contactbench.pipeline.recording.info import ABOUT_RECORD, DEVICE_RECORD, about_record, device_record
+from contactbench.pipeline.runtime.errors import OutputError, ReaderGoneError, RunError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pipeline.recording import RecordingInfo
-    from pipeline.runtime.lines import Answer
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.runtime.lines import Answer
 
 CONTACT_TOPIC, CONTACT_SCHEMA = "/contact", "contactbench.Contact"
 _CHUNK_BYTES = 2**20

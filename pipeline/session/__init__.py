@@ -6,7 +6,7 @@ A bench session: a folder that keeps every action, sample and result.
 that refers to it, and a record is on the disk before it is acknowledged.
 """
 
-from pipeline.session.errors import (
+from contactbench.pipeline.session.errors import (
     ArchiveError,
     JournalError,
     SchemaError,
@@ -14,8 +14,8 @@ from pipeline.session.errors import (
     SessionLockedError,
     SessionReadOnlyError,
 )
-from pipeline.session.state import State, fold
-from pipeline.session.store import Session
+from contactbench.pipeline.session.state import State, fold
+from contactbench.pipeline.session.store import Session
 
 __all__ = [
     "ArchiveError",

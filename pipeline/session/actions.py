@@ -18,8 +18,8 @@ from pydantic import (
     model_validator,
 )
 
-from pipeline.session.errors import JournalError
-from pipeline.session.frames import Frame, canonical
+from contactbench.pipeline.session.errors import JournalError
+from contactbench.pipeline.session.frames import Frame, canonical
 
 SCHEMA, VERSION = "contactbench.session", 2
 

@@ -6,25 +6,32 @@ import secrets
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from pipeline.durable import write_durably
-from pipeline.session import frames
-from pipeline.session.actions import files_of
-from pipeline.session.errors import SessionError
-from pipeline.session.files import UNFINISHED, own_file, refuse_links, unclaimed, unfinished, wrong_with
-from pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
-from pipeline.session.lock import Lock
-from pipeline.session.migrate import origin_problems
-from pipeline.session.reading import content_of
-from pipeline.session.sources import sources_of
-from pipeline.session.state import fold
-from pipeline.session.store import Session
-from pipeline.session.unfinished import adopt_unfinished
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.actions import files_of
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import (
+    UNFINISHED,
+    own_file,
+    refuse_links,
+    unclaimed,
+    unfinished,
+    wrong_with,
+)
+from contactbench.pipeline.session.journal import JOURNAL, JournalWriter, read_journal, refuse_damage
+from contactbench.pipeline.session.lock import Lock
+from contactbench.pipeline.session.migrate import origin_problems
+from contactbench.pipeline.session.reading import content_of
+from contactbench.pipeline.session.sources import sources_of
+from contactbench.pipeline.session.state import fold
+from contactbench.pipeline.session.store import Session
+from contactbench.pipeline.session.unfinished import adopt_unfinished
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from pipeline.session.reading import Content
+    from contactbench.pipeline.session.reading import Content
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
-from pipeline.mesh.sidecar import SCHEMA, read_document, sidecar_of
-from pipeline.recording import RecordingReader
-from pipeline.session.errors import SessionError
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.sidecar import SCHEMA, read_document, sidecar_of
+from contactbench.pipeline.recording import RecordingReader
+from contactbench.pipeline.session.errors import SessionError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

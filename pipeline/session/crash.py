@@ -1,7 +1,8 @@
 """
 Killing a process that adds to a session, and looking at what is left.
 
-``python -m pipeline.session.crash FOLDER`` adds without end, and says on standard output what it was told is safe.
+``python -m contactbench.pipeline.session.crash FOLDER`` adds without end, and says on standard output what it
+was told is safe.
 """
 
 from __future__ import annotations
@@ -14,9 +15,9 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from pipeline.session.check import check
-from pipeline.session.errors import SessionError
-from pipeline.session.store import Session
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.store import Session
 
 _PATIENCE_S = 60.0
 _LATEST_S = 0.05
@@ -75,10 +76,9 @@ def kill_writers(folder: Path, kills: int, *, seed: int = 0) -> KillReport:
 
 def _run_and_kill(folder: Path, moments: random.Random) -> dict[int, str]:
     """Return the number and hash of each record that the process was told is safe."""
-    command = [sys.executable, "-m", "pipeline.session.crash", str(folder)]
+    command = [sys.executable, "-m", "contactbench.pipeline.session.crash", str(folder)]
     early, wait = moments.random() < 0.2, moments.random() * _LATEST_S
-    root = str(Path(__file__).parents[2])
-    with subprocess.Popen(command, stdout=subprocess.PIPE, cwd=root) as process:  # noqa: S603
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as process:  # noqa: S603
         stream = process.stdout
         if stream is None:
             return {}

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from pipeline import __version__
-from pipeline.session.actions import RULES, Entry, FileRef
-from pipeline.session.errors import SessionError
+from contactbench import __version__
+from contactbench.pipeline.session.actions import RULES, Entry, FileRef
+from contactbench.pipeline.session.errors import SessionError
 
 if TYPE_CHECKING:
-    from pipeline.session.actions import Action
+    from contactbench.pipeline.session.actions import Action
 
 _A = TypeVar("_A", bound=BaseModel)
 

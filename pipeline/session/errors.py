@@ -1,6 +1,6 @@
 """What the session raises."""
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class SessionError(InputError):

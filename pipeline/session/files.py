@@ -8,10 +8,10 @@ import re
 import stat
 from typing import TYPE_CHECKING
 
-from pipeline.durable import scratch_beside, sync_folder
-from pipeline.session.actions import FileRef
-from pipeline.session.errors import SessionError
-from pipeline.session.journal import write_all
+from contactbench.pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.session.actions import FileRef
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.journal import write_all
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator

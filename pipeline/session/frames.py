@@ -28,7 +28,7 @@ import zlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.session.errors import JournalError
+from contactbench.pipeline.session.errors import JournalError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -5,12 +5,12 @@ from __future__ import annotations
 import hashlib
 from typing import TYPE_CHECKING
 
-from pipeline.session.frames import canonical
+from contactbench.pipeline.session.frames import canonical
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.session.actions import FileRef, ResultAdded
+    from contactbench.pipeline.session.actions import FileRef, ResultAdded
 
 
 def main_file(action: ResultAdded) -> str:

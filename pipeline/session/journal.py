@@ -6,8 +6,8 @@ import os
 import stat
 from typing import TYPE_CHECKING
 
-from pipeline.session import frames
-from pipeline.session.errors import JournalError, SessionError
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.errors import JournalError, SessionError
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -8,20 +8,20 @@ from contextlib import suppress
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from pipeline.recording import RecordingError, RecordingWriter
-from pipeline.recording.recorder import Recorder
-from pipeline.session.errors import SessionError
-from pipeline.session.files import UNFINISHED
+from contactbench.pipeline.recording import RecordingError, RecordingWriter
+from contactbench.pipeline.recording.recorder import Recorder
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import UNFINISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from types import TracebackType
     from typing import Self
 
-    from pipeline.devices.drive import Health
-    from pipeline.recording import RecordingInfo
-    from pipeline.session.actions import Record
-    from pipeline.session.store import Session
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.store import Session
 
 RECORDING = "recording"
 _NAME = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9._-]{0,80}\.mcap")

@@ -8,9 +8,9 @@ import stat
 import sys
 from typing import TYPE_CHECKING
 
-from pipeline.session.errors import SessionError, SessionLockedError, SessionReadOnlyError
-from pipeline.session.files import FOLDERS
-from pipeline.session.journal import JOURNAL
+from contactbench.pipeline.session.errors import SessionError, SessionLockedError, SessionReadOnlyError
+from contactbench.pipeline.session.files import FOLDERS
+from contactbench.pipeline.session.journal import JOURNAL
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from pipeline.session.errors import SessionError
-from pipeline.session.making import (
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.making import (
     Number,
     Parameters,
     Three,
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from pipeline.calibration import PoseSample
-    from pipeline.calibration.files.capture_file import Captured
-    from pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration import PoseSample
+    from contactbench.pipeline.calibration.files.capture_file import Captured
+    from contactbench.pipeline.calibration.orientation import Convention
 
 FEWEST_POSES = 3
 
@@ -46,7 +46,7 @@ class PosesParameters(Parameters):
 
     def convention(self) -> Convention | None:
         """Return how orientations are written; None: as the file's columns say."""
-        from pipeline.calibration.orientation import convention_of
+        from contactbench.pipeline.calibration.orientation import convention_of
 
         return convention_of(
             self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
@@ -83,9 +83,9 @@ def captures(
     Where the robot was recorded into a table of its own, that is ``robot_poses``. Those of ``earlier``, a table of the
     same run before it was interrupted, come first. `tell` gets what was noticed and left out, sentence by sentence.
     """
-    from pipeline.calibration.files.calibration_file import load_calibration
-    from pipeline.calibration.files.capture_recording import capture_any
-    from pipeline.calibration.files.pose_csv import write_poses
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration.files.capture_recording import capture_any
+    from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     given = read_parameters(CapturesParameters, parameters)
     recording = check_roles(inputs, "recording", "calibration", "earlier", "robot_poses")
@@ -121,7 +121,7 @@ def captures(
 
 
 def _earlier(file: Path) -> tuple[PoseSample, ...]:
-    from pipeline.calibration.files.pose_csv import read_poses
+    from contactbench.pipeline.calibration.files.pose_csv import read_poses
 
     # Their times are on another recording's clock.
     return tuple(replace(pose, time=None) for pose in read_poses(file).poses)
@@ -170,12 +170,12 @@ def calibration(
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate`` writes at that time."""
     import numpy as np
 
-    from pipeline.calibration import ContactTask, PoseNoise, calibrate
-    from pipeline.calibration.diagnosis.diagnose import RawOrientations
-    from pipeline.calibration.files.calibration_file import Mount, save_calibration
-    from pipeline.calibration.files.capture_recording import is_recording
-    from pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
-    from pipeline.calibration.mounting import estimate_mount
+    from contactbench.pipeline.calibration import ContactTask, PoseNoise, calibrate
+    from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
+    from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
+    from contactbench.pipeline.calibration.files.capture_recording import is_recording
+    from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
+    from contactbench.pipeline.calibration.mounting import estimate_mount
 
     given = read_parameters(CalibrationParameters, parameters)
     if given.mount is not None and given.estimate_mount:

@@ -8,16 +8,23 @@ from collections import OrderedDict
 from functools import partial
 from typing import TYPE_CHECKING, Any, cast, get_args
 
-from pipeline.session.errors import SessionError
-from pipeline.session.making import Number, Parameters, check_roles, folder_for, metres, read_parameters
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.making import (
+    Number,
+    Parameters,
+    check_roles,
+    folder_for,
+    metres,
+    read_parameters,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from pipeline.mesh.simplify import Engine
-    from pipeline.preparation.alignment import Alignment
-    from pipeline.preparation.prepare import Dense, Preparation
+    from contactbench.pipeline.mesh.simplify import Engine
+    from contactbench.pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.preparation.prepare import Dense, Preparation
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None
@@ -57,9 +64,9 @@ def probe(
 
     ``alignment``, an input that may be left out, is what ``contactbench probe align --save`` wrote; ``regions``,
     another, what ``contactbench region export`` wrote of the aligned outer surface: see
-    `pipeline.preparation.painted`. For `remember` see `dense_of`.
+    `contactbench.pipeline.preparation.painted`. For `remember` see `dense_of`.
     """
-    from pipeline.mesh.sidecar import save_probe_file, sidecar_of
+    from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
 
     given = read_parameters(ProbeParameters, parameters)
     done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
@@ -77,9 +84,9 @@ def prepared(
     remember: bool = False,
 ) -> Preparation:
     """Prepare a probe from the same inputs as `probe`, and give it with what was done."""
-    from pipeline.mesh.simplify import Engine
-    from pipeline.preparation.painted import put_on
-    from pipeline.preparation.prepare import finish, place
+    from contactbench.pipeline.mesh.simplify import Engine
+    from contactbench.pipeline.preparation.painted import put_on
+    from contactbench.pipeline.preparation.prepare import finish, place
 
     if given.engine not in get_args(Engine):
         raise SessionError(
@@ -138,9 +145,9 @@ def dense_of(
     progress, cancelled : callable, optional
         The share that is done, and whether to stop.
     """
-    from pipeline.mesh.shell import Closing
-    from pipeline.preparation.prepare import make_dense
-    from pipeline.preparation.steps import refuse_aligned
+    from contactbench.pipeline.mesh.shell import Closing
+    from contactbench.pipeline.preparation.prepare import make_dense
+    from contactbench.pipeline.preparation.steps import refuse_aligned
 
     if not set(given.close) <= set(Closing):
         raise SessionError(f"close {given.close!r}: no such way to close: give some of {', '.join(Closing)}.")
@@ -184,7 +191,7 @@ def _part(progress: Progress, low: float, high: float) -> Progress:
 
 
 def _alignment(given: ProbeParameters, file: Path | None) -> Alignment | None:
-    from pipeline.preparation.alignment import from_angles, from_json
+    from contactbench.pipeline.preparation.alignment import from_angles, from_json
 
     if file is None:
         return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
@@ -194,10 +201,10 @@ def _alignment(given: ProbeParameters, file: Path | None) -> Alignment | None:
 
 
 def target_of(given: ProbeParameters) -> Callable[[Any], Any]:
-    """Return the target of a simplification, as `pipeline.preparation.prepare.finish` takes it."""
-    from pipeline.mesh.simplify import Count, MaxDeviation
-    from pipeline.preparation.ladder import ExpectedTouches
-    from pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
+    """Return the target of a simplification, as `contactbench.pipeline.preparation.prepare.finish` takes it."""
+    from contactbench.pipeline.mesh.simplify import Count, MaxDeviation
+    from contactbench.pipeline.preparation.ladder import ExpectedTouches
+    from contactbench.pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
 
     if sum(each is not None for each in (given.facets, given.max_deviation, given.max_contact_error)) > 1:
         raise SessionError("facets, max_deviation and max_contact_error: give one of them.")

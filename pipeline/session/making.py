@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
-from pipeline.session.errors import SessionError
+from contactbench.pipeline.session.errors import SessionError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.session.state import State
+    from contactbench.pipeline.session.state import State
 
 _P = TypeVar("_P", bound=BaseModel)
 

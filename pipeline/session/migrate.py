@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from pipeline.durable import write_durably
-from pipeline.session import frames
-from pipeline.session.actions import SCHEMA, VERSION, Origin, Record, parse_payload, read_entry
-from pipeline.session.errors import SchemaError, SessionError
-from pipeline.session.journal import JOURNAL
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.actions import SCHEMA, VERSION, Origin, Record, parse_payload, read_entry
+from contactbench.pipeline.session.errors import SchemaError, SessionError
+from contactbench.pipeline.session.journal import JOURNAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.session import frames
-from pipeline.session.actions import VERSION, Record, records_of
-from pipeline.session.journal import JOURNAL, read_journal, refuse_damage
-from pipeline.session.migrate import (
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.actions import VERSION, Record, records_of
+from contactbench.pipeline.session.journal import JOURNAL, read_journal, refuse_damage
+from contactbench.pipeline.session.migrate import (
     kept_origins,
     migrated,
     original_of,
@@ -16,7 +16,7 @@ from pipeline.session.migrate import (
     version_of,
     write_migrated,
 )
-from pipeline.session.state import fold
+from contactbench.pipeline.session.state import fold
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -18,30 +18,30 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from pipeline.errors import InputError
-from pipeline.report.making import ReportParameters, report
-from pipeline.session.errors import SessionError
-from pipeline.session.identity import main_file
-from pipeline.session.make_calibration import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.report.making import ReportParameters, report
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.identity import main_file
+from contactbench.pipeline.session.make_calibration import (
     CalibrationParameters,
     CapturesParameters,
     calibration,
     captures,
 )
-from pipeline.session.make_probe import ProbeParameters, probe
-from pipeline.session.making import PREFIX
-from pipeline.verification.known import TOUCH_ROLES, WEIGHT_ROLES
-from pipeline.verification.known_touch import TouchParameters, known_touch
-from pipeline.verification.known_weight import WeightParameters, known_weight
-from pipeline.verification.result import REFERENCE, VerificationParameters, verification
-from pipeline.verification.result import ROLES as VERIFICATION_ROLES
+from contactbench.pipeline.session.make_probe import ProbeParameters, probe
+from contactbench.pipeline.session.making import PREFIX
+from contactbench.pipeline.verification.known import TOUCH_ROLES, WEIGHT_ROLES
+from contactbench.pipeline.verification.known_touch import TouchParameters, known_touch
+from contactbench.pipeline.verification.known_weight import WeightParameters, known_weight
+from contactbench.pipeline.verification.result import REFERENCE, VerificationParameters, verification
+from contactbench.pipeline.verification.result import ROLES as VERIFICATION_ROLES
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-    from pipeline.session.actions import Record
-    from pipeline.session.state import State
-    from pipeline.session.store import Session
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import State
+    from contactbench.pipeline.session.store import Session
 
 # Inputs by role, parameters, the time to write; those in _FOLLOWED also `progress`, `cancelled` and
 # `remember`, those in _TELLING `tell`.

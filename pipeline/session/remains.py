@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
-from pipeline.session import frames
-from pipeline.session.actions import (
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.actions import (
     VERSION,
     Note,
     Record,
@@ -25,22 +25,22 @@ from pipeline.session.actions import (
     payload_of,
     read_entry,
 )
-from pipeline.session.entries import entry, user
-from pipeline.session.errors import JournalError
-from pipeline.session.journal import read_journal, refuse_damage
-from pipeline.session.migrate import version_of
-from pipeline.session.reading import content_of
-from pipeline.session.sources import sources_of
-from pipeline.session.state import MESH, fold
+from contactbench.pipeline.session.entries import entry, user
+from contactbench.pipeline.session.errors import JournalError
+from contactbench.pipeline.session.journal import read_journal, refuse_damage
+from contactbench.pipeline.session.migrate import version_of
+from contactbench.pipeline.session.reading import content_of
+from contactbench.pipeline.session.sources import sources_of
+from contactbench.pipeline.session.state import MESH, fold
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
     from pathlib import Path
 
-    from pipeline.session.frames import Frame
-    from pipeline.session.reading import Content
-    from pipeline.session.sources import Source
-    from pipeline.session.state import Result, State
+    from contactbench.pipeline.session.frames import Frame
+    from contactbench.pipeline.session.reading import Content
+    from contactbench.pipeline.session.sources import Source
+    from contactbench.pipeline.session.state import Result, State
 
 # A hostile journal must not keep anybody waiting: more is not tried.
 _MENDED_BYTES, _MENDED_GAPS, _SORTED_RUNS = 8192, 50, 1000

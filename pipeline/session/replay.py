@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
-from pipeline.session.entries import TOOL
-from pipeline.session.recompute import RECOMPUTE, recomputed
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.entries import TOOL
+from contactbench.pipeline.session.recompute import RECOMPUTE, recomputed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.session.state import Result
-    from pipeline.session.store import Session
+    from contactbench.pipeline.session.state import Result
+    from contactbench.pipeline.session.store import Session
 
 
 class Outcome(StrEnum):

@@ -8,10 +8,10 @@ import shutil
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.durable import sync_folder, write_durably
-from pipeline.session.actions import files_of
-from pipeline.session.errors import SessionError
-from pipeline.session.files import (
+from contactbench.pipeline.durable import sync_folder, write_durably
+from contactbench.pipeline.session.actions import files_of
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import (
     FOLDERS,
     UNFINISHED,
     chunks_of,
@@ -21,17 +21,17 @@ from pipeline.session.files import (
     write_file,
     wrong_with,
 )
-from pipeline.session.journal import JOURNAL, read_journal
-from pipeline.session.migrate import original_of
-from pipeline.session.reading import content_of
-from pipeline.session.remains import doubts, note_of, remains_of
-from pipeline.session.store import Session
+from contactbench.pipeline.session.journal import JOURNAL, read_journal
+from contactbench.pipeline.session.migrate import original_of
+from contactbench.pipeline.session.reading import content_of
+from contactbench.pipeline.session.remains import doubts, note_of, remains_of
+from contactbench.pipeline.session.store import Session
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from pipeline.session.remains import Remains
+    from contactbench.pipeline.session.remains import Remains
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from pipeline.session.state import Input, Result
+from contactbench.pipeline.session.state import Input, Result
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.session.state import Rezero, State
+    from contactbench.pipeline.session.state import Rezero, State
 
 _T = TypeVar("_T", Input, Result)
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.session.recompute import parameter_of
-from pipeline.session.sources import Recorded, sources_of
-from pipeline.session.state import MESH
+from contactbench.pipeline.session.recompute import parameter_of
+from contactbench.pipeline.session.sources import Recorded, sources_of
+from contactbench.pipeline.session.state import MESH
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from pipeline.session.state import Input, Result, Setting, State
+    from contactbench.pipeline.session.state import Input, Result, Setting, State
 
 
 def stale_results(state: State) -> dict[tuple[str, str], tuple[str, ...]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pipeline.session.actions import (
+from contactbench.pipeline.session.actions import (
     DeviceRezeroed,
     FileRef,
     InputAdded,
@@ -17,7 +17,7 @@ from pipeline.session.actions import (
     ResultMarked,
     SessionCreated,
 )
-from pipeline.session.identity import content_hash, input_hash, main_file
+from contactbench.pipeline.session.identity import content_hash, input_hash, main_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

@@ -6,9 +6,9 @@ import secrets
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, Self
 
-from pipeline.durable import make_folder, sync_folder, write_durably
-from pipeline.session import frames
-from pipeline.session.actions import (
+from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.actions import (
     DeviceRezeroed,
     InputAdded,
     MeshChanged,
@@ -20,9 +20,9 @@ from pipeline.session.actions import (
     SessionCreated,
     payload_of,
 )
-from pipeline.session.entries import NOWHERE, checked, entry, user
-from pipeline.session.errors import SessionError
-from pipeline.session.files import (
+from contactbench.pipeline.session.entries import NOWHERE, checked, entry, user
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import (
     FOLDERS,
     chunks_of,
     own_file,
@@ -34,19 +34,19 @@ from pipeline.session.files import (
     try_room,
     unfinished,
 )
-from pipeline.session.journal import JOURNAL, JournalWriter
-from pipeline.session.lock import LOCK, Lock
-from pipeline.session.reading import Content, read_content
-from pipeline.session.remains import read_damaged
-from pipeline.session.stale import stale_results
-from pipeline.session.state import MESH, State, fold
+from contactbench.pipeline.session.journal import JOURNAL, JournalWriter
+from contactbench.pipeline.session.lock import LOCK, Lock
+from contactbench.pipeline.session.reading import Content, read_content
+from contactbench.pipeline.session.remains import read_damaged
+from contactbench.pipeline.session.stale import stale_results
+from contactbench.pipeline.session.state import MESH, State, fold
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
     from types import TracebackType
 
-    from pipeline.session.actions import Action, FileRef
+    from contactbench.pipeline.session.actions import Action, FileRef
 
 
 class Session:

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.errors import InputError
-from pipeline.recording import RecordingError, RecordingReader
-from pipeline.recording.wire import MAGIC, PREFIX, Opcode
-from pipeline.session.errors import SessionError
-from pipeline.session.files import UNFINISHED, chunks_of, own_file, unfinished, wrong_with
-from pipeline.session.live import RECORDING
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import RecordingError, RecordingReader
+from contactbench.pipeline.recording.wire import MAGIC, PREFIX, Opcode
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import UNFINISHED, chunks_of, own_file, unfinished, wrong_with
+from contactbench.pipeline.session.live import RECORDING
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline.recording import RecordingInfo
-    from pipeline.session.store import Session
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.session.store import Session
 
 UNREADABLE = "unreadable"
 _DESCRIPTION = (Opcode.HEADER, Opcode.METADATA, Opcode.SCHEMA, Opcode.CHANNEL)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import WrenchNoise
-from pipeline.errors import InputError
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

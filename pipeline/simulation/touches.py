@@ -7,8 +7,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from assets import Surface
-from pipeline.contact import WrenchNoise
+from contactbench.assets import Surface
+from contactbench.pipeline.contact import WrenchNoise
 
 Float = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseNoise, PoseSample
-from pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -1,8 +1,8 @@
 """One way to open any source of samples: devices, recordings, files of poses, typed poses."""
 
-from pipeline.streams.opening import Pair, open_pair, open_poses, open_sensor
-from pipeline.streams.replayed import ReplayStream
-from pipeline.streams.stream import Stream
-from pipeline.streams.tracks import PoseTrackError
+from contactbench.pipeline.streams.opening import Pair, open_pair, open_poses, open_sensor
+from contactbench.pipeline.streams.replayed import ReplayStream
+from contactbench.pipeline.streams.stream import Stream
+from contactbench.pipeline.streams.tracks import PoseTrackError
 
 __all__ = ["Pair", "PoseTrackError", "ReplayStream", "Stream", "open_pair", "open_poses", "open_sensor"]

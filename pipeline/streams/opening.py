@@ -7,23 +7,23 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pipeline.devices.drive import SensorStream, poses_from
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.url import STEPWISE, AddressError, DeviceAddress, Protocol
-from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from pipeline.streams.paced import PacedPoses
-from pipeline.streams.replayed import Player, ReplayStream
-from pipeline.streams.stream import DeviceStream, Stream
-from pipeline.streams.tracks import file_track, still_track
-from pipeline.streams.virtual import VirtualStream, World, world_at
+from contactbench.pipeline.devices.drive import SensorStream, poses_from
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import STEPWISE, AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.streams.paced import PacedPoses
+from contactbench.pipeline.streams.replayed import Player, ReplayStream
+from contactbench.pipeline.streams.stream import DeviceStream, Stream
+from contactbench.pipeline.streams.tracks import file_track, still_track
+from contactbench.pipeline.streams.virtual import VirtualStream, World, world_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from types import TracebackType
 
-    from pipeline.devices.drive import Health
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.streams.paced import Track
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.streams.paced import Track
 
     OnWrenches = Callable[[Sequence[WrenchSample]], None]
     OnFlanges = Callable[[Sequence[FlangeSample]], None]

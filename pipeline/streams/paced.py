@@ -6,17 +6,17 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from pipeline.devices.drive import State
-from pipeline.streams.source import Ending, Pulse
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.streams.source import Ending, Pulse
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from types import TracebackType
     from typing import Self
 
-    from pipeline.devices.drive import Health
-    from pipeline.devices.sample import FlangeSample
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.sample import FlangeSample
+    from contactbench.pipeline.devices.url import DeviceAddress
 
     Track = Callable[[float], Iterator[FlangeSample]]
 

@@ -7,21 +7,21 @@ import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from pipeline.devices.drive import State
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.url import STEPWISE
-from pipeline.recording.replay import Replay, find_topic
-from pipeline.streams.source import Ending, Pulse
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import STEPWISE
+from contactbench.pipeline.recording.replay import Replay, find_topic
+from contactbench.pipeline.streams.source import Ending, Pulse
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from types import TracebackType
     from typing import Self
 
-    from pipeline.devices.drive import Health
-    from pipeline.devices.url import DeviceAddress
-    from pipeline.recording import DeviceInfo, RecordingInfo
-    from pipeline.streams.paced import Track
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.recording import DeviceInfo, RecordingInfo
+    from contactbench.pipeline.streams.paced import Track
 
 Sample = TypeVar("Sample", WrenchSample, FlangeSample)
 

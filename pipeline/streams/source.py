@@ -5,14 +5,14 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING
 
-from pipeline.devices.drive import Health, State, Watch
-from pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.drive import Health, State, Watch
+from contactbench.pipeline.devices.protocols import Counters
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 
 _GUESSED_HZ = 100.0

@@ -9,8 +9,8 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Any, Self
 
-    from pipeline.devices.drive import Health, KeptStream
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.drive import Health, KeptStream
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 
 class Stream(Protocol):

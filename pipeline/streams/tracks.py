@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.sample import FlangeSample
-from pipeline.devices.url import AddressError
-from pipeline.errors import InputError
-from pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
+from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.url import AddressError
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.devices.url import DeviceAddress
-    from pipeline.robot import Robot
-    from pipeline.streams.paced import Track
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.robot import Robot
+    from contactbench.pipeline.streams.paced import Track
 
 _QUATERNION, _POSITION = ("qw", "qx", "qy", "qz"), ("x", "y", "z")
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
@@ -113,7 +113,7 @@ def _typed(
 
 
 def _robot(address: DeviceAddress) -> Robot:
-    from pipeline.robot import Robot as Known
+    from contactbench.pipeline.robot import Robot as Known
 
     try:
         return Known.named(address.robot or "")

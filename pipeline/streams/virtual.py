@@ -10,21 +10,21 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
-from pipeline.devices.drive import State
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.url import STEPWISE, BenchOptions
-from pipeline.errors import InputError
-from pipeline.streams.source import Ending, Pulse
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import STEPWISE, BenchOptions
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.streams.source import Ending, Pulse
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from types import TracebackType
     from typing import Self
 
-    from pipeline.devices.drive import Health
-    from pipeline.devices.url import DeviceAddress
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.given import Batch
 
 Sample = TypeVar("Sample", WrenchSample, FlangeSample)
 
@@ -141,7 +141,7 @@ class World:
     """
 
     def __init__(self, address: DeviceAddress) -> None:
-        from pipeline.simulation.virtual.pace import Pacer  # physics is slow to import
+        from contactbench.pipeline.simulation.virtual.pace import Pacer  # physics is slow to import
 
         self.bench = bench_at(address)
         self.stepwise = address.speed == STEPWISE
@@ -204,7 +204,7 @@ class World:
         """
         if not self.stepwise:
             raise RuntimeError("this virtual bench goes in real time: open it with ?speed=step")
-        from pipeline.simulation.virtual.pace import failure
+        from contactbench.pipeline.simulation.virtual.pace import failure
 
         given = 0
         while given < count and not self._over:
@@ -276,9 +276,9 @@ def bench_at(address: DeviceAddress) -> VirtualBench:
     InputError
         A name or a file in it is wrong, or MuJoCo is missing.
     """
-    from pipeline.mesh import load_probe
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.script import read_script
+    from contactbench.pipeline.mesh import load_probe
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.script import read_script
 
     options = address.bench or BenchOptions()
     probe = options.probe if options.mesh is None else load_probe(options.mesh, units="auto")

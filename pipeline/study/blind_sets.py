@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import Calibration, GravityModel, Level, calibrate
-from pipeline.simulation.weighing import draw_load, draw_noise, weigh
+from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
+from contactbench.pipeline.simulation.weighing import draw_load, draw_noise, weigh
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-import assets
-from pipeline.calibration import GravityModel, PoseNoise, calibrate
-from pipeline.calibration.model import DOWN_W
-from pipeline.config.runtime import Filters, RuntimeConfig, build_config
-from pipeline.config.runtime.checks import NONE_DONE
-from pipeline.config.runtime.model import (
+from contactbench import assets
+from contactbench.pipeline.calibration import GravityModel, PoseNoise, calibrate
+from contactbench.pipeline.calibration.model import DOWN_W
+from contactbench.pipeline.config.runtime import Filters, RuntimeConfig, build_config
+from contactbench.pipeline.config.runtime.checks import NONE_DONE
+from contactbench.pipeline.config.runtime.model import (
     ChecksPart,
     KnownTouchPart,
     KnownWeightPart,
@@ -23,17 +23,17 @@ from pipeline.config.runtime.model import (
     SourcePart,
     VerificationPart,
 )
-from pipeline.contact.gates import Gates
-from pipeline.contact.noise import WrenchNoise
-from pipeline.contact.touch_model import TouchModel
-from pipeline.control.content import controller_of
-from pipeline.control.foundation import Foundation
-from pipeline.control.settings import ControlSettings
-from pipeline.filtering import KalmanFilter, LowPass
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import Region, RegionSet
-from pipeline.mesh.sidecar import ProbeFile
-from pipeline.simulation.weighing import weigh
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.control.content import controller_of
+from contactbench.pipeline.control.foundation import Foundation
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.simulation.weighing import weigh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

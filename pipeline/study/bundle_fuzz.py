@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.config.runtime import ConfigError, RuntimeConfig
-from pipeline.config.runtime.pack import read_zip
-from pipeline.errors import InputError
-from pipeline.study.bundle_example import example_config
-from pipeline.study.bundle_mutations import Mutant, mutant
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
+from contactbench.pipeline.config.runtime.pack import read_zip
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.bundle_example import example_config
+from contactbench.pipeline.study.bundle_mutations import Mutant, mutant
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

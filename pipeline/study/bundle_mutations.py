@@ -17,18 +17,26 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pipeline.calibration import GravityModel
-from pipeline.config.consumers import ft_calib_yaml, ros2_yaml
-from pipeline.config.runtime.canonical import encode_json
-from pipeline.config.runtime.config import checksum
-from pipeline.config.runtime.pack import CHECKSUM, CONFIG, FT_CALIB, PLANES, PROBE, ROS2, encode_zip
-from pipeline.config.runtime.planes import encode_planes
-from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
-from pipeline.errors import InputError
-from pipeline.filtering import KalmanFilter
-from pipeline.mesh import Probe
-from pipeline.mesh.colours import facet_colours
-from pipeline.mesh.ply import encode_ply, read_ply
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from contactbench.pipeline.config.runtime.canonical import encode_json
+from contactbench.pipeline.config.runtime.config import checksum
+from contactbench.pipeline.config.runtime.pack import (
+    CHECKSUM,
+    CONFIG,
+    FT_CALIB,
+    PLANES,
+    PROBE,
+    ROS2,
+    encode_zip,
+)
+from contactbench.pipeline.config.runtime.planes import encode_planes
+from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.colours import facet_colours
+from contactbench.pipeline.mesh.ply import encode_ply, read_ply
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -1,6 +1,7 @@
 """Does a calibration notice when its own model is wrong? Drift, re-zero, cables, mounts and wrong noise.
 
-Each cell draws sessions with one thing wrong (`pipeline.study.wrong_models`), calibrates them, and compares what
+Each cell draws sessions with one thing wrong (`contactbench.pipeline.study.wrong_models`), calibrates them,
+and compares what
 the calibration says with the truth at the session's end.
 """
 
@@ -18,18 +19,18 @@ from zlib import crc32
 import numpy as np
 from scipy.stats import beta
 
-from pipeline.calibration import Level, calibrate
-from pipeline.errors import InputError
-from pipeline.study import wrong_models as wrong
-from pipeline.study.gravity import Figure, GravityReport
+from contactbench.pipeline.calibration import Level, calibrate
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import wrong_models as wrong
+from contactbench.pipeline.study.gravity import Figure, GravityReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import Calibration
-    from pipeline.study.wrong_models import Session
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.study.wrong_models import Session
 
 _BLOCK = 10  # sets that one worker takes at a time
 # A good verdict lies if a contact is off by this many claimed sigmas, or by this much, m.

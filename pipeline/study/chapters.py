@@ -5,8 +5,8 @@ from __future__ import annotations
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

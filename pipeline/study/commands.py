@@ -7,18 +7,25 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
-from pipeline.errors import InputError
-from pipeline.study.ablation.commands import add_ablation_command
-from pipeline.study.confidence.commands import add_confidence_command
-from pipeline.study.control_commands import add_control_commands
-from pipeline.study.device_commands import add_device_commands
-from pipeline.study.finishing import NOT_GOOD_ENOUGH, MarkdownOption, SeedOption, finish, show, write
-from pipeline.study.interactive_commands import add_commands
-from pipeline.study.preparation_commands import add_preparation_commands
-from pipeline.study.rivals.commands import add_rivals_command
-from pipeline.study.stability_commands import add_stability_commands
-from pipeline.study.sweep_commands import add_sweep_commands
+from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.ablation.commands import add_ablation_command
+from contactbench.pipeline.study.confidence.commands import add_confidence_command
+from contactbench.pipeline.study.control_commands import add_control_commands
+from contactbench.pipeline.study.device_commands import add_device_commands
+from contactbench.pipeline.study.finishing import (
+    NOT_GOOD_ENOUGH,
+    MarkdownOption,
+    SeedOption,
+    finish,
+    show,
+    write,
+)
+from contactbench.pipeline.study.interactive_commands import add_commands
+from contactbench.pipeline.study.preparation_commands import add_preparation_commands
+from contactbench.pipeline.study.rivals.commands import add_rivals_command
+from contactbench.pipeline.study.stability_commands import add_stability_commands
+from contactbench.pipeline.study.sweep_commands import add_sweep_commands
 
 study_app = typer.Typer(
     help="Measure speed against error, stability on hard cases, and every step of preparing a probe.",
@@ -46,8 +53,8 @@ def speed(
     Times are for this machine; the ratios are what to compare. Exit code 1 when tracking and a cold solve
     ever disagreed.
     """
-    from pipeline.study import speed as study
-    from pipeline.study.speed_tables import markdown, tables
+    from contactbench.pipeline.study import speed as study
+    from contactbench.pipeline.study.speed_tables import markdown, tables
 
     counts = sorted(_whole_number(text) for text in facets.split(","))
     report = study.run(probe, counts, touches=touches, stream=stream, rounds=rounds, seed=seed, progress=say)
@@ -72,7 +79,7 @@ def hard_cases(
 
     Exit code 1 when a case fails.
     """
-    from pipeline.study import hard_cases as study
+    from contactbench.pipeline.study import hard_cases as study
 
     report = study.run(samples=samples, seed=seed, progress=say)
     if out:
@@ -96,7 +103,7 @@ def gravity(
 
     Needs mujoco for the plans. Exit code 1 when a figure misses its target.
     """
-    from pipeline.study import gravity as study
+    from contactbench.pipeline.study import gravity as study
 
     finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
@@ -119,7 +126,7 @@ def calibration_doubt(
     Shares have their 95 % interval behind them.
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study import calibration_doubt as study
+    from contactbench.pipeline.study import calibration_doubt as study
 
     report = study.run(sets=sets, cells=cells, workers=workers, seed=seed, progress=say)
     finish(report, out, as_json=as_json)
@@ -136,7 +143,7 @@ def mistakes(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study import mistakes as study
+    from contactbench.pipeline.study import mistakes as study
 
     finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
@@ -152,7 +159,7 @@ def verification(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study import verification as study
+    from contactbench.pipeline.study import verification as study
 
     finish(study.run(trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
@@ -171,7 +178,7 @@ def bundles(
 
     Exit code 1 when one is not, or when the loader in C++ comes to another verdict.
     """
-    from pipeline.study import bundle_fuzz as study
+    from contactbench.pipeline.study import bundle_fuzz as study
 
     finish(study.run(count, seed, cpp).report(), out, as_json=as_json)
 
@@ -188,7 +195,7 @@ def runtime(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study import runtime as study
+    from contactbench.pipeline.study import runtime as study
 
     finish(study.run(seconds, minutes, seed=seed, progress=say), out, as_json=as_json)
 

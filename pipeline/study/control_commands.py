@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import Bar, JsonOption
-from pipeline.study.finishing import MarkdownOption, SeedOption, finish
+from contactbench.pipeline.console import Bar, JsonOption
+from contactbench.pipeline.study.finishing import MarkdownOption, SeedOption, finish
 
 
 def add_control_commands(app: typer.Typer) -> None:
@@ -38,7 +38,7 @@ def control_safety(
 
     Needs MuJoCo. Exit code 1 when a force passed its limit by more than 20 %, an end was not safe, or a loop swung.
     """
-    from pipeline.study import control_safety as study
+    from contactbench.pipeline.study import control_safety as study
 
     with Bar("starting", counted=True) as bar:
         report = study.run(runs, seed=seed, workers=workers, kept=kept, progress=bar)
@@ -58,7 +58,7 @@ def control_speed(
     The phantom turns by 10 degrees in 2 s. Needs MuJoCo. Exit code 1 when the 99th percentile of a step is 1 ms or
     more, or the simulation is less than twice as fast as real time.
     """
-    from pipeline.study import control_speed as study
+    from contactbench.pipeline.study import control_speed as study
 
     with Bar("timing", counted=True) as bar:
         report = study.run(scene, probe, seconds=seconds, seed=seed, progress=bar)

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pipeline.control.command import Mount
-from pipeline.control.controller import Controller
-from pipeline.control.foundation import Foundation
-from pipeline.control.loop import arm_of
-from pipeline.control.sensing import Intake
-from pipeline.simulation.scenes import ArmScene, MovedScene, Payload, PlatformScene, Tissue
-from pipeline.simulation.sensor_model import SensorModel
-from pipeline.study.reproduce.setup import draw_bench
-from pipeline.study.reproduce.touching import model_of, truth_of
+from contactbench.pipeline.control.command import Mount
+from contactbench.pipeline.control.controller import Controller
+from contactbench.pipeline.control.foundation import Foundation
+from contactbench.pipeline.control.loop import arm_of
+from contactbench.pipeline.control.sensing import Intake
+from contactbench.pipeline.simulation.scenes import ArmScene, MovedScene, Payload, PlatformScene, Tissue
+from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.study.reproduce.setup import draw_bench
+from contactbench.pipeline.study.reproduce.touching import model_of, truth_of
 
 if TYPE_CHECKING:
-    from pipeline.control.settings import ControlSettings
-    from pipeline.simulation.scenes import PlatformMotion
+    from contactbench.pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.simulation.scenes import PlatformMotion
 
 SceneName = Literal["platform", "arm"]
 SCENES: tuple[SceneName, ...] = ("platform", "arm")

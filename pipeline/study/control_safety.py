@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.control.faults import FaultKind, ScriptedFault
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.control.loop import run_loop
-from pipeline.control.settings import ControlSettings, Variant
-from pipeline.control.states import State
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue
-from pipeline.study.control_rig import foundation_of, make_rig
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.reproduce.dynamic_store import code_print
+from contactbench import assets
+from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.loop import run_loop
+from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import PhysicsError, PlatformMotion, Tissue
+from contactbench.pipeline.study.control_rig import foundation_of, make_rig
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.reproduce.dynamic_store import code_print
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.control.loop import run_loop
-from pipeline.control.settings import ControlSettings, Variant
-from pipeline.control.states import State
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import PlatformMotion, Tissue
-from pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from pipeline.study.preparation.report import Figure, Report
+from contactbench import assets
+from contactbench.pipeline.control.loop import run_loop
+from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
+from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.control.command import Command
-    from pipeline.control.loop import Loop
-    from pipeline.study.control_rig import SceneName
+    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.loop import Loop
+    from contactbench.pipeline.study.control_rig import SceneName
 
 MOST_MS, LEAST_TIMES = 1.0, 2.0
 _BEGIN_S, _PERIOD_S, _TURN = 4.0, 2.0, float(np.radians(10.0))

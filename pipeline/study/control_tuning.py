@@ -10,19 +10,27 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.control.loop import run_loop
-from pipeline.control.margins import AXES
-from pipeline.control.settings import Variant
-from pipeline.control.states import State
-from pipeline.control.tuning import Row, Tuned, Wanted, rows_of, settings_content, spread_of, tune
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import Tissue
-from pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.reproduce.sheets import Sheet, write_bytes, write_text
+from contactbench import assets
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.loop import run_loop
+from contactbench.pipeline.control.margins import AXES
+from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.tuning import (
+    Row,
+    Tuned,
+    Wanted,
+    rows_of,
+    settings_content,
+    spread_of,
+    tune,
+)
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import Tissue
+from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.reproduce.sheets import Sheet, write_bytes, write_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable

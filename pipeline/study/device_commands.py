@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import JsonOption, say
-from pipeline.study.finishing import MarkdownOption, finish
+from contactbench.pipeline.console import JsonOption, say
+from contactbench.pipeline.study.finishing import MarkdownOption, finish
 
 
 def add_device_commands(app: typer.Typer) -> None:
@@ -29,7 +29,7 @@ def protocols(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study import devices as study
+    from contactbench.pipeline.study import devices as study
 
     finish(study.run_protocols(count, frames, seed=seed, progress=say), out, as_json=as_json)
 
@@ -44,7 +44,7 @@ def sessions(
 
     Exit code 1 when something was.
     """
-    from pipeline.study import devices as study
+    from contactbench.pipeline.study import devices as study
 
     finish(study.run_sessions(kills, seed=seed, progress=say), out, as_json=as_json)
 
@@ -60,7 +60,7 @@ def faults(
 
     Exit code 1 when a fault is not shown in time, or a sample is not one that was sent.
     """
-    from pipeline.study import faults as study
+    from contactbench.pipeline.study import faults as study
 
     finish(study.run(short=short, trials=trials, seed=seed, progress=say), out, as_json=as_json)
 
@@ -80,6 +80,6 @@ def live(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study.live import report as study
+    from contactbench.pipeline.study.live import report as study
 
     finish(study.run(seconds, sensors, rate=rate, busy=busy, seed=seed, progress=say), out, as_json=as_json)

@@ -6,10 +6,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from pipeline.devices.protocols.soak import PROTOCOLS, damage, soak
-from pipeline.errors import InputError
-from pipeline.session.crash import kill_writers
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.devices.protocols.soak import PROTOCOLS, damage, soak
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.crash import kill_writers
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,16 +8,24 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.devices.drive import Health, SensorStream, driver_for, poses_from
-from pipeline.devices.emulate import Fault, FaultEvent, Script, Six, emulator, possible_faults, swinging
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.drive import Health, SensorStream, driver_for, poses_from
+from contactbench.pipeline.devices.emulate import (
+    Fault,
+    FaultEvent,
+    Script,
+    Six,
+    emulator,
+    possible_faults,
+    swinging,
+)
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from pipeline.devices.drive import ElfinPoses, UrPoses
-    from pipeline.devices.emulate import Emulator, Sent
+    from contactbench.pipeline.devices.drive import ElfinPoses, UrPoses
+    from contactbench.pipeline.devices.emulate import Emulator, Sent
 
 HEALTHY_S, FAULT_S = 1.3, 0.6
 _RATE = 100.0

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.drive import RezeroDetector
-from pipeline.devices.emulate import Fault
-from pipeline.devices.sample import WrenchSample
-from pipeline.errors import InputError
-from pipeline.study.fault_lines import LINES, FaultLine, Outcome, cases, run_case
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.devices.drive import RezeroDetector
+from contactbench.pipeline.devices.emulate import Fault
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.fault_lines import LINES, FaultLine, Outcome, cases, run_case
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

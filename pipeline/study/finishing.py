@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Protocol
 
 import typer
 
-from pipeline.console import print_json
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.console import print_json
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from typing import Any

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.calibration import Calibration, calibrate
-from pipeline.calibration.fit import parameter_covariance
-from pipeline.calibration.model import CENTRE_OF_MASS, prediction_jacobian
-from pipeline.calibration.poses import stack
-from pipeline.calibration.reachable import by_robot
-from pipeline.calibration.suggest import plan_error, plan_poses
-from pipeline.errors import InputError
-from pipeline.robot import Robot
-from pipeline.simulation.weighing import Weighing, bump, draw_weighing
-from pipeline.study.blind_sets import BLIND_SETS, try_blind
-from pipeline.study.rivals.calibrators import measured_regressor
-from pipeline.timing import time_calls
+from contactbench.pipeline.calibration import Calibration, calibrate
+from contactbench.pipeline.calibration.fit import parameter_covariance
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, prediction_jacobian
+from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.calibration.reachable import by_robot
+from contactbench.pipeline.calibration.suggest import plan_error, plan_poses
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.simulation.weighing import Weighing, bump, draw_weighing
+from contactbench.pipeline.study.blind_sets import BLIND_SETS, try_blind
+from contactbench.pipeline.study.rivals.calibrators import measured_regressor
+from contactbench.pipeline.timing import time_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -1,7 +1,7 @@
 """Where contact sensing breaks: numerical hard cases, judged by a truth that shares no code with the solver.
 
 The truth is analytic (wrenches are made from known points) or worked out facet by facet in long double, see
-:mod:`pipeline.study.hard_meshes`. The literal Algorithm 1 answers the same wrenches beside contactbench.
+:mod:`contactbench.pipeline.study.hard_meshes`. The literal Algorithm 1 answers the same wrenches beside contactbench.
 """
 
 from __future__ import annotations
@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
-from pipeline.contact.wrench_axis import EmbreeAxis
-from pipeline.errors import InputError
-from pipeline.simulation import add_noise, draw_touches
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_meshes import Body, Drawn, places, press
-from pipeline.study.hard_trials import (
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation import add_noise, draw_touches
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_meshes import Body, Drawn, places, press
+from contactbench.pipeline.study.hard_trials import (
     CURVED,
     EXACT,
     Case,
@@ -41,7 +41,7 @@ from pipeline.study.hard_trials import (
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from pipeline.study.hard_meshes import Float, Place, Solutions
+    from contactbench.pipeline.study.hard_meshes import Float, Place, Solutions
 
 __all__ = ["Case", "HardCasesReport", "Outcome", "Rule", "Trial", "markdown", "run", "table"]
 

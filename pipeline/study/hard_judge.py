@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import Reason
+from contactbench.pipeline.contact import Reason
 
 if TYPE_CHECKING:
-    from pipeline.contact import Contact, ContactSolver
-    from pipeline.study.hard_meshes import Bools, Float, Ints
+    from contactbench.pipeline.contact import Contact, ContactSolver
+    from contactbench.pipeline.study.hard_meshes import Bools, Float, Ints
 
 _STEEPEST = 1e-3  # cosine: what is edge-on answers no wrench
 _LEAST = 1e-6  # deviation that is always expected, of the mesh's size

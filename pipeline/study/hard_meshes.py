@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-import assets
-from pipeline.mesh import MeshWarning, Probe, load_probe
+from contactbench import assets
+from contactbench.pipeline.mesh import MeshWarning, Probe, load_probe
 
 if TYPE_CHECKING:
-    from pipeline.contact import Batch
+    from contactbench.pipeline.contact import Batch
 
 Float = NDArray[np.float64]
 Long = NDArray[np.longdouble]

@@ -8,11 +8,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import Batch, ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
-from pipeline.mesh import Probe
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_judge import Judge
-from pipeline.study.hard_meshes import Body, Bools, Drawn, Float
+from contactbench.pipeline.contact import (
+    Batch,
+    ContactSolver,
+    Gates,
+    Reason,
+    TouchModel,
+    WrenchNoise,
+    methods,
+)
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_judge import Judge
+from contactbench.pipeline.study.hard_meshes import Body, Bools, Drawn, Float
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 _NOT_GOOD_ENOUGH = 1
 
@@ -22,7 +22,7 @@ def painting(
     as_json: JsonOption = False,
 ) -> None:
     """Measure how long an event of the brush keeps a window, whatever draws it. Exit code 1: over a frame."""
-    from pipeline.study import painting as study
+    from contactbench.pipeline.study import painting as study
 
     report = study.run(facets=facets, progress=say)
     for sentence in report.sentences:
@@ -39,7 +39,7 @@ def scenes(
     as_json: JsonOption = False,
 ) -> None:
     """Measure what the platform and the arm scene leave out: servo, inertia, friction, time step, places."""
-    from pipeline.study import scene_limits as study
+    from contactbench.pipeline.study import scene_limits as study
 
     report = study.run(probe, period, progress=say)
     say(study.markdown(report))

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseNoise, PoseSample
-from pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
-from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations
-from pipeline.calibration.diagnosis.odds import NONE
-from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.calibration.orientation import Convention, Kind, rotations
-from pipeline.errors import InputError
-from pipeline.simulation.weighing import draw_load, weigh
-from pipeline.study.gravity import Figure, GravityReport
+from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
+from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
+from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations
+from contactbench.pipeline.calibration.diagnosis.odds import NONE
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.weighing import draw_load, weigh
+from contactbench.pipeline.study.gravity import Figure, GravityReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable

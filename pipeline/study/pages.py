@@ -1,7 +1,8 @@
 """
 The results page: a chapter for each study, made from the study's Parquet file alone.
 
-A study is a folder with ``results.parquet`` (see `pipeline.study.results`). The module ``page`` of a study's package
+A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.results`). The module ``page``
+of a study's package
 has ``make(results, folder)``: it writes PNG files into the folder and returns the chapter as Markdown, which names them
 by their bare file names and begins with a heading of the second level. Here they are put together as one page.
 """
@@ -12,20 +13,21 @@ import re
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from pipeline.durable import make_folder, write_durably
-from pipeline.errors import InputError
-from pipeline.study.results import read_results
+from contactbench.pipeline.durable import make_folder, write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.results import read_results
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pipeline.study.results import Results
+    from contactbench.pipeline.study.results import Results
 
 PAGE, TOGETHER = "page.md", "results.md"
 # Kind of a study -> the package whose module `page` tells about it.
 PACKAGES = {
-    name: f"pipeline.study.{name}" for name in ("sweep", "stability", "ablation", "rivals", "confidence")
+    name: f"contactbench.pipeline.study.{name}"
+    for name in ("sweep", "stability", "ablation", "rivals", "confidence")
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.colours import facet_colours
-from pipeline.mesh.regions import Brush, RegionSet
-from pipeline.mesh.sidecar import ProbeFile
-from pipeline.timing import Timing
-from pipeline.workbench.regions import RegionsWork
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.colours import facet_colours
+from contactbench.pipeline.mesh.regions import Brush, RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.timing import Timing
+from contactbench.pipeline.workbench.regions import RegionsWork
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

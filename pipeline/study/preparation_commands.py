@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import Bar, JsonOption, say
-from pipeline.study.finishing import MarkdownOption, SeedOption, finish
+from contactbench.pipeline.console import Bar, JsonOption, say
+from contactbench.pipeline.study.finishing import MarkdownOption, SeedOption, finish
 
 
 def add_preparation_commands(app: typer.Typer) -> None:
@@ -40,7 +40,7 @@ def simplify(
 
     Needs pymeshlab for the comparison. Exit code 1 when a figure misses its target.
     """
-    from pipeline.study.preparation import simplify as study
+    from contactbench.pipeline.study.preparation import simplify as study
 
     report = study.run(
         facets_in,
@@ -66,7 +66,7 @@ def regions(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study.preparation import regions as study
+    from contactbench.pipeline.study.preparation import regions as study
 
     finish(study.run(facets, strokes=strokes, undone=undone, seed=seed, progress=say), out, as_json=as_json)
 
@@ -82,7 +82,7 @@ def alignment(
 
     Exit code 1 when a figure misses its target.
     """
-    from pipeline.study.preparation import alignment as study
+    from contactbench.pipeline.study.preparation import alignment as study
 
     finish(study.run(setups, adoptions=adoptions, seed=seed, progress=say), out, as_json=as_json)
 
@@ -97,8 +97,8 @@ def mesh_fuzz(
 
     Exit code 1 when a file does anything else, or takes too much time or memory.
     """
-    from pipeline.study import mesh_fuzz as study
-    from pipeline.study.preparation.fuzz import summarise
+    from contactbench.pipeline.study import mesh_fuzz as study
+    from contactbench.pipeline.study.preparation.fuzz import summarise
 
     with Bar("Reading files", counted=True) as bar:
         report = study.run(count, seed, bar)
@@ -122,7 +122,7 @@ def shell(
 
     Needs pymeshlab. Exit code 1 when a figure misses its target.
     """
-    from pipeline.study.preparation import shell as study
+    from contactbench.pipeline.study.preparation import shell as study
 
     report = study.run(files or (), facets=facets, quick=quick, seed=seed, progress=say)
     finish(report, out, as_json=as_json)

@@ -1,7 +1,7 @@
 """
 The results of a study: a folder with one Parquet file, which knows what it was computed with.
 
-Everything that is shown of a study is made from this file alone, by `pipeline.study.pages`.
+Everything that is shown of a study is made from this file alone, by `contactbench.pipeline.study.pages`.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -33,7 +33,7 @@ class Results:
     Attributes
     ----------
     kind : str
-        Which study: one that `pipeline.study.pages` knows.
+        Which study: one that `contactbench.pipeline.study.pages` knows.
     command : str
         What repeats it, as it is typed.
     rows : tuple of dict
@@ -55,7 +55,8 @@ def environment(**more: Any) -> dict[str, Any]:
     """Return what results are computed with: versions, processor, cores and their load, when, and what is given."""
     from importlib.metadata import PackageNotFoundError, version
 
-    from pipeline import __version__, kernel
+    from contactbench import __version__
+    from contactbench.pipeline import kernel
 
     facts: dict[str, Any] = {
         "contactbench": __version__,

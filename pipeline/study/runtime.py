@@ -15,21 +15,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.errors import InputError
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.study.bundle_example import example_config
-from pipeline.study.live.machine import Sleeper
-from pipeline.study.live.records import GIVEN_TYPE, SENT_TYPE, read_back
-from pipeline.study.live.trial import Comparison, busy_process, compare, sensor_process
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.study.bundle_example import example_config
+from contactbench.pipeline.study.live.machine import Sleeper
+from contactbench.pipeline.study.live.records import GIVEN_TYPE, SENT_TYPE, read_back
+from contactbench.pipeline.study.live.trial import Comparison, busy_process, compare, sensor_process
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime import RuntimeConfig
 
 _LATE_MS = 1.0
 _GROWTH = 0.01
@@ -164,7 +164,7 @@ def _latency_figures(measured: Latency, *, busy: bool) -> list[Figure]:
 
 
 def _child(folder: Path, *arguments: str) -> dict[str, float]:
-    command = [sys.executable, "-m", "pipeline.study.runtime_child", str(folder), *arguments]
+    command = [sys.executable, "-m", "contactbench.pipeline.study.runtime_child", str(folder), *arguments]
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)  # noqa: S603
         said: dict[str, float] = json.loads(done.stdout.splitlines()[-1])

@@ -1,6 +1,7 @@
 """A child process of the study: runs a bundle, and notes when contacts were there or how much memory it took.
 
-Started as ``python -m pipeline.study.runtime_child FOLDER live URL SECONDS FILE`` or ``... FOLDER replay TAPE``; the
+Started as ``python -m contactbench.pipeline.study.runtime_child FOLDER live URL SECONDS FILE`` or ``... FOLDER
+replay TAPE``; the
 last line that it writes is JSON.
 """
 
@@ -14,17 +15,17 @@ from array import array
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.runtime import Outlet, Run
-from pipeline.runtime.run import responsive
-from pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
-from pipeline.streams import open_pair
-from pipeline.study.live.reader import resident
-from pipeline.study.live.records import GIVEN
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.runtime import Outlet, Run
+from contactbench.pipeline.runtime.run import responsive
+from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
+from contactbench.pipeline.streams import open_pair
+from contactbench.pipeline.study.live.reader import resident
+from contactbench.pipeline.study.live.records import GIVEN
 
 if TYPE_CHECKING:
-    from pipeline.devices.sample import WrenchSample
-    from pipeline.runtime import Answer
+    from contactbench.pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.runtime import Answer
 
 _PATIENCE_S = 10.0
 _POLL_S = 0.01

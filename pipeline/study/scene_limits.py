@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.simulation.scenes import (
+from contactbench.pipeline.simulation.scenes import (
     ArmScene,
     Payload,
     PlatformMotion,
@@ -17,15 +17,15 @@ from pipeline.simulation.scenes import (
     Tissue,
     depth_for,
 )
-from pipeline.simulation.scenes.tissue import PLACES
-from pipeline.study.reproduce.touching import truth_of
+from contactbench.pipeline.simulation.scenes.tissue import PLACES
+from contactbench.pipeline.study.reproduce.touching import truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation.scenes import Moment, MovedScene, Truth
+    from contactbench.pipeline.simulation.scenes import Moment, MovedScene, Truth
 
 FORCE_N = 7.0
 MOTIONS = {

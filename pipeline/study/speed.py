@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.contact import ContactSolver, Reason, WrenchNoise, methods
-from pipeline.contact.wrench_axis import EmbreeAxis
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise, draw_slide, draw_touches
-from pipeline.study.sweep.judging import bound_of
-from pipeline.timing import Timing, time_calls
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise, methods
+from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.study.sweep.judging import bound_of
+from contactbench.pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.contact.methods import Method
-    from pipeline.simulation import Touches
+    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.simulation import Touches
 
 DEFAULT_FACETS = (500, 1_000, 20_000, 100_000)
 

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from rich.table import Table
 
-from pipeline.study.markdown import table as markdown_table
+from contactbench.pipeline.study.markdown import table as markdown_table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.speed import Row, SpeedReport
+    from contactbench.pipeline.study.speed import Row, SpeedReport
 
 _COLUMNS = (
     "method",

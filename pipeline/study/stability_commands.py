@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import JsonOption, say
-from pipeline.study.finishing import SeedOption, finish
+from contactbench.pipeline.console import JsonOption, say
+from contactbench.pipeline.study.finishing import SeedOption, finish
 
 
 def add_stability_commands(app: typer.Typer) -> None:
@@ -37,8 +37,8 @@ def stability(
     Single precision and the bits of other builds need g++; clang++ is compared where it is there.
     Exit code 1 when a stated bound is broken.
     """
-    from pipeline.study.stability import study
-    from pipeline.study.stability.probes import BUNDLED
+    from contactbench.pipeline.study.stability import study
+    from contactbench.pipeline.study.stability.probes import BUNDLED
 
     report = study.run(probe or BUNDLED, samples=samples, seed=seed, quick=quick, progress=say)
     if out:

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pipeline.console import Bar, JsonOption, print_json, say, show_tables
-from pipeline.errors import InputError
-from pipeline.study.finishing import NOT_GOOD_ENOUGH
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.finishing import NOT_GOOD_ENOUGH
 
 _OTHERS = ("hard", "ablation", "rivals")
 
 if TYPE_CHECKING:
-    from pipeline.study.results import Results
-    from pipeline.study.sweep.growth import Row
+    from contactbench.pipeline.study.results import Results
+    from contactbench.pipeline.study.sweep.growth import Row
 
 
 def add_sweep_commands(app: typer.Typer) -> None:
@@ -59,10 +59,10 @@ def run(
     Exit code 1: a cell could not be computed. The presets hard, ablation and rivals are no sweeps: they run
     `study stability`, `study ablation` and `study rivals`, where more can be chosen.
     """
-    from pipeline.study.sweep.plan import Plan, label
-    from pipeline.study.sweep.presets import changed
-    from pipeline.study.sweep.presets import preset as named
-    from pipeline.study.sweep.run import run as sweep
+    from contactbench.pipeline.study.sweep.plan import Plan, label
+    from contactbench.pipeline.study.sweep.presets import changed
+    from contactbench.pipeline.study.sweep.presets import preset as named
+    from contactbench.pipeline.study.sweep.run import run as sweep
 
     if (study is None) == (preset is None):
         raise InputError("study run: give either a STUDY.toml or a --preset.")
@@ -125,9 +125,9 @@ def _run_other(
     as_json: bool,
 ) -> None:
     """Run a study that is no sweep; InputError for options that mean nothing to it."""
-    from pipeline.study.ablation.commands import ablation
-    from pipeline.study.rivals.commands import rivals
-    from pipeline.study.stability_commands import stability
+    from contactbench.pipeline.study.ablation.commands import ablation
+    from contactbench.pipeline.study.rivals.commands import rivals
+    from contactbench.pipeline.study.stability_commands import stability
 
     sizes: dict[str, Any] = {} if touches is None else {"samples": touches}
     if preset != "hard":
@@ -152,7 +152,7 @@ def compare(
     """
     from rich.table import Table
 
-    from pipeline.study.sweep.compare import compare as compared
+    from contactbench.pipeline.study.sweep.compare import compare as compared
 
     found = compared(_rows(small), _rows(large))
     differ = sum(not each.same for each in found)
@@ -181,8 +181,8 @@ def _rows(place: Path) -> list[Row]:
 
 
 def _sweep(place: Path) -> Results:
-    from pipeline.study.results import read_results
-    from pipeline.study.sweep.run import KIND
+    from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.sweep.run import KIND
 
     results = read_results(place)
     if results.kind != KIND:
@@ -201,10 +201,10 @@ def page(
 
     Exit code 1: a sweep misses a target.
     """
-    from pipeline.study.pages import PAGE, gather, make_page
-    from pipeline.study.results import read_results
-    from pipeline.study.sweep.run import KIND
-    from pipeline.study.sweep.targets import targets
+    from contactbench.pipeline.study.pages import PAGE, gather, make_page
+    from contactbench.pipeline.study.results import read_results
+    from contactbench.pipeline.study.sweep.run import KIND
+    from contactbench.pipeline.study.sweep.targets import targets
 
     if out is None:
         for folder in studies:

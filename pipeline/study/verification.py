@@ -10,29 +10,29 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.stats import beta
 
-import assets
-from pipeline.calibration import GravityModel, calibrate
-from pipeline.contact import WrenchNoise
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise
-from pipeline.simulation.sensor_model import preset
-from pipeline.simulation.virtual.markers import markers as bundled_markers
-from pipeline.simulation.weighing import draw_weighing
-from pipeline.study.gravity import Figure, GravityReport
-from pipeline.verification.figures import Cause
-from pipeline.verification.markers import make_markers
-from pipeline.verification.source import TouchRecording
-from pipeline.verification.statistics import intervals
-from pipeline.verification.verify import VerifySettings, verify
+from contactbench import assets
+from contactbench.pipeline.calibration import GravityModel, calibrate
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise
+from contactbench.pipeline.simulation.sensor_model import preset
+from contactbench.pipeline.simulation.virtual.markers import markers as bundled_markers
+from contactbench.pipeline.simulation.weighing import draw_weighing
+from contactbench.pipeline.study.gravity import Figure, GravityReport
+from contactbench.pipeline.verification.figures import Cause
+from contactbench.pipeline.verification.markers import make_markers
+from contactbench.pipeline.verification.source import TouchRecording
+from contactbench.pipeline.verification.statistics import intervals
+from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.verification.figures import Intervals, Verification
-    from pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.verification.figures import Intervals, Verification
+    from contactbench.pipeline.verification.markers import MarkerSet
 
     Array = NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import PoseNoise, PoseSample
+from contactbench.pipeline.calibration import PoseNoise, PoseSample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

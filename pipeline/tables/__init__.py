@@ -1,7 +1,7 @@
 """Tables of numbers from CSV files, as a stream of blocks or at once."""
 
-from pipeline.tables.files import ROW_LIMIT, open_table, read_table
-from pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
+from contactbench.pipeline.tables.files import ROW_LIMIT, open_table, read_table
+from contactbench.pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
 
 __all__ = [
     "BLOCK_BYTES",

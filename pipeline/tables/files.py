@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
-from pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
+from contactbench.pipeline.tables.reader import BLOCK_BYTES, TableError, TableReader, TableRows, Wording
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from pipeline.errors import InputError
+    from contactbench.pipeline.errors import InputError
 
 ROW_LIMIT = 100_000
 

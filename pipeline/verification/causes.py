@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.calibration.model import cross_matrix, prediction_jacobian
-from pipeline.verification.figures import Cause
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.model import cross_matrix, prediction_jacobian
+from contactbench.pipeline.verification.figures import Cause
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

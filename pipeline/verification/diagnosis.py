@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
-from pipeline.verification.figures import Cause, Diagnosis, Refined, Share
-from pipeline.verification.statistics import vector
+from contactbench.pipeline.verification.causes import CONFIRMED, alignment_columns, explain, sensitivities
+from contactbench.pipeline.verification.figures import Cause, Diagnosis, Refined, Share
+from contactbench.pipeline.verification.statistics import vector
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.contact import ContactSolver
-    from pipeline.verification.causes import Evidence, Explained
-    from pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.contact import ContactSolver
+    from contactbench.pipeline.verification.causes import Evidence, Explained
+    from contactbench.pipeline.verification.markers import MarkerSet
 
 FEWEST_TOUCHES = 6
 _FEWEST_MARKERS = 6  # three on each side

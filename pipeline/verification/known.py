@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import Calibration
-    from pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.calibration.orientation import Convention
 
 _FOLDERS_SEPARATORS = ("/", "\\")
 
@@ -84,7 +84,7 @@ class CheckParameters(BaseModel):
 
     def convention(self) -> Convention | None:
         """Return how orientations are written; None: as the columns say. InputError: the parameters contradict."""
-        from pipeline.calibration.orientation import convention_of
+        from contactbench.pipeline.calibration.orientation import convention_of
 
         return convention_of(
             self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
@@ -112,8 +112,8 @@ def load_calibrated(
     """
     from scipy.spatial.transform import Rotation
 
-    from pipeline.calibration import Level
-    from pipeline.calibration.files.calibration_file import load_record
+    from contactbench.pipeline.calibration import Level
+    from contactbench.pipeline.calibration.files.calibration_file import load_record
 
     record = load_record(file)
     verdict = record.calibration.verdict
@@ -132,7 +132,7 @@ def roles_of(inputs: Mapping[str, Path], roles: tuple[str, ...]) -> None:
 
 def sha256_of(file: Path) -> str:
     """Return the SHA-256 of a file, 64 hexadecimal digits; InputError if it cannot be read."""
-    from pipeline.calibration.files.calibration_file import Source
+    from contactbench.pipeline.calibration.files.calibration_file import Source
 
     return Source.of(file).sha256
 

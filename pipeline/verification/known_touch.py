@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.verification.known import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.known import (
     SCHEMAS,
     TOUCH,
     TOUCH_ROLES,
@@ -32,11 +32,11 @@ from pipeline.verification.known import (
     to_bytes,
     words_of,
 )
-from pipeline.verification.locating import Placing
-from pipeline.verification.markers import make_markers, with_normals
-from pipeline.verification.noise import measured_noise
-from pipeline.verification.protocol import ProtocolSettings
-from pipeline.verification.verify import find_touches
+from contactbench.pipeline.verification.locating import Placing
+from contactbench.pipeline.verification.markers import make_markers, with_normals
+from contactbench.pipeline.verification.noise import measured_noise
+from contactbench.pipeline.verification.protocol import ProtocolSettings
+from contactbench.pipeline.verification.verify import find_touches
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -44,10 +44,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.mesh import Probe
-    from pipeline.verification.press import Touch
-    from pipeline.verification.source import TouchRecording
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.verification.press import Touch
+    from contactbench.pipeline.verification.source import TouchRecording
 
     Floats = NDArray[np.float64]
 
@@ -413,8 +413,8 @@ def known_touch(
 
 def touch_content(inputs: Mapping[str, Path], given: TouchParameters, created: str | None) -> dict[str, Any]:
     """Return all that the file of a check says; arguments and errors as for `known_touch`."""
-    from pipeline.verification.result import load_surface
-    from pipeline.verification.source import read_touch_recording
+    from contactbench.pipeline.verification.result import load_surface
+    from contactbench.pipeline.verification.source import read_touch_recording
 
     roles_of(inputs, TOUCH_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)

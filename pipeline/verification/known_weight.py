@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import chdtrc
 
-from pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
-from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
-from pipeline.errors import InputError
-from pipeline.verification.known import (
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix, prediction_jacobian
+from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.known import (
     SCHEMAS,
     VERSION,
     WEIGHT,
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import Calibration, PoseSample
+    from contactbench.pipeline.calibration import Calibration, PoseSample
 
     Floats = NDArray[np.float64]
 
@@ -514,7 +514,7 @@ def weight_content(
     inputs: Mapping[str, Path], given: WeightParameters, created: str | None
 ) -> dict[str, Any]:
     """Return all that the file of a check says; arguments and errors as for `known_weight`."""
-    from pipeline.calibration.files.capture_recording import read_any_poses
+    from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
 
     roles_of(inputs, WEIGHT_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.mesh import Probe
-    from pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.verification.markers import MarkerSet
 
 _ALLOWED = 0.002  # m: what alignment and mesh may be off without another marker being nearer
 _RIVAL = 1.0  # standard deviations by which a second marker must be further away

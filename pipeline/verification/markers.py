@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 COLUMNS = ("name", "x_mm", "y_mm", "z_mm")
 MOST_MARKERS = 10_000

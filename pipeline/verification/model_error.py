@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.model import prediction_jacobian
-from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from pipeline.verification.causes import across
-from pipeline.verification.figures import ModelError
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+from contactbench.pipeline.verification.causes import across
+from contactbench.pipeline.verification.figures import ModelError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.verification.causes import Evidence
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.verification.causes import Evidence
 
     Array = NDArray[np.float64]
 

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import WrenchNoise
-from pipeline.verification.locating import memory, sample_noise
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.verification.locating import memory, sample_noise
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.verification.press import ProtocolSettings
-    from pipeline.verification.source import TouchRecording
+    from contactbench.pipeline.verification.press import ProtocolSettings
+    from contactbench.pipeline.verification.source import TouchRecording
 
 _CORRELATED = 2.0  # times the variance of a mean of white noise
 _BLOCK_S, _STILL_N, _FEWEST_BLOCKS = 0.1, 0.1, 3

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.verification.locating import Located, Placed
+    from contactbench.pipeline.verification.locating import Located, Placed
 
 
 class State(StrEnum):

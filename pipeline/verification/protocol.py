@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.kernel import Reason
-from pipeline.verification.press import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.verification.press import (
     UNRESOLVED,
     Press,
     ProtocolSettings,
@@ -22,7 +22,7 @@ from pipeline.verification.press import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.verification.locating import Located, Placed, Placing
+    from contactbench.pipeline.verification.locating import Located, Placed, Placing
 
 __all__ = ["UNRESOLVED", "ProtocolSettings", "State", "Touch", "TouchEvent", "TouchProtocol", "Why"]
 

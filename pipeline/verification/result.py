@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from pipeline.errors import InputError
-from pipeline.verification.figures import Limits, Times
-from pipeline.verification.markers import load_markers
-from pipeline.verification.protocol import ProtocolSettings
-from pipeline.verification.source import read_reference, read_touch_recording
-from pipeline.verification.verify import VerifySettings, verify
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.figures import Limits, Times
+from contactbench.pipeline.verification.markers import load_markers
+from contactbench.pipeline.verification.protocol import ProtocolSettings
+from contactbench.pipeline.verification.source import read_reference, read_touch_recording
+from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.calibration.orientation import Convention
-    from pipeline.mesh import Probe
-    from pipeline.verification.figures import Verification
+    from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.verification.figures import Verification
 
 ROLES = ("probe", "calibration", "markers", "recording")
 REFERENCE = "reference"
@@ -100,7 +100,7 @@ class VerificationParameters(BaseModel):
 
     def convention(self) -> Convention | None:
         """Return how orientations in a CSV file are written; None: as its columns say."""
-        from pipeline.calibration.orientation import Convention, Kind
+        from contactbench.pipeline.calibration.orientation import Convention, Kind
 
         if self.euler and self.rotation_vector:
             raise InputError("euler and rotation_vector contradict each other: give one.")
@@ -152,8 +152,8 @@ def verify_files(
     InputError
         An input is missing or cannot be used.
     """
-    from pipeline.calibration import Level
-    from pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration import Level
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
 
     missing = [role for role in ROLES if role not in inputs]
     strangers = sorted(set(inputs) - {*ROLES, REFERENCE})
@@ -199,9 +199,9 @@ def load_surface(file: Path) -> Probe:
 
 
 def _load_probe(file: Path) -> tuple[Probe, list[str], bool]:
-    from pipeline.mesh import MeshError
-    from pipeline.mesh.load import read_mesh, settle
-    from pipeline.mesh.sidecar import load_probe_file
+    from contactbench.pipeline.mesh import MeshError
+    from contactbench.pipeline.mesh.load import read_mesh, settle
+    from contactbench.pipeline.mesh.sidecar import load_probe_file
 
     read, aligned = read_mesh(file), True
     try:

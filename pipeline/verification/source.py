@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
-from pipeline.calibration.orientation import Convention, RowError
-from pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from pipeline.errors import InputError
-from pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
+from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
+from contactbench.pipeline.calibration.orientation import Convention, RowError
+from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table, read_table
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration import GravityModel
+    from contactbench.pipeline.calibration import GravityModel
 
 _OVERRANGE = 1  # the flag of the samples' status
 _GAP_S, _MOST_BACK = 0.5, 0.05
@@ -123,8 +123,8 @@ def read_reference(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]
 
 
 def _from_mcap(file: Path, R_ES: ArrayLike | None) -> TouchRecording:
-    from pipeline.recording import read_recording
-    from pipeline.recording.convert import poses_at
+    from contactbench.pipeline.recording import read_recording
+    from contactbench.pipeline.recording.convert import poses_at
 
     recording = read_recording(file)
     if len(recording.wrenches) != 1 or len(recording.flanges) != 1:

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import KDTree
 
-from pipeline.contact import ContactSolver
-from pipeline.kernel import SurfaceIndex
-from pipeline.verification.markers import MarkerError, MarkerSet, make_markers, snap
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.verification.markers import MarkerError, MarkerSet, make_markers, snap
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 _DRAWN = 20_000
 _MOST = 1_000

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.verification.figures import Intervals, Summary
+from contactbench.pipeline.verification.figures import Intervals, Summary
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.verification.figures import Interval, Vector
+    from contactbench.pipeline.verification.figures import Interval, Vector
 
 FEWEST = 5  # groups of touches
 _BLOCK = 1 << 21  # numbers at a time

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.verification.figures import Unresolved, Verdict
-from pipeline.verification.press import UNRESOLVED, Why
+from contactbench.pipeline.verification.figures import Unresolved, Verdict
+from contactbench.pipeline.verification.press import UNRESOLVED, Why
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from pipeline.verification.figures import Interval, Limits, Summary, Times, TouchFigure
-    from pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.verification.figures import Interval, Limits, Summary, Times, TouchFigure
+    from contactbench.pipeline.verification.markers import MarkerSet
 
 MOST_UNRESOLVED = 0.05
 FEWEST_MARKERS = 6

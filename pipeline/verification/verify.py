@@ -8,31 +8,31 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import WrenchNoise
-from pipeline.errors import InputError
-from pipeline.verification.causes import Evidence
-from pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
-from pipeline.verification.figures import Limits, Times, TouchFigure, Verification
-from pipeline.verification.locating import Placing
-from pipeline.verification.markers import with_normals
-from pipeline.verification.model_error import measure_model_error
-from pipeline.verification.noise import measured_noise, rate_of, resting
-from pipeline.verification.protocol import ProtocolSettings, TouchProtocol, Why
-from pipeline.verification.reference import force_accuracy
-from pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
-from pipeline.verification.verdict import Case, checks, crowded, missing, unresolved
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.causes import Evidence
+from contactbench.pipeline.verification.diagnosis import FEWEST_TOUCHES, diagnose, refine
+from contactbench.pipeline.verification.figures import Limits, Times, TouchFigure, Verification
+from contactbench.pipeline.verification.locating import Placing
+from contactbench.pipeline.verification.markers import with_normals
+from contactbench.pipeline.verification.model_error import measure_model_error
+from contactbench.pipeline.verification.noise import measured_noise, rate_of, resting
+from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol, Why
+from contactbench.pipeline.verification.reference import force_accuracy
+from contactbench.pipeline.verification.statistics import FEWEST, intervals, summarise, summarise_by, vector
+from contactbench.pipeline.verification.verdict import Case, checks, crowded, missing, unresolved
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.mesh import Probe
-    from pipeline.verification.figures import ForceAccuracy, Summary
-    from pipeline.verification.markers import MarkerSet
-    from pipeline.verification.protocol import Touch
-    from pipeline.verification.source import TouchRecording
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.verification.figures import ForceAccuracy, Summary
+    from contactbench.pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.verification.protocol import Touch
+    from contactbench.pipeline.verification.source import TouchRecording
 
 _ANGLES = (7.5, 22.5, 37.5, 52.5)  # degrees: borders of the ranges that are told apart
 _SOLVES = 20_000

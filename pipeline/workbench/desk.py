@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from pipeline.session import Session, State
+    from contactbench.pipeline.session import Session, State
 
 T = TypeVar("T")
 

@@ -7,21 +7,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
-from pipeline.config.runtime.bench import export_from_session
-from pipeline.config.runtime.checks import unchecked
-from pipeline.config.runtime.differ import differences
-from pipeline.config.runtime.options import ExportOptions
-from pipeline.config.runtime.pack import CONFIG
-from pipeline.config.vertical import NO_ADMITTANCE, down_along_z
-from pipeline.errors import InputError
-from pipeline.workbench.export_checklist import CheckItem, checklist, refuse_without, results_of
+from contactbench.pipeline.config.runtime import ConfigError, RateUnknownError, RuntimeConfig
+from contactbench.pipeline.config.runtime.bench import export_from_session
+from contactbench.pipeline.config.runtime.checks import unchecked
+from contactbench.pipeline.config.runtime.differ import differences
+from contactbench.pipeline.config.runtime.options import ExportOptions
+from contactbench.pipeline.config.runtime.pack import CONFIG
+from contactbench.pipeline.config.vertical import NO_ADMITTANCE, down_along_z
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.export_checklist import CheckItem, checklist, refuse_without, results_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.config.runtime.differ import Differences
-    from pipeline.session import Session
+    from contactbench.pipeline.config.runtime.differ import Differences
+    from contactbench.pipeline.session import Session
 
 SHA256, PLACE, RESULTS = "export.sha256", "export.place", "export.results"
 _SHOWN = 60

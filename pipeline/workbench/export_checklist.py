@@ -7,16 +7,16 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
 
-from pipeline.config.runtime.checks import CHECK_KINDS
-from pipeline.errors import InputError
-from pipeline.workbench.steps import Step
+from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from pipeline.session import State
-    from pipeline.session.state import Input, Result
+    from contactbench.pipeline.session import State
+    from contactbench.pipeline.session.state import Input, Result
 
 Stale = dict[tuple[str, str], tuple[str, ...]]
 _REJECTED = "rejected"

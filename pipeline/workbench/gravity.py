@@ -15,21 +15,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtri
 
-from pipeline.calibration import Level, PoseSample
-from pipeline.calibration.reachable import describe
-from pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
-from pipeline.errors import InputError
-from pipeline.workbench.gravity_poses import PoseRow, PoseState, earlier_rows, live_rows, middle
-from pipeline.workbench.gravity_solving import PLANNED, Solved, plan, solve
+from contactbench.pipeline.calibration import Level, PoseSample
+from contactbench.pipeline.calibration.reachable import describe
+from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState, earlier_rows, live_rows, middle
+from contactbench.pipeline.workbench.gravity_solving import PLANNED, Solved, plan, solve
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.suggest import Plan
-    from pipeline.workbench.gravity_settings import GravitySettings
-    from pipeline.workbench.live import Block
+    from contactbench.pipeline.calibration.suggest import Plan
+    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.workbench.live import Block
 
 _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.reachable import by_hand, describe
-from pipeline.calibration.stillness import StillnessDetector, StillState
-from pipeline.calibration.verify import StillVerification, verify_still
+from contactbench.pipeline.calibration.reachable import by_hand, describe
+from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
+from contactbench.pipeline.calibration.verify import StillVerification, verify_still
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import Calibration, PoseSample
-    from pipeline.workbench.gravity_settings import GravitySettings
-    from pipeline.workbench.live import Block
+    from contactbench.pipeline.calibration import Calibration, PoseSample
+    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.workbench.live import Block
 
 _NEAREST = np.radians(15.0)  # to a pose that the calibration has seen: nearer, it tells little
 _NEAR = "This is nearly a pose that the calibration was made from: turn the tool further."

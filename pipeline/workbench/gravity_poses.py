@@ -13,9 +13,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import Calibration, PoseSample
-    from pipeline.calibration.stillness import Capture, Rejected
-    from pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.calibration import Calibration, PoseSample
+    from contactbench.pipeline.calibration.stillness import Capture, Rejected
+    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
 
 
 class PoseState(StrEnum):

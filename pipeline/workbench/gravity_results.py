@@ -5,28 +5,28 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.calibration.files.calibration_file import load_calibration
-from pipeline.calibration.files.pose_csv import read_poses
-from pipeline.session.errors import SessionError
-from pipeline.session.files import wrong_with
-from pipeline.session.live import RECORDING
-from pipeline.session.recompute import compute
-from pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
-from pipeline.workbench.gravity_settings import (
+from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+from contactbench.pipeline.calibration.files.pose_csv import read_poses
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.files import wrong_with
+from contactbench.pipeline.session.live import RECORDING
+from contactbench.pipeline.session.recompute import compute
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
+from contactbench.pipeline.workbench.gravity_settings import (
     CALIBRATION_FILE,
     POSES_FILE,
     gravity_settings,
 )
-from pipeline.workbench.gravity_solving import Finding, findings
-from pipeline.workbench.undoing import put_result
+from contactbench.pipeline.workbench.gravity_solving import Finding, findings
+from contactbench.pipeline.workbench.undoing import put_result
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    from pipeline.calibration import Calibration, PoseSample
-    from pipeline.session import Session, State
-    from pipeline.session.state import Input, Result
+    from contactbench.pipeline.calibration import Calibration, PoseSample
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.state import Input, Result
 
 _STEM, _CHECK = "gravity-", "gravity-check-"
 _PART = "poses-earlier-{}.csv"

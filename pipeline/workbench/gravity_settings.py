@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.calibration import ContactTask, PoseNoise
-from pipeline.errors import InputError
-from pipeline.session.make_calibration import CalibrationParameters
-from pipeline.session.making import mount_rotation, read_parameters
+from contactbench.pipeline.calibration import ContactTask, PoseNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.make_calibration import CalibrationParameters
+from contactbench.pipeline.session.making import mount_rotation, read_parameters
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.session import State
+    from contactbench.pipeline.session import State
 
 MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt"
 DOWN, ORIENTATION_NOISE = "calibration.down", "calibration.orientation_noise"

@@ -8,26 +8,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import Calibration, Level, PoseSample, calibrate
-from pipeline.calibration.diagnosis.diagnose import diagnose
-from pipeline.calibration.diagnosis.hypotheses import RawOrientations
-from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.mounting import estimate_mount
-from pipeline.calibration.orientation import Convention
-from pipeline.calibration.reachable import by_hand, describe
-from pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
-from pipeline.errors import InputError
-from pipeline.workbench.gravity_settings import INVERSE, MOUNT
+from contactbench.pipeline.calibration import Calibration, Level, PoseSample, calibrate
+from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
+from contactbench.pipeline.calibration.diagnosis.hypotheses import RawOrientations
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.orientation import Convention
+from contactbench.pipeline.calibration.reachable import by_hand, describe
+from contactbench.pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.gravity_settings import INVERSE, MOUNT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.diagnose import Diagnosis
-    from pipeline.calibration.mounting import MountCalibration
-    from pipeline.calibration.reachable import Reachable
-    from pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
+    from contactbench.pipeline.calibration.mounting import MountCalibration
+    from contactbench.pipeline.calibration.reachable import Reachable
+    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
 
 PLANNED = 6
 FEWEST = 3  # poses of which there is a calibration

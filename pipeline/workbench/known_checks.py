@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.calibration.stillness import StillnessDetector, StillState
-from pipeline.errors import InputError
-from pipeline.session.recompute import compute, newest_inputs
-from pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
-from pipeline.workbench.export_checklist import newest
-from pipeline.workbench.tape import Tape
-from pipeline.workbench.verify_settings import REPORT
+from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.recompute import compute, newest_inputs
+from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
+from contactbench.pipeline.workbench.export_checklist import newest
+from contactbench.pipeline.workbench.tape import Tape
+from contactbench.pipeline.workbench.verify_settings import REPORT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from pipeline.calibration import GravityModel
-    from pipeline.session import Session, State
-    from pipeline.workbench.desk import Desk
-    from pipeline.workbench.live import Block, Live
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.live import Block, Live
 
 FILES = {WEIGHT: "known_weight.json", TOUCH: "known_touch.json"}
 _PRESSED_N, _RELEASED_N = 3.0, 1.5

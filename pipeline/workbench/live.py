@@ -8,24 +8,24 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
-from pipeline.devices.sample import FROZEN_CHANCE, Status
-from pipeline.devices.url import DeviceAddress
-from pipeline.kernel import FrozenDetector
-from pipeline.streams import open_pair
-from pipeline.workbench.live_moment import Moment, Reading
-from pipeline.workbench.live_ring import Ring
+from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
+from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.kernel import FrozenDetector
+from contactbench.pipeline.streams import open_pair
+from contactbench.pipeline.workbench.live_moment import Moment, Reading
+from contactbench.pipeline.workbench.live_ring import Ring
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.contact import ContactSolver
-    from pipeline.devices.drive import Health
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.streams import Pair
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.contact import ContactSolver
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.streams import Pair
 
 __all__ = ["Block", "Live", "Reading", "Tap"]
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from pipeline.devices.url import AddressError, DeviceAddress, Protocol
-from pipeline.session.making import mount_rotation
-from pipeline.workbench.statuses import MOUNT, POSES, SENSOR, SERIAL
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.session.making import mount_rotation
+from contactbench.pipeline.workbench.statuses import MOUNT, POSES, SENSOR, SERIAL
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.session import State
+    from contactbench.pipeline.session import State
 
 SERIAL_PROTOCOLS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ)
 _SENSORS = frozenset({*SERIAL_PROTOCOLS, Protocol.RDT, Protocol.REPLAY, Protocol.VIRTUAL})

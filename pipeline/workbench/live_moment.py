@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.filtering import KalmanFilter
-from pipeline.kernel import Reason
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.kernel import Reason
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.contact import ContactSolver
-    from pipeline.kernel import Contact
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.contact import ContactSolver
+    from contactbench.pipeline.kernel import Contact
 
 _CONTACTS = 4096  # at 30 a second, two minutes of them
 _GAP_S = 1.0  # after a longer silence the filter begins anew: what was before says nothing
@@ -41,7 +41,7 @@ class Reading:
     contact : Contact or None
         None: nothing touches, or there is no probe or no calibration.
     on : str or None
-        What the contact lies on, one of `pipeline.contact.facet_marks.MARKS`; None: there is none.
+        What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none.
     """
 
     time: float

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
+    from contactbench.pipeline.calibration import GravityModel
 
 _FIRST = 1024  # rows looked at first
 _SLICE = 4096  # rows compensated at a time under the lock: a millisecond, for a stream waits for it

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.drive import State
+from contactbench.pipeline.devices.drive import State
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.devices.drive import Health
-    from pipeline.workbench.live import Live
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.workbench.live import Live
 
 _LOOK_S = 5.0
 _FEWEST = 50  # readings before a noise is told

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.verification.markers import (
+from contactbench.pipeline.verification.markers import (
     COLUMNS,
     Marker,
     MarkerError,
@@ -19,15 +19,15 @@ from pipeline.verification.markers import (
     read_markers,
     snap,
 )
-from pipeline.verification.spread import grid_markers, spread_markers
+from contactbench.pipeline.verification.spread import grid_markers, spread_markers
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import ArrayLike
 
-    from pipeline.mesh import Probe
-    from pipeline.session import Session, State
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.session import Session, State
 
 KIND, NAME = "markers", "markers.csv"
 _NOWHERE = np.full(3, np.nan)

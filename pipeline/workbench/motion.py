@@ -21,8 +21,8 @@ from typing import IO, TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from pipeline.control.frames import Beginning, Frame, read_line
-from pipeline.errors import InputError
+from contactbench.pipeline.control.frames import Beginning, Frame, read_line
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -309,4 +309,4 @@ def _program() -> list[str]:
     if getattr(sys, "frozen", False):
         return [sys.executable]
     # -P: a file called numpy.py in the current folder must not be imported.
-    return [sys.executable, "-P", "-m", "pipeline.cli"]
+    return [sys.executable, "-P", "-m", "contactbench.pipeline.cli"]

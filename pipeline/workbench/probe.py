@@ -13,32 +13,32 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.inspect import inspect
-from pipeline.preparation.alignment import from_angles, from_json
-from pipeline.preparation.ladder import ExpectedTouches, measure_ladder
-from pipeline.preparation.painted import put_on
-from pipeline.preparation.prepare import place
-from pipeline.preparation.steps import import_mesh
-from pipeline.session.companions import companions_of
-from pipeline.session.make_probe import ProbeParameters, dense_of, prepared
-from pipeline.session.making import PREFIX, read_parameters
-from pipeline.session.recompute import lay_out
-from pipeline.workbench.probe_shell import PROBE_FILE, REGIONS, recipe_of
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.preparation.alignment import from_angles, from_json
+from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
+from contactbench.pipeline.preparation.painted import put_on
+from contactbench.pipeline.preparation.prepare import place
+from contactbench.pipeline.preparation.steps import import_mesh
+from contactbench.pipeline.session.companions import companions_of
+from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of, prepared
+from contactbench.pipeline.session.making import PREFIX, read_parameters
+from contactbench.pipeline.session.recompute import lay_out
+from contactbench.pipeline.workbench.probe_shell import PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.inspect import Inspection
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.preparation.alignment import Alignment
-    from pipeline.preparation.ladder import Ladder
-    from pipeline.preparation.prepare import Dense, Preparation
-    from pipeline.workbench.desk import Desk
+    from contactbench.pipeline.mesh.inspect import Inspection
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.preparation.ladder import Ladder
+    from contactbench.pipeline.preparation.prepare import Dense, Preparation
+    from contactbench.pipeline.workbench.desk import Desk
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None

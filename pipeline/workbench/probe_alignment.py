@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.contact import WrenchNoise
-from pipeline.errors import InputError
-from pipeline.preparation.alignment import (
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.preparation.alignment import (
     align_axes,
     align_flange,
     align_points,
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.mesh import Probe
-    from pipeline.preparation.alignment import Alignment
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.preparation.alignment import Alignment
 
 FEWEST_PAIRS = 3
 # As ``contactbench probe align`` takes them.

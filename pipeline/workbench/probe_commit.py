@@ -8,16 +8,16 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pipeline.mesh.sidecar import save_probe_file, sidecar_of
-from pipeline.session.files import chunks_of
-from pipeline.session.making import folder_for
-from pipeline.workbench.probe_shell import PROBE, PROBE_FILE
+from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
+from contactbench.pipeline.session.files import chunks_of
+from contactbench.pipeline.session.making import folder_for
+from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE
 
 if TYPE_CHECKING:
-    from pipeline.session import Session, State
-    from pipeline.session.actions import Record
-    from pipeline.session.state import Input, Result
-    from pipeline.workbench.probe import Mesh, Preview
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import Input, Result
+    from contactbench.pipeline.workbench.probe import Mesh, Preview
 
 ALIGNMENT, ALIGNMENT_FILE = "alignment", "alignment.json"
 _UNDONE = "undone"

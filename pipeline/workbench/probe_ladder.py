@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pipeline.preparation.ladder import Ladder
+    from contactbench.pipeline.preparation.ladder import Ladder
 
 
 @dataclass(frozen=True)

@@ -7,27 +7,27 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pipeline.errors import InputError
-from pipeline.mesh.regions import RegionSet
-from pipeline.mesh.regions.exchange import encode_json
-from pipeline.mesh.sidecar import load_probe_file, save_probe_file, sidecar_of
-from pipeline.preparation.alignment import from_angles, from_json
-from pipeline.preparation.painted import painted_regions
-from pipeline.preparation.prepare import place
-from pipeline.session.make_probe import ProbeParameters, dense_of
-from pipeline.session.making import read_parameters
-from pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.regions.exchange import encode_json
+from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file, sidecar_of
+from contactbench.pipeline.preparation.alignment import from_angles, from_json
+from contactbench.pipeline.preparation.painted import painted_regions
+from contactbench.pipeline.preparation.prepare import place
+from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of
+from contactbench.pipeline.session.making import read_parameters
+from contactbench.pipeline.session.recompute import lay_out, newest_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.regions import RegionReport
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.session import Session, State
-    from pipeline.session.actions import Record
-    from pipeline.session.state import Result
-    from pipeline.workbench.desk import Desk
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions import RegionReport
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import Result
+    from contactbench.pipeline.workbench.desk import Desk
 
 PROBE, PROBE_FILE = "probe", "probe.ply"
 REGIONS, REGIONS_FILE = "regions", "regions.json"

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.colours import facet_colours
-from pipeline.mesh.regions import FacetGraph, RegionError, RegionModel, RegionSet
-from pipeline.workbench.regions_tools import Clear, Found, find, give
+from contactbench.pipeline.mesh.colours import facet_colours
+from contactbench.pipeline.mesh.regions import FacetGraph, RegionError, RegionModel, RegionSet
+from contactbench.pipeline.workbench.regions_tools import Clear, Found, find, give
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.regions import Brush, Change, Stroke
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.workbench.regions_tools import Tool
+    from contactbench.pipeline.mesh.regions import Brush, Change, Stroke
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.workbench.regions_tools import Tool
 
 
 @dataclass(frozen=True)
@@ -255,7 +255,7 @@ class RegionsWork:
         self._tell(type(change)(faces, change.listed), self._stroke is not None)
 
     def _tell_end(self) -> None:
-        from pipeline.mesh.regions import Change
+        from contactbench.pipeline.mesh.regions import Change
 
         self._tell(Change(np.empty(0, dtype=np.int32), listed=False), False)
 

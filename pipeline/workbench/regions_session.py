@@ -6,10 +6,10 @@ import hashlib
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
-from pipeline.mesh.regions.exchange import encode_json
-from pipeline.session.recompute import recomputed
-from pipeline.workbench.probe_shell import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.regions.exchange import encode_json
+from contactbench.pipeline.session.recompute import recomputed
+from contactbench.pipeline.workbench.probe_shell import (
     PROBE,
     REGIONS,
     REGIONS_FILE,
@@ -18,17 +18,17 @@ from pipeline.workbench.probe_shell import (
     regions_on,
     shell_file_of,
 )
-from pipeline.workbench.regions import RegionsWork
+from contactbench.pipeline.workbench.regions import RegionsWork
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh.regions import RegionSet
-    from pipeline.mesh.sidecar import ProbeFile
-    from pipeline.session import Session, State
-    from pipeline.session.actions import Record
-    from pipeline.session.state import Input
-    from pipeline.workbench.desk import Desk
+    from contactbench.pipeline.mesh.regions import RegionSet
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import Input
+    from contactbench.pipeline.workbench.desk import Desk
 
 # What changes the number of facets, and not the surface that is painted on.
 _AFTER_PAINTING = frozenset(

@@ -7,12 +7,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.regions import RegionError, flood, grow, half_space, in_box, mirror, shrink, smooth
+from contactbench.pipeline.mesh.regions import (
+    RegionError,
+    flood,
+    grow,
+    half_space,
+    in_box,
+    mirror,
+    shrink,
+    smooth,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh.regions import FacetGraph, RegionModel
+    from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel
 
 Vector = tuple[float, float, float]
 

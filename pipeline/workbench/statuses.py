@@ -6,17 +6,17 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.workbench.export import RESULTS
-from pipeline.workbench.export_checklist import newest, results_of
-from pipeline.workbench.regions_session import Standing, standing
-from pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.pipeline.workbench.export import RESULTS
+from contactbench.pipeline.workbench.export_checklist import newest, results_of
+from contactbench.pipeline.workbench.regions_session import Standing, standing
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
-    from pipeline.session import State
-    from pipeline.session.state import Input, Result
+    from contactbench.pipeline.session import State
+    from contactbench.pipeline.session.state import Input, Result
 
     Stale = Mapping[tuple[str, str], tuple[str, ...]]
 

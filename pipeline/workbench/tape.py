@@ -6,24 +6,24 @@ import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from pipeline.devices.drive import State
-from pipeline.errors import InputError
-from pipeline.recording.recorder import health_facts
-from pipeline.session.live import LiveRecording
-from pipeline.workbench.live import Tap
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording.recorder import health_facts
+from contactbench.pipeline.session.live import LiveRecording
+from contactbench.pipeline.workbench.live import Tap
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from concurrent.futures import Future
 
-    from pipeline.devices.drive import Health
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.recording import RecordingInfo
-    from pipeline.session import Session
-    from pipeline.session.actions import Record
-    from pipeline.streams import Pair
-    from pipeline.workbench.desk import Desk
-    from pipeline.workbench.live import Live
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.streams import Pair
+    from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.live import Live
 
 _NAMES = {"sensor": "The sensor", "robot": "The source of poses"}
 

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic_core import PydanticUndefined
 
-from pipeline.session.recompute import PARAMETERS
-from pipeline.session.state import MESH
+from contactbench.pipeline.session.recompute import PARAMETERS
+from contactbench.pipeline.session.state import MESH
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.session import Session, State
-    from pipeline.session.state import Input, Result
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.state import Input, Result
 
 T = TypeVar("T")
 Slot = tuple[str, str]

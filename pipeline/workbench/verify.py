@@ -10,26 +10,26 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pipeline.errors import InputError
-from pipeline.session.recompute import lay_out
-from pipeline.verification.markers import with_normals
-from pipeline.workbench.export_checklist import newest
-from pipeline.workbench.markers import KIND
-from pipeline.workbench.markers import kept as read_kept
-from pipeline.workbench.verify_outcome import Outcome, judge_recording, outcome_of
-from pipeline.workbench.verify_settings import checked_parameters, parameters_of
-from pipeline.workbench.verify_touches import LiveTouches, TouchView, live_noise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.recompute import lay_out
+from contactbench.pipeline.verification.markers import with_normals
+from contactbench.pipeline.workbench.export_checklist import newest
+from contactbench.pipeline.workbench.markers import KIND
+from contactbench.pipeline.workbench.markers import kept as read_kept
+from contactbench.pipeline.workbench.verify_outcome import Outcome, judge_recording, outcome_of
+from contactbench.pipeline.workbench.verify_settings import checked_parameters, parameters_of
+from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchView, live_noise
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.calibration import GravityModel
-    from pipeline.mesh import Probe
-    from pipeline.session import Session, State
-    from pipeline.workbench.desk import Desk
-    from pipeline.workbench.live import Live
-    from pipeline.workbench.markers import Markers
-    from pipeline.workbench.tape import Tape
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.workbench.desk import Desk
+    from contactbench.pipeline.workbench.live import Live
+    from contactbench.pipeline.workbench.markers import Markers
+    from contactbench.pipeline.workbench.tape import Tape
 
 _NAME = re.compile(r"verify-(\d+)\.mcap")
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
@@ -63,9 +63,9 @@ def tool_of(folder: Path, state: State) -> Tool:
     InputError
         One is missing, refused or cannot be read.
     """
-    from pipeline.calibration import Level
-    from pipeline.calibration.files.calibration_file import load_calibration
-    from pipeline.verification.result import load_surface
+    from contactbench.pipeline.calibration import Level
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.verification.result import load_surface
 
     content = tool_key(state)
     if content is None:
@@ -199,7 +199,7 @@ class VerifyWork:
         return None
 
     def _record(self) -> None:
-        from pipeline.workbench.tape import Tape
+        from contactbench.pipeline.workbench.tape import Tape
 
         serial = self._desk.state.settings.get("devices.serial")
         known = (

@@ -6,17 +6,17 @@ import json
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from pipeline.errors import InputError
-from pipeline.session.recompute import compute, newest_inputs
-from pipeline.verification.figures import ModelError
-from pipeline.workbench.verify_settings import KIND, REPORT, RESULT, parameters_of
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.recompute import compute, newest_inputs
+from contactbench.pipeline.verification.figures import ModelError
+from contactbench.pipeline.workbench.verify_settings import KIND, REPORT, RESULT, parameters_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-    from pipeline.session import Session, State
-    from pipeline.workbench.verify_touches import TouchView
+    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.workbench.verify_touches import TouchView
 
 _SAME_MM = 0.05
 
@@ -138,7 +138,7 @@ def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
 
 
 def _read(content: dict[str, Any], report: Path | None) -> Outcome:
-    from pipeline.verification.model_error import model_error_words
+    from contactbench.pipeline.verification.model_error import model_error_words
 
     verdict, overall = content["verdict"], content.get("overall") or {}
     interval = (content.get("ci") or {}).get("mean_mm") or (None, None)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.verification.result import VerificationParameters
+from contactbench.pipeline.verification.result import VerificationParameters
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from pipeline.session import State
+    from contactbench.pipeline.session import State
 
 KIND, RESULT, REPORT = "verification", "verification.json", "report.html"
 MOUNT = "devices.mount"

@@ -9,19 +9,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.verification.locating import Placing, memory, sample_noise
-from pipeline.verification.protocol import State, Touch, TouchEvent, TouchProtocol
-from pipeline.workbench.verify_settings import Turns
+from contactbench.pipeline.verification.locating import Placing, memory, sample_noise
+from contactbench.pipeline.verification.protocol import State, Touch, TouchEvent, TouchProtocol
+from contactbench.pipeline.workbench.verify_settings import Turns
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.contact import WrenchNoise
-    from pipeline.mesh import Probe
-    from pipeline.verification.markers import MarkerSet
-    from pipeline.verification.verify import VerifySettings
-    from pipeline.workbench.live import Block
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.contact import WrenchNoise
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.verification.markers import MarkerSet
+    from contactbench.pipeline.verification.verify import VerifySettings
+    from contactbench.pipeline.workbench.live import Block
 
 _SMOOTH = 10  # samples that the shown force is the mean of
 _RECENT_S = 1.0
@@ -128,7 +128,7 @@ def live_noise(wrenches: NDArray[np.float64]) -> tuple[WrenchNoise, float] | Non
     wrenches : (n, 6)
         Samples in a row, N and N·m; raw ones will do.
     """
-    from pipeline.contact import WrenchNoise
+    from contactbench.pipeline.contact import WrenchNoise
 
     run = wrenches[np.isfinite(wrenches).all(axis=1)]
     if len(run) < _FEWEST:

@@ -7,10 +7,10 @@ from PySide6.QtCore import QEvent
 from PySide6.QtWidgets import QApplication
 from shiboken6 import isValid
 
-from app.page import Page
-from app.settings import Settings
-from app.window import MainWindow
-from pipeline.workbench.steps import Step
+from contactbench.app.page import Page
+from contactbench.app.settings import Settings
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.workbench.steps import Step
 
 
 @pytest.fixture(autouse=True)
@@ -45,7 +45,7 @@ class PlainPage(Page):
 def plain_pages(monkeypatch):
     """Pages without content, by step."""
     classes = {step: type(f"Plain{step}", (PlainPage,), {"step": step}) for step in Step}
-    monkeypatch.setattr("app.window_pages.page_class", classes.__getitem__)
+    monkeypatch.setattr("contactbench.app.window_pages.page_class", classes.__getitem__)
     return classes
 
 

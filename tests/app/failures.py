@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 from workbench.touch_session import make_session
 
-from app.errors import Faults, LogFile
-from app.settings import Settings
-from app.window import MainWindow
-from pipeline.workbench.steps import Step
+from contactbench.app.errors import Faults, LogFile
+from contactbench.app.settings import Settings
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import close, delete_now, shown
 

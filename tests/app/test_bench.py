@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import pytest
 
-from app.bench import Bench, Weight
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.steps import Step
+from contactbench.app.bench import Bench, Weight
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.steps import Step
 
 
 @pytest.fixture

@@ -8,9 +8,9 @@ import time
 
 import pytest
 
-from app import cli
-from pipeline.errors import InputError
-from pipeline.session import Session
+from contactbench.app import cli
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
 
 from .failures import prepared
 
@@ -18,7 +18,7 @@ from .failures import prepared
 def run(*arguments, **environment):
     env = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     env.pop("QT_QPA_PLATFORM", None)
-    command = [sys.executable, "-m", "app.cli", *arguments]
+    command = [sys.executable, "-m", "contactbench.app.cli", *arguments]
     return subprocess.run(
         command, env=env | environment, capture_output=True, text=True, timeout=60, check=False
     )
@@ -28,7 +28,8 @@ def test_help_names_the_window_and_imports_no_qt():
     result = run("--help")
     assert result.returncode == 0
     assert all(name in result.stdout for name in ("gui", "heatmap-viewer", "screenshots", "locate"))
-    code = "import sys, app.cli; sys.exit(any(name in sys.modules for name in ('PySide6', 'vtkmodules', 'numpy')))"
+    heavy = ("PySide6", "vtkmodules", "numpy")
+    code = f"import sys, contactbench.app.cli; sys.exit(any(name in sys.modules for name in {heavy}))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
@@ -72,7 +73,15 @@ def test_ctrl_c_closes_the_window_and_frees_the_session(tmp_path):
     if not os.environ.get("DISPLAY"):
         pytest.skip("needs a screen")
     env = os.environ | {"CONTACTBENCH_HOME": str(tmp_path / "home")}
-    command = [sys.executable, "-m", "app.cli", "gui", "--virtual", "--session", str(tmp_path / "s")]
+    command = [
+        sys.executable,
+        "-m",
+        "contactbench.app.cli",
+        "gui",
+        "--virtual",
+        "--session",
+        str(tmp_path / "s"),
+    ]
     with subprocess.Popen(command, env=env, stderr=subprocess.PIPE, text=True) as window:
         deadline = time.monotonic() + 60
         recent = tmp_path / "home" / "config" / "window.json"
@@ -91,9 +100,9 @@ _LOOKED_AT = """
 import sys
 from pathlib import Path
 from PySide6.QtCore import QTimer
-from app import application
-from app.window import MainWindow
-from pipeline.workbench.steps import Step
+from contactbench.app import application
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.workbench.steps import Step
 
 class Window(MainWindow):
     def __init__(self, *given):

@@ -3,16 +3,16 @@ import time
 import pytest
 from PySide6.QtCore import Qt
 
-from app.bench import Bench
-from app.pages.devices import DevicesPage
-from app.undo import SessionCommand, SetParameter
-from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.devices.transport.ports import SerialPort
-from pipeline.devices.url import Protocol
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.live_devices import Devices
-from pipeline.workbench.steps import Step
+from contactbench.app.bench import Bench
+from contactbench.app.pages.devices import DevicesPage
+from contactbench.app.undo import SessionCommand, SetParameter
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.transport.ports import SerialPort
+from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.live_devices import Devices
+from contactbench.pipeline.workbench.steps import Step
 
 PATIENCE_MS = 30_000
 BENCH = "virtual://bench?probe=convex&sensor=paper"
@@ -146,7 +146,7 @@ def test_ports_come_and_go_while_one_is_chosen(page):
 
 def test_ports_are_looked_for_beside_the_window(page, qtbot, monkeypatch):
     found = [SerialPort("/dev/ttyACM7", "SRI M8128", None, Protocol.SRI)]
-    monkeypatch.setattr("app.pages.devices.list_ports", lambda: found)
+    monkeypatch.setattr("contactbench.app.pages.devices.list_ports", lambda: found)
     page.enter()
     tick_until(qtbot, page, lambda: page.sensor.kind.findText("SRI sensor at /dev/ttyACM7") >= 0)
 

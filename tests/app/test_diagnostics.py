@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from app.diagnostics import save_diagnostics, scrubbed
-from app.heartbeat import Stalls
-from app.settings import Recent, Remembered
-from pipeline.errors import InputError
-from pipeline.session import Session
+from contactbench.app.diagnostics import save_diagnostics, scrubbed
+from contactbench.app.heartbeat import Stalls
+from contactbench.app.settings import Recent, Remembered
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
 
 
 @pytest.fixture

@@ -7,9 +7,9 @@ import threading
 import pytest
 from PySide6.QtCore import qWarning
 
-from app.errors import LOG, Faults, LogFile
-from pipeline.errors import InputError
-from pipeline.workbench.steps import Step
+from contactbench.app.errors import LOG, Faults, LogFile
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import shown
 

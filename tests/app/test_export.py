@@ -7,16 +7,16 @@ import pytest
 from typer.testing import CliRunner
 from workbench.touch_session import make_session, verify
 
-from app.bench import Bench, Weight
-from app.pages.export import ExportPage
-from pipeline import cli
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.control.content import controller_of
-from pipeline.control.settings import ControlSettings
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.scene import Scene
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.pages.export import ExportPage
+from contactbench.pipeline import cli
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.control.content import controller_of
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.scene import Scene
 
 LONG = 30_000
 

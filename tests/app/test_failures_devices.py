@@ -8,11 +8,11 @@ import pytest
 from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 
-from app.pages.gravity_run import Phase
-from pipeline.devices.emulate import emulator
-from pipeline.session import Session
-from pipeline.session.check import check
-from pipeline.workbench.steps import Step
+from contactbench.app.pages.gravity_run import Phase
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.workbench.steps import Step
 
 from .failures import prepared, whole
 

@@ -15,10 +15,10 @@ from PySide6.QtCore import Qt
 from workbench.gravity_bench import batches, record
 from workbench.probe_files import bad_meshes
 
-from app.pages.gravity_run import Phase
-from pipeline.session import Session
-from pipeline.session.check import check
-from pipeline.workbench.steps import Step
+from contactbench.app.pages.gravity_run import Phase
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import shown
 from .failures import LONG, prepared, whole
@@ -297,9 +297,9 @@ def test_a_session_that_vanishes_while_it_is_open(made, ready, tmp_path):
 _KILLED = """
 import sys
 from pathlib import Path
-from app import application
-from app.window import MainWindow
-from pipeline.workbench.steps import Step
+from contactbench.app import application
+from contactbench.app.window import MainWindow
+from contactbench.pipeline.workbench.steps import Step
 from PySide6.QtCore import QTimer
 
 class Window(MainWindow):

@@ -25,9 +25,9 @@ from PySide6.QtWidgets import (
 )
 from shiboken6 import isValid
 
-from pipeline.session import Session
-from pipeline.session.check import check
-from pipeline.workbench.steps import Step
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.workbench.steps import Step
 
 from .failures import prepared, whole
 
@@ -178,7 +178,7 @@ def harmless(monkeypatch):
     monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_, **__: "")
     monkeypatch.setattr(QColorDialog, "getColor", lambda *_, **__: QColor())
     monkeypatch.setattr(QDesktopServices, "openUrl", lambda *_: True)
-    monkeypatch.setattr("app.pages.devices.list_ports", list)
+    monkeypatch.setattr("contactbench.app.pages.devices.list_ports", list)
 
 
 @pytest.mark.window

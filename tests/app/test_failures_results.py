@@ -13,13 +13,13 @@ from workbench.gravity_bench import batches, record
 from workbench.probe_files import egg
 from workbench.touch_session import make_session, verify
 
-from app.pages.gravity_run import Phase
-from pipeline.session import Session
-from pipeline.session.check import check
-from pipeline.workbench.gravity_results import finish
-from pipeline.workbench.steps import Step, StepState
-from pipeline.workbench.undoing import value_in
-from widgets.scene.scene import Pick
+from contactbench.app.pages.gravity_run import Phase
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.workbench.gravity_results import finish
+from contactbench.pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.workbench.undoing import value_in
+from contactbench.widgets.scene.scene import Pick
 
 from .failures import whole
 

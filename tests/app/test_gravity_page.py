@@ -6,17 +6,17 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 from workbench.gravity_bench import batches, record
 
-from app.bench import Bench
-from app.pages.gravity import GravityPage
-from app.pages.gravity_run import Phase
-from pipeline.calibration import Level
-from pipeline.devices.emulate import emulator
-from pipeline.session import Session
-from pipeline.session.unfinished import adopt_unfinished
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_solving import Finding, Solved
-from pipeline.workbench.steps import StepState, StepStatus
+from contactbench.app.bench import Bench
+from contactbench.app.pages.gravity import GravityPage
+from contactbench.app.pages.gravity_run import Phase
+from contactbench.pipeline.calibration import Level
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.unfinished import adopt_unfinished
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_solving import Finding, Solved
+from contactbench.pipeline.workbench.steps import StepState, StepStatus
 
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"
 READY = StepStatus(StepState.READY, "Take poses.")
@@ -172,7 +172,7 @@ def test_poses_are_left_out_by_key_and_undone(window):
 
 
 def _computed(session):
-    from pipeline.workbench.gravity_results import finish
+    from contactbench.pipeline.workbench.gravity_results import finish
 
     return finish(session, "gravity-1.mcap")
 

@@ -12,11 +12,11 @@ from typing import ClassVar
 import pytest
 from PySide6.QtCore import QCoreApplication, QEvent, QObject, QThread
 
-from app import study_charts, study_stalls
-from app.garbage import Garbage
-from app.study_leaks import growth
-from app.study_window import loaded
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.app import study_charts, study_stalls
+from contactbench.app.garbage import Garbage
+from contactbench.app.study_leaks import growth
+from contactbench.app.study_window import loaded
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 pytestmark = [
     pytest.mark.window,
@@ -28,7 +28,7 @@ TIMEOUT_S = 240
 
 def study(*arguments):
     """Run a study as a command; return its report, with its figures by subject and name."""
-    command = [sys.executable, "-m", "app.cli", "gui-study", *arguments, "--json"]
+    command = [sys.executable, "-m", "contactbench.app.cli", "gui-study", *arguments, "--json"]
     done = subprocess.run(
         command, capture_output=True, text=True, timeout=TIMEOUT_S, check=False, env=os.environ
     )
@@ -77,7 +77,7 @@ def test_nothing_is_lost_by_an_end_without_warning(page):
 
 
 def test_a_page_that_there_is_not_is_refused_in_words():
-    command = [sys.executable, "-m", "app.cli", "gui-study", "kill", "--page", "lunch"]
+    command = [sys.executable, "-m", "contactbench.app.cli", "gui-study", "kill", "--page", "lunch"]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 2
     assert "lunch" in done.stderr

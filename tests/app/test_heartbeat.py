@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import time
 
-from app.heartbeat import Heartbeat
+from contactbench.app.heartbeat import Heartbeat
 
 
 def test_a_stall_is_measured_and_told(qtbot):

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 import pytest
 from PySide6.QtCore import QObject
 
-from app.jobs import Jobs
+from contactbench.app.jobs import Jobs
 
 
 @pytest.fixture

@@ -8,16 +8,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from workbench.touch_session import STEPWISE, make_session, surface
 
-from app.bench import Bench, Weight
-from app.pages.gravity import GravityPage
-from app.pages.verify_point import PointPanel
-from pipeline.kernel import SurfaceIndex
-from pipeline.session import Session
-from pipeline.verification.known import TOUCH, WEIGHT, Outcome
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.known_checks import FILES
-from pipeline.workbench.steps import StepState, StepStatus
-from pipeline.workbench.verify import tool_of
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.pages.gravity import GravityPage
+from contactbench.app.pages.verify_point import PointPanel
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.known_checks import FILES
+from contactbench.pipeline.workbench.steps import StepState, StepStatus
+from contactbench.pipeline.workbench.verify import tool_of
 
 READY = StepStatus(StepState.READY, "")
 

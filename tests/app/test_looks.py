@@ -31,11 +31,11 @@ from PySide6.QtWidgets import (
 from workbench.region_sessions import make_session
 from workbench.touch_session import ADDRESS, weighed
 
-from pipeline.calibration.files.calibration_file import save_calibration
-from pipeline.session import Session
-from pipeline.workbench.steps import Step
-from widgets.scene import Scene
-from widgets.theme import colours, contrast, use_theme
+from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.scene import Scene
+from contactbench.widgets.theme import colours, contrast, use_theme
 
 from .conftest import shown
 

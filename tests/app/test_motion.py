@@ -7,11 +7,11 @@ import pytest
 from shiboken6 import isValid
 from workbench.touch_session import make_session, verify
 
-from app.motion import MotionWindow
-from pipeline.session import Session
-from pipeline.study.bundle_example import example_config
-from pipeline.workbench.desk import Desk
-from widgets.theme import use_theme
+from contactbench.app.motion import MotionWindow
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.study.bundle_example import example_config
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.widgets.theme import use_theme
 
 LONG_MS = 60_000
 

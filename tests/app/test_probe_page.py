@@ -6,18 +6,18 @@ from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QWidget
 from workbench.probe_files import bad_meshes, egg
 
-from app.bench import Bench
-from app.pages.probe import ProbePage
-from pipeline.mesh.inspect import inspect
-from pipeline.mesh.sidecar import save_probe_file
-from pipeline.preparation.alignment import from_angles
-from pipeline.preparation.steps import align_step, import_mesh
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.mesh_report import MeshReport
-from widgets.scene import Scene
-from widgets.scene.scene import Pick
+from contactbench.app.bench import Bench
+from contactbench.app.pages.probe import ProbePage
+from contactbench.pipeline.mesh.inspect import inspect
+from contactbench.pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.steps import align_step, import_mesh
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.mesh_report import MeshReport
+from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene.scene import Pick
 
 PATIENCE = 60_000
 VIRTUAL = "virtual://bench?probe=t-shape&sensor=paper"

@@ -11,16 +11,16 @@ from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QPointF, Qt
 from PySide6.QtWidgets import QHBoxLayout, QWidget
 from workbench.region_sessions import CENTRE, RADIUS, folder, made_session  # noqa: F401
 
-from app.bench import Bench
-from app.pages.regions import RegionsPage
-from pipeline.session import Session
-from pipeline.session.errors import SessionError
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.regions_session import Standing, standing, stored
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.scene import Scene
-from widgets.scene.scene import Pick
-from widgets.theme import style_sheet
+from contactbench.app.bench import Bench
+from contactbench.app.pages.regions import RegionsPage
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.regions_session import Standing, standing, stored
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene.scene import Pick
+from contactbench.widgets.theme import style_sheet
 
 LONG = 20_000  # ms; a wait ends as soon as what it waits for is there
 NO_KEY = Qt.KeyboardModifier.NoModifier
@@ -316,7 +316,7 @@ def test_shape_buttons_change_the_chosen_region(window, qtbot):
 
 
 def test_import_and_export(window, qtbot, tmp_path):
-    from app.pages.regions_files import read_regions, write_regions
+    from contactbench.app.pages.regions_files import read_regions, write_regions
 
     draw(window, (0, 0, 1))
     painted = rows(window)
@@ -386,7 +386,7 @@ def test_giving_them_to_the_probe(window, qtbot):
 def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
     import threading
 
-    from app.pages import regions_doing
+    from contactbench.app.pages import regions_doing
 
     draw(window, (0, 0, 1))
     real, asked = regions_doing.apply, threading.Event()
@@ -408,7 +408,7 @@ def test_cancelling_leaves_the_probe_as_it_was(window, qtbot, monkeypatch):
 
 
 def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
-    from app.pages import regions_keeping
+    from contactbench.app.pages import regions_keeping
 
     def full(*_):
         raise SessionError("The disk is full.")

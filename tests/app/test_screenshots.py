@@ -1,9 +1,9 @@
 import pytest
 from PySide6.QtGui import QImage
 
-from app.cli import size_of
-from app.screenshots import PAGES, run
-from pipeline.errors import InputError
+from contactbench.app.cli import size_of
+from contactbench.app.screenshots import PAGES, run
+from contactbench.pipeline.errors import InputError
 
 pytestmark = pytest.mark.usefixtures("qapp")
 

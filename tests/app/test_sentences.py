@@ -2,8 +2,8 @@ from pathlib import Path
 
 import pytest
 
-import pipeline
-from app.sentences import templates
+from contactbench import pipeline
+from contactbench.app.sentences import templates
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from app.settings import Settings, own_folder
+from contactbench.app.settings import Settings, own_folder
 
 
 def test_what_is_remembered_comes_back(tmp_path):

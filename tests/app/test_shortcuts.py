@@ -2,8 +2,8 @@ from __future__ import annotations
 
 import pytest
 
-from app.shortcuts import CheatSheet, keys_of
-from pipeline.workbench.steps import Step
+from contactbench.app.shortcuts import CheatSheet, keys_of
+from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import shown
 

@@ -12,13 +12,13 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QLabel, QListWidget, QPushButton, QToolBar
 
-from app.opening import VIRTUAL_BENCH, free_folder
-from app.settings import Recent, Settings
-from app.start import Question, StartPage
-from pipeline.devices.url import DeviceAddress
-from pipeline.session import Session
-from pipeline.workbench.steps import Step
-from widgets.scrolled import Scrolled
+from contactbench.app.opening import VIRTUAL_BENCH, free_folder
+from contactbench.app.settings import Recent, Settings
+from contactbench.app.start import Question, StartPage
+from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.scrolled import Scrolled
 
 from .conftest import shown
 
@@ -66,7 +66,7 @@ def test_a_folder_of_something_else_is_refused_in_words(qtbot, window, tmp_path)
 
 def test_a_session_that_is_open_elsewhere_can_be_looked_at(qtbot, window, tmp_path):
     code = (
-        "import sys; from pathlib import Path; from pipeline.session import Session\n"
+        "import sys; from pathlib import Path; from contactbench.pipeline.session import Session\n"
         "s = Session.create(Path(sys.argv[1])); s.note('a note of theirs'); print('ready', flush=True); input()"
     )
     folder = tmp_path / "taken"
@@ -150,7 +150,7 @@ def test_a_folder_that_cannot_be_written_is_opened_read_only(qtbot, window, tmp_
     with Session.create(tmp_path / "s") as session:
         session.note("there")
     before = files(tmp_path / "s")
-    monkeypatch.setattr("pipeline.session.lock.writable", lambda _path: False)
+    monkeypatch.setattr("contactbench.pipeline.session.lock.writable", lambda _path: False)
     bench = shown(qtbot, window, lambda: window.sessions.open(tmp_path / "s"))
     assert [note.text for note in bench.desk.state.notes] == ["there"]
     read_only(qtbot, window, "the folder of this session cannot be written")
@@ -161,7 +161,7 @@ def test_no_button_of_any_page_can_be_pressed_in_a_session_that_is_read_only(
     qtbot, make_window, tmp_path, monkeypatch
 ):
     Session.create(tmp_path / "s").close()
-    monkeypatch.setattr("pipeline.session.lock.writable", lambda _path: False)
+    monkeypatch.setattr("contactbench.pipeline.session.lock.writable", lambda _path: False)
     window = make_window()
     shown(qtbot, window, lambda: window.sessions.open(tmp_path / "s"))
     qtbot.waitUntil(lambda: window.findChild(QToolBar, "read-only") is not None, timeout=10_000)
@@ -190,7 +190,7 @@ def _cut_short(folder):
     """Leave a session as a process does that is killed while it records."""
     code = (
         "import os, sys, time; from pathlib import Path; import numpy as np\n"
-        "from pipeline.session import Session\n"
+        "from contactbench.pipeline.session import Session\n"
         "s = Session.create(Path(sys.argv[1]))\n"
         "(s.folder / 'raw' / 'unfinished-gravity-1.mcap').write_bytes(b'')\n"
         "os._exit(9)"

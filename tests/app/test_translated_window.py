@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app import translation
-from pipeline.workbench.steps import Step
+from contactbench.app import translation
+from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import shown
 

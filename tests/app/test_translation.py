@@ -9,11 +9,11 @@ import pytest
 import typer
 from PySide6.QtCore import QCoreApplication, QTranslator
 
-from app import translation
-from app.cli import app
-from app.sentences import templates
-from pipeline.workbench.steps import Step
-from widgets.phrases import PhraseBook, said
+from contactbench.app import translation
+from contactbench.app.cli import app
+from contactbench.app.sentences import templates
+from contactbench.pipeline.workbench.steps import Step
+from contactbench.widgets.phrases import PhraseBook, said
 
 from . import spoken as spoken_words
 from .spoken import Source, sources
@@ -47,7 +47,7 @@ def small(tmp_path, monkeypatch):
 
 
 def test_a_language_is_spoken_where_it_is_known(qapp, small, spoken):  # noqa: ARG001
-    from widgets.step_list import StepList
+    from contactbench.widgets.step_list import StepList
 
     spoken("de")
     steps = StepList()
@@ -111,7 +111,7 @@ def test_words_that_would_stay_english_are_found(tmp_path, monkeypatch, line, co
 
 @pytest.mark.parametrize("language", OTHERS)
 def test_the_file_of_a_language_is_that_of_the_source(spoken_files, language):
-    """After a string has changed: ``python -m app.translation update``, then translate what is new."""
+    """After a string has changed: ``python -m contactbench.app.translation update``, then translate what is new."""
     wanted = {(each.context, each.text) for source in spoken_files for each in source.strings}
     assert {(context, text) for context, text, _ in _messages(language)} == wanted
 
@@ -132,7 +132,7 @@ def test_numbers_and_names_are_put_into_the_same_places(language):
 
 @pytest.mark.parametrize("language", OTHERS)
 def test_the_phrase_book_holds_what_pipeline_says(language):
-    """After a sentence has changed: ``python -m app.translation update``, then translate what is new."""
+    """After a sentence has changed: ``python -m contactbench.app.translation update``, then translate what is new."""
     book = translation.sentences(language)
     assert book.keys() == set(templates(translation._PIPELINE))
     for text, made in book.items():

@@ -9,16 +9,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QInputDialog, QWidget
 from workbench.touch_session import STEPWISE, make_session, press
 
-from app.bench import Bench, Weight
-from app.pages.verify import VerifyPage
-from pipeline.kernel import Reason
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.live_moment import Reading
-from pipeline.workbench.markers import Markers, kept
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.scene import Scene
-from widgets.scene.scene import Pick
+from contactbench.app.bench import Bench, Weight
+from contactbench.app.pages.verify import VerifyPage
+from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.live_moment import Reading
+from contactbench.pipeline.workbench.markers import Markers, kept
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene.scene import Pick
 
 READY = StepStatus(StepState.READY, "")
 LONG = 30_000

@@ -9,7 +9,7 @@ from driving.hand import Hand, rest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QWidget
 
-from widgets.theme import use_theme
+from contactbench.widgets.theme import use_theme
 
 LONG = 180.0  # s: on a machine with other work
 
@@ -135,7 +135,10 @@ def export(hand, bundle):
 def contactbench(*words):
     """Run a command without a screen; what it prints."""
     done = subprocess.run(
-        [sys.executable, "-m", "app.cli", *map(str, words)], capture_output=True, text=True, check=False
+        [sys.executable, "-m", "contactbench.app.cli", *map(str, words)],
+        capture_output=True,
+        text=True,
+        check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout

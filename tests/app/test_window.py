@@ -12,11 +12,11 @@ from PySide6.QtGui import QUndoCommand, QWheelEvent
 from PySide6.QtWidgets import QApplication, QDoubleSpinBox, QScrollArea, QVBoxLayout, QWidget
 from shiboken6 import isValid
 
-from app.settings import Settings
-from app.window_wheels import guard_wheels
-from pipeline.errors import InputError
-from pipeline.session import Session
-from pipeline.workbench.steps import Step
+from contactbench.app.settings import Settings
+from contactbench.app.window_wheels import guard_wheels
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.steps import Step
 
 from .conftest import PlainPage, close, shown
 
@@ -329,7 +329,7 @@ def test_a_scene_that_cannot_be_made_gives_the_session_back(qtbot, make_window, 
     Session.create(tmp_path / "a").close()
     told = []
     monkeypatch.setattr("sys.excepthook", lambda _kind, error, _trace: told.append(str(error)))
-    monkeypatch.setattr("widgets.scene.Scene.__init__", broken)
+    monkeypatch.setattr("contactbench.widgets.scene.Scene.__init__", broken)
     window = make_window()
     window.sessions.open(tmp_path / "a")
     qtbot.waitUntil(lambda: bool(told), timeout=LONG)

@@ -3,8 +3,8 @@ import time
 import numpy as np
 import pytest
 
-from assets import PROBE_NAMES, make, surface, tessellate
-from assets.fronts import Fronts
+from contactbench.assets import PROBE_NAMES, make, surface, tessellate
+from contactbench.assets.fronts import Fronts
 
 SIZES = (300, 500, 1000, 1234, 2000, 5001, 20_000, 100_000)
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-import assets
-from assets import PROBE_NAMES, contact_region, make, surface
+from contactbench import assets
+from contactbench.assets import PROBE_NAMES, contact_region, make, surface
 
 
 def areas(vertices, faces):

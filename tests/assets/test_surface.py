@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from assets import PROBE_NAMES, surface
+from contactbench.assets import PROBE_NAMES, surface
 
 
 @pytest.fixture(params=PROBE_NAMES)

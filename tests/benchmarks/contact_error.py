@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh import Probe
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
 
 from .stranger import sample
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
+from contactbench import assets
 
 from .solids import (
     Box,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
-from pipeline.calibration import GravityModel
+from contactbench.pipeline.calibration import GravityModel
 
 FORCE, TORQUE = slice(0, 3), slice(3, 6)
 WHITE = np.repeat([0.05, 0.0014], 3)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
-from pipeline.calibration import (
+from contactbench.pipeline.calibration import (
     PARAMETERS,
     Calibration,
     ContactTask,
@@ -21,11 +21,11 @@ from pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from pipeline.calibration.fit import UNKNOWN
-from pipeline.calibration.model import prediction_jacobian
-from pipeline.calibration.poses import stack
-from pipeline.calibration.wording import plain
-from pipeline.simulation.weighing import draw_load, draw_weighing, weigh
+from contactbench.pipeline.calibration.fit import UNKNOWN
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.calibration.wording import plain
+from contactbench.pipeline.simulation.weighing import draw_load, draw_weighing, weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 EXACT = PoseNoise(1e-12, 1e-12)

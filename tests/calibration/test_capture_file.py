@@ -12,16 +12,16 @@ from calibration.streams import Recording, stream
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.calibration import Level, calibrate
-from pipeline.calibration.files.capture_file import Capturing, capture_file, in_order
-from pipeline.calibration.files.capture_recording import read_any_poses
-from pipeline.calibration.files.pose_csv import PoseFileError
-from pipeline.calibration.stillness import find_captures
-from pipeline.contact.wrench_csv import WrenchFileError
-from pipeline.demo.files import write_csv
-from pipeline.errors import InputError
-from pipeline.tables import TableReader, Wording
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration import Level, calibrate
+from contactbench.pipeline.calibration.files.capture_file import Capturing, capture_file, in_order
+from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
+from contactbench.pipeline.calibration.files.pose_csv import PoseFileError
+from contactbench.pipeline.calibration.stillness import find_captures
+from contactbench.pipeline.contact.wrench_csv import WrenchFileError
+from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.tables import TableReader, Wording
 
 COLUMNS = ("t", "fx", "fy", "fz", "mx", "my", "mz", "qw", "qx", "qy", "qz")
 

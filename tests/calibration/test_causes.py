@@ -20,11 +20,11 @@ from calibration.diagnosis_cases import (
 )
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseNoise, PoseSample
-from pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
-from pipeline.calibration.diagnosis.odds import in_words
-from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.orientation import Convention, Kind
+from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
+from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
+from contactbench.pipeline.calibration.diagnosis.odds import in_words
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.orientation import Convention, Kind
 
 SURE = 0.75  # odds of 3 to 1
 WEIGHED = Prior(mass=LOAD.mass)

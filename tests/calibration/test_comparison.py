@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from pipeline.calibration import Level, calibrate
-from pipeline.calibration.mounting import estimate_mount
-from pipeline.calibration.poses import stack
-from pipeline.calibration.reml import NoisePrior, fit_with_noise, over_unknowns
-from pipeline.study import wrong_models as wrong
+from contactbench.pipeline.calibration import Level, calibrate
+from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise, over_unknowns
+from contactbench.pipeline.study import wrong_models as wrong
 
 SETS = 12
 

@@ -14,15 +14,15 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, Level, PoseSample, Verdict, calibrate
-from pipeline.calibration.files.compensate_file import HEADER, CompensateSummary, compensate_file
-from pipeline.calibration.orientation import Convention, Kind
-from pipeline.contact import ContactSolver
-from pipeline.contact.contact_csv import REASONS
-from pipeline.contact.stream import WrenchFileError, locate_file
-from pipeline.errors import InputError
-from pipeline.mesh import load_probe
-from pipeline.robot import Robot
+from contactbench.pipeline.calibration import GravityModel, Level, PoseSample, Verdict, calibrate
+from contactbench.pipeline.calibration.files.compensate_file import HEADER, CompensateSummary, compensate_file
+from contactbench.pipeline.calibration.orientation import Convention, Kind
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.contact.contact_csv import REASONS
+from contactbench.pipeline.contact.stream import WrenchFileError, locate_file
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.robot import Robot
 
 CHANNELS = "fx,fy,fz,mx,my,mz"
 QUATERNION = f"t,{CHANNELS},qw,qx,qy,qz"

@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import ContactTask, GravityModel
-from pipeline.calibration.contact_error import (
+from contactbench.pipeline.calibration import ContactTask, GravityModel
+from contactbench.pipeline.calibration.contact_error import (
     contact_sensitivity,
     force_directions,
     largest_eigenvalue,
     usual_task,
     worst_sigma,
 )
-from pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
+from contactbench.pipeline.contact import ContactSolver, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
 
 SENSOR = np.repeat([0.05, 0.0014], 3)
 

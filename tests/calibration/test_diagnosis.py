@@ -24,12 +24,12 @@ from calibration.diagnosis_cases import (
 )
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseError, PoseNoise, PoseSample
-from pipeline.calibration.diagnosis.diagnose import diagnose
-from pipeline.calibration.diagnosis.hypotheses import RawOrientations
-from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.errors import InputError
-from pipeline.simulation.weighing import draw_load, draw_noise, weigh
+from contactbench.pipeline.calibration import GravityModel, PoseError, PoseNoise, PoseSample
+from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
+from contactbench.pipeline.calibration.diagnosis.hypotheses import RawOrientations
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.weighing import draw_load, draw_noise, weigh
 
 # ---- what residuals do not tell ------------------------------------------------------------------
 

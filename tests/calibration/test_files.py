@@ -16,8 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline import __version__
-from pipeline.calibration import (
+from contactbench import __version__
+from contactbench.pipeline.calibration import (
     Calibration,
     ContactTask,
     GravityModel,
@@ -26,8 +26,8 @@ from pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from pipeline.calibration.files import calibration_file as files_module
-from pipeline.calibration.files.calibration_file import (
+from contactbench.pipeline.calibration.files import calibration_file as files_module
+from contactbench.pipeline.calibration.files.calibration_file import (
     CalibrationFileError,
     Mount,
     Source,
@@ -36,7 +36,7 @@ from pipeline.calibration.files.calibration_file import (
     load_record,
     save_calibration,
 )
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 WHEN = datetime(2026, 3, 1, 12, 30, 15, 999, tzinfo=timezone(timedelta(hours=2)))
 

@@ -7,20 +7,20 @@ from hypothesis import strategies as st
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseNoise
-from pipeline.calibration.fit import (
+from contactbench.pipeline.calibration import GravityModel, PoseNoise
+from contactbench.pipeline.calibration.fit import (
     UNKNOWN,
     Fit,
     maximise,
     parameter_covariance,
     two_stage,
 )
-from pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, prediction_jacobian
-from pipeline.calibration.observability import observe
-from pipeline.calibration.poses import Stack, stack
-from pipeline.calibration.reml import NoisePrior, fit_with_noise
-from pipeline.errors import InputError
-from pipeline.simulation.weighing import draw_load, draw_weighing, weigh
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, GRAVITY, prediction_jacobian
+from contactbench.pipeline.calibration.observability import observe
+from contactbench.pipeline.calibration.poses import Stack, stack
+from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.weighing import draw_load, draw_weighing, weigh
 
 NOTHING = np.zeros(6)
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import PARAMETERS, GravityModel
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration import PARAMETERS, GravityModel
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
     GRAVITY,
@@ -14,8 +14,8 @@ from pipeline.calibration.model import (
     cross_matrix,
     prediction_jacobian,
 )
-from pipeline.contact import WrenchNoise
-from pipeline.errors import InputError
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.errors import InputError
 
 MODEL = GravityModel([0.3, -0.2, -6.0], [5.0, -3.0, 400.0], [0.01, -0.02, 0.06], [0.1, -0.2, 0.3])
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
-from pipeline.calibration import (
+from contactbench.pipeline.calibration import (
     PARAMETERS,
     ContactTask,
     GravityModel,
@@ -17,9 +17,9 @@ from pipeline.calibration import (
     PoseNoise,
     PoseSample,
 )
-from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.calibration.mounting import MountCalibration, estimate_mount
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.mounting import MountCalibration, estimate_mount
+from contactbench.pipeline.errors import InputError
 
 TILTED_90 = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])
 

@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.orientation import Convention, Kind, RowError, rotations
-from pipeline.errors import InputError
-from pipeline.robot import Robot
+from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
 
 ANGLE = st.floats(-720, 720, allow_subnormal=False)
 ANGLES = st.tuples(ANGLE, ANGLE, ANGLE)

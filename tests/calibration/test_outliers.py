@@ -7,12 +7,19 @@ import pytest
 from scipy.spatial.transform import Rotation
 from scipy.special import ndtr
 
-from pipeline.calibration import Calibration, GravityModel, Level, PoseNoise, PoseSample, calibrate
-from pipeline.calibration.fit import maximise, nothing_beside, two_stage
-from pipeline.calibration.outliers import LARGEST_SHARE, deviates, limit
-from pipeline.calibration.poses import stack
-from pipeline.calibration.reml import NoisePrior, fit_with_noise
-from pipeline.simulation.weighing import bump, draw_load, draw_weighing, weigh
+from contactbench.pipeline.calibration import (
+    Calibration,
+    GravityModel,
+    Level,
+    PoseNoise,
+    PoseSample,
+    calibrate,
+)
+from contactbench.pipeline.calibration.fit import maximise, nothing_beside, two_stage
+from contactbench.pipeline.calibration.outliers import LARGEST_SHARE, deviates, limit
+from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
+from contactbench.pipeline.simulation.weighing import bump, draw_load, draw_weighing, weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])

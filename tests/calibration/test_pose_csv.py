@@ -11,11 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseSample
-from pipeline.calibration.files.pose_csv import POSE_LIMIT, PoseFileError, PoseTable, read_poses, write_poses
-from pipeline.calibration.orientation import Convention, Kind
-from pipeline.errors import InputError
-from pipeline.robot import Robot
+from contactbench.pipeline.calibration import GravityModel, PoseSample
+from contactbench.pipeline.calibration.files.pose_csv import (
+    POSE_LIMIT,
+    PoseFileError,
+    PoseTable,
+    read_poses,
+    write_poses,
+)
+from contactbench.pipeline.calibration.orientation import Convention, Kind
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
 
 WRENCH = "fx,fy,fz,mx,my,mz"
 QUATERNION = f"qw,qx,qy,qz,{WRENCH}"

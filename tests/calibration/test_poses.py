@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import PoseError, PoseSample
-from pipeline.calibration.poses import named, stack
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration import PoseError, PoseSample
+from contactbench.pipeline.calibration.poses import named, stack
+from contactbench.pipeline.errors import InputError
 
 ANGLES = st.floats(-10, 10, allow_subnormal=False)
 NAN, INF = float("nan"), float("inf")

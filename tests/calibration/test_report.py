@@ -16,13 +16,28 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import ContactTask, GravityModel, Level, PoseNoise, PoseSample, calibrate
-from pipeline.calibration.causes import Cause
-from pipeline.calibration.files.calibration_file import Source
-from pipeline.calibration.report.figures import _signed, error_map, in_time, lambert, numbers, steps, upright
-from pipeline.calibration.report.page import report_html, tilt_of, write_report
-from pipeline.calibration.wording import plain, with_sigma
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration import (
+    ContactTask,
+    GravityModel,
+    Level,
+    PoseNoise,
+    PoseSample,
+    calibrate,
+)
+from contactbench.pipeline.calibration.causes import Cause
+from contactbench.pipeline.calibration.files.calibration_file import Source
+from contactbench.pipeline.calibration.report.figures import (
+    _signed,
+    error_map,
+    in_time,
+    lambert,
+    numbers,
+    steps,
+    upright,
+)
+from contactbench.pipeline.calibration.report.page import report_html, tilt_of, write_report
+from contactbench.pipeline.calibration.wording import plain, with_sigma
+from contactbench.pipeline.errors import InputError
 
 MODEL = GravityModel([0.05, -0.1, -9.0], [3.0, -4.0, 6.0], [0.004, -0.002, 0.06], [0.1, 0.05, -0.2])
 NOISE = PoseNoise(0.012, 0.0004)
@@ -462,7 +477,7 @@ def test_same_calibration_gives_the_same_bytes_in_another_process(tmp_path):
 
 def test_matplotlib_is_not_imported_before_a_report_is_made():
     loaded = "'matplotlib' in sys.modules or 'jinja2' in sys.modules"
-    code = f"import sys, pipeline.calibration.report.page; sys.exit({loaded})"
+    code = f"import sys, contactbench.pipeline.calibration.report.page; sys.exit({loaded})"
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 

@@ -10,9 +10,9 @@ from calibration.streams import MODEL, WHITE, coloured, stream
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.calibration import PoseNoise, calibrate
-from pipeline.calibration.poses import PoseError
-from pipeline.calibration.stillness import (
+from contactbench.pipeline.calibration import PoseNoise, calibrate
+from contactbench.pipeline.calibration.poses import PoseError
+from contactbench.pipeline.calibration.stillness import (
     LimitedBy,
     StillnessDetector,
     StillnessSettings,
@@ -20,7 +20,7 @@ from pipeline.calibration.stillness import (
     averaging_time,
     find_captures,
 )
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 RATE = 200.0
 

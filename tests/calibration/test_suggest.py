@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import (
+from contactbench.pipeline.calibration import (
     Calibration,
     ContactTask,
     GravityModel,
@@ -16,14 +16,14 @@ from pipeline.calibration import (
     PoseSample,
     calibrate,
 )
-from pipeline.calibration.fit import UNKNOWN
-from pipeline.calibration.model import prediction_jacobian
-from pipeline.calibration.reachable import Reachable, by_hand, by_robot, describe
-from pipeline.calibration.suggest import Plan, plan_error, plan_poses, suggest_pose
-from pipeline.calibration.wording import plain
-from pipeline.errors import InputError
-from pipeline.robot import Robot
-from pipeline.simulation.weighing import weigh
+from contactbench.pipeline.calibration.fit import UNKNOWN
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.reachable import Reachable, by_hand, by_robot, describe
+from contactbench.pipeline.calibration.suggest import Plan, plan_error, plan_poses, suggest_pose
+from contactbench.pipeline.calibration.wording import plain
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.simulation.weighing import weigh
 
 NOISE = PoseNoise(0.05, 0.002)
 LOAD = GravityModel([0.1, -0.2, -6.0], [5.0, -3.0, 2.0], [0.01, 0.0, 0.06], [0.1, 0.2, 0.3])

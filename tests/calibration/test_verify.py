@@ -9,9 +9,17 @@ from calibration.streams import MODEL
 from scipy.spatial.transform import Rotation
 from scipy.stats import kstest
 
-from pipeline.calibration import ContactTask, GravityModel, Level, Limits, PoseNoise, PoseSample, calibrate
-from pipeline.calibration.verify import verify_still
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration import (
+    ContactTask,
+    GravityModel,
+    Level,
+    Limits,
+    PoseNoise,
+    PoseSample,
+    calibrate,
+)
+from contactbench.pipeline.calibration.verify import verify_still
+from contactbench.pipeline.errors import InputError
 
 SIGMA = np.repeat([0.01, 3e-4], 3)
 

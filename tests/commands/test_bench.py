@@ -9,8 +9,8 @@ import sys
 import numpy as np
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.recording import read_recording
+from contactbench.pipeline import cli
+from contactbench.pipeline.recording import read_recording
 
 SCRIPT = """# turn, touch, re-zero
 {"at": 0.1, "do": "turn_to", "rpy": [0, 30, 0], "seconds": 0.2}
@@ -110,7 +110,7 @@ def test_a_bad_script_ends_with_its_line(tmp_path):
 
 
 def test_serve_says_its_addresses_obeys_and_ends():
-    command = [sys.executable, "-m", "pipeline.cli", "bench", "serve", "--probe", "linear"]
+    command = [sys.executable, "-m", "contactbench.pipeline.cli", "bench", "serve", "--probe", "linear"]
     with subprocess.Popen(
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     ) as process:

@@ -10,13 +10,13 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 from weighing_files import TRUTH, spun, weighed, write_quaternions
 
-from pipeline import cli
-from pipeline.calibration.files.pose_csv import write_poses
-from pipeline.calibration.poses import PoseSample
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh import save_probe
-from pipeline.session import Session
-from pipeline.study.verification import mesh
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration.files.pose_csv import write_poses
+from contactbench.pipeline.calibration.poses import PoseSample
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import save_probe
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.study.verification import mesh
 
 G, RATE = 9.80665, 200
 SAMPLE = np.repeat([0.05, 0.002], 3)

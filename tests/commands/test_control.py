@@ -5,9 +5,9 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.study.bundle_example import example_config
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.study.bundle_example import example_config
 
 runner = CliRunner()
 

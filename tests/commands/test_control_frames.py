@@ -6,9 +6,9 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.control.frames import Beginning, Frame, read_line
-from pipeline.study.bundle_example import example_config
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.control.frames import Beginning, Frame, read_line
+from contactbench.pipeline.study.bundle_example import example_config
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +44,13 @@ def test_frames_and_json_are_not_both_given(bundle):
 
 @pytest.mark.skipif(sys.platform == "win32", reason="a pipe there breaks otherwise")
 def test_it_goes_back_when_nobody_reads_any_more(bundle):
-    command = [sys.executable, "-P", "-m", "pipeline.cli", *arguments(bundle, "--frames", "--real-time")]
+    command = [
+        sys.executable,
+        "-P",
+        "-m",
+        "contactbench.pipeline.cli",
+        *arguments(bundle, "--frames", "--real-time"),
+    ]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
         assert isinstance(read_line(process.stdout.readline()), Beginning)
         process.stdout.close()

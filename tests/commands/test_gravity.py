@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 from weighing_files import NOISE, TRUTH, spun, weighed, write_euler, write_quaternions
 
-from pipeline import cli
-from pipeline.calibration.files.calibration_file import load_calibration, load_record
-from pipeline.simulation.weighing import bump, weigh
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration.files.calibration_file import load_calibration, load_record
+from contactbench.pipeline.simulation.weighing import bump, weigh
 
 EULER = ("--euler", "xyz")
 

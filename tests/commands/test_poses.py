@@ -11,11 +11,11 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 from weighing_files import NOISE, TRUTH, spun, write_euler
 
-from pipeline import cli
-from pipeline.calibration import calibrate
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.robot import Robot
-from pipeline.simulation.weighing import weigh
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.simulation.weighing import weigh
 
 ARM = ("--robot", "elfin3", "--joints", "0,-17,69,0,52,0")
 

@@ -11,11 +11,11 @@ from contact_cases import bundled
 from mesh.shell.housings import housing
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.mesh import Probe, load_probe, save_probe
-from pipeline.mesh.shell import Shell
-from pipeline.preparation.ladder import ExpectedTouches
-from pipeline.preparation.ladder.touches import draw_parts
+from contactbench.pipeline import cli
+from contactbench.pipeline.mesh import Probe, load_probe, save_probe
+from contactbench.pipeline.mesh.shell import Shell
+from contactbench.pipeline.preparation.ladder import ExpectedTouches
+from contactbench.pipeline.preparation.ladder.touches import draw_parts
 
 
 def invoke(*arguments):
@@ -306,7 +306,7 @@ def test_prepare_refuses_nonsense_before_the_work(hollow, tmp_path, monkeypatch,
     def never(*_, **__):
         raise AssertionError("the work was begun")
 
-    monkeypatch.setattr("pipeline.preparation.prepare.import_mesh", never)
+    monkeypatch.setattr("contactbench.pipeline.preparation.prepare.import_mesh", never)
     result = invoke("prepare", hollow, *arguments, "--out", tmp_path / "probe.ply")
     assert result.exit_code == 2, result.stderr
 

@@ -17,14 +17,20 @@ import pytest
 from recording.recording_cases import record
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.commands.record import Changes, wait
-from pipeline.devices.drive import Health, State
-from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.devices.protocols import Counters
-from pipeline.recording import Event, RecordingError, RecordingReader, RecordingWriter, read_recording
-from pipeline.recording.recorder import Recorder
-from pipeline.study.fault_lines import resting
+from contactbench.pipeline import cli
+from contactbench.pipeline.commands.record import Changes, wait
+from contactbench.pipeline.devices.drive import Health, State
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.recording import (
+    Event,
+    RecordingError,
+    RecordingReader,
+    RecordingWriter,
+    read_recording,
+)
+from contactbench.pipeline.recording.recorder import Recorder
+from contactbench.pipeline.study.fault_lines import resting
 
 
 def invoke(*arguments):
@@ -144,7 +150,7 @@ def test_a_closed_standard_error_does_not_end_a_recording(tmp_path):
     read, write = os.pipe()
     os.close(read)
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
-        run = "from pipeline.cli import main; main()"
+        run = "from contactbench.pipeline.cli import main; main()"
         command = [sys.executable, "-c", run, "record", device.url, "--out", str(out), "--seconds", "1"]
         subprocess.run(command, stderr=write, check=False, timeout=30)
     os.close(write)
@@ -166,7 +172,7 @@ def test_a_rezero_is_told_at_the_end(tmp_path):
 def test_signals_end_a_recording_well_however_often_they_come(tmp_path, number):
     out = tmp_path / "a.mcap"
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
-        run = "from pipeline.cli import main; main()"
+        run = "from contactbench.pipeline.cli import main; main()"
         command = [sys.executable, "-c", run, "record", device.url, "--out", str(out)]
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
             line = process.stderr.readline()
@@ -439,7 +445,7 @@ def test_a_closed_terminal_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
     def broken(*_: object) -> None:
         raise BrokenPipeError
 
-    monkeypatch.setattr("pipeline.commands.record.say", broken)
+    monkeypatch.setattr("contactbench.pipeline.commands.record.say", broken)
     Device().is_now(State.STREAMING)
 
 

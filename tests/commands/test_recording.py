@@ -12,11 +12,11 @@ from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.commands.recording import recording_app
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
-from pipeline.recording.ros2_types import DEFINITIONS, WRENCH_STAMPED
+from contactbench.pipeline import cli
+from contactbench.pipeline.commands.recording import recording_app
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
+from contactbench.pipeline.recording.ros2_types import DEFINITIONS, WRENCH_STAMPED
 
 
 @pytest.fixture(scope="module")

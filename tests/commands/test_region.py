@@ -13,10 +13,10 @@ import trimesh
 import typer
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.commands.region import region_app
-from pipeline.mesh import Probe, load_probe, save_probe
-from pipeline.mesh.regions import undo_file
+from contactbench.pipeline import cli
+from contactbench.pipeline.commands.region import region_app
+from contactbench.pipeline.mesh import Probe, load_probe, save_probe
+from contactbench.pipeline.mesh.regions import undo_file
 
 app = typer.Typer(cls=cli._Commands, rich_markup_mode=None)
 app.add_typer(region_app, name="region")

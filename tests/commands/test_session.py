@@ -6,11 +6,11 @@ import pytest
 from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 
-from pipeline.cli import app
-from pipeline.commands.session import session_app
-from pipeline.recording import RecordingInfo, RecordingWriter
-from pipeline.session import Session, SessionError
-from pipeline.session.recompute import RECOMPUTE, settings_of
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.commands.session import session_app
+from contactbench.pipeline.recording import RecordingInfo, RecordingWriter
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.recompute import RECOMPUTE, settings_of
 
 
 def invoke(*arguments):
@@ -135,7 +135,7 @@ def test_an_error_is_one_json_object_and_2(tmp_path, arguments):
 
 
 def test_every_command_that_writes_says_so_where_nothing_can_be_written(weighed_session, poses, monkeypatch):
-    monkeypatch.setattr("pipeline.session.lock.writable", lambda _path: False)
+    monkeypatch.setattr("contactbench.pipeline.session.lock.writable", lambda _path: False)
     before = {str(file): file.read_bytes() for file in weighed_session.rglob("*") if file.is_file()}
     for command in (
         ("add", weighed_session, poses, "--kind", "poses"),

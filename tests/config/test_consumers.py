@@ -15,18 +15,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline import __version__
-from pipeline.calibration import GravityModel, PoseSample, calibrate
-from pipeline.config import VerticalResidual, ft_calib_yaml, ros2_yaml, vertical_residual
-from pipeline.config.consumers import (
+from contactbench import __version__
+from contactbench.pipeline.calibration import GravityModel, PoseSample, calibrate
+from contactbench.pipeline.config import VerticalResidual, ft_calib_yaml, ros2_yaml, vertical_residual
+from contactbench.pipeline.config.consumers import (
     CHECKED,
     regenerate_ft_calib_yaml,
     regenerate_ros2_yaml,
     yaml_number,
 )
-from pipeline.config.runtime.model import VERSION
-from pipeline.config.vertical import down_along_z
-from pipeline.errors import InputError
+from contactbench.pipeline.config.runtime.model import VERSION
+from contactbench.pipeline.config.vertical import down_along_z
+from contactbench.pipeline.errors import InputError
 
 ROS_PAGE = Path(__file__).parents[2] / "docs" / "ros.md"
 TILTED_BY = 1.3  # deg

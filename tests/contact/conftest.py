@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from contact_cases import REAL_PROBES, bundled
 
-import assets
-from pipeline.contact import ContactSolver
-from pipeline.mesh import MeshWarning, Probe, load_probe
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.mesh import MeshWarning, Probe, load_probe
 
 
 @pytest.fixture(scope="session", params=assets.PROBE_NAMES)

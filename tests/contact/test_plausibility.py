@@ -8,11 +8,11 @@ import pytest
 from contact_cases import bundled
 from scipy.spatial.transform import Rotation
 
-import assets
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.contact.plausibility import ROWS, Sample
-from pipeline.contact.stream import locate_file
-from pipeline.simulation import add_noise, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.contact.plausibility import ROWS, Sample
+from contactbench.pipeline.contact.stream import locate_file
+from contactbench.pipeline.simulation import add_noise, draw_touches
 
 
 @pytest.fixture(scope="module", params=assets.PROBE_NAMES)
@@ -94,7 +94,7 @@ def test_opposite_signs_are_told_where_the_back_cannot_be_touched():
             np.column_stack([corner, corner + 10, corner + 9]),
         ]
     )
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
     probe = Probe.from_arrays(vertices, faces)
     rng = np.random.default_rng(3)

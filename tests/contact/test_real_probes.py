@@ -7,9 +7,9 @@ import pytest
 from contact_cases import REAL_PROBES
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.contact import ContactSolver, Reason
-from pipeline.mesh import MeshWarning, load_probe
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.contact import ContactSolver, Reason
+from contactbench.pipeline.mesh import MeshWarning, load_probe
 
 
 def outer_touches(probe, count, rng):
@@ -17,7 +17,7 @@ def outer_touches(probe, count, rng):
     pytest.importorskip(
         "embreex", reason="Embree's bindings (extra 'rivals') tell the outside from the inside here"
     )
-    from pipeline.contact.wrench_axis import EmbreeAxis
+    from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 
     axis = EmbreeAxis(ContactSolver(probe))
     middle = probe.vertices[probe.faces].mean(axis=1)

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from contact_cases import ball, bundled, random_wrenches
 
-import assets
-from pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 
 TOP = np.array([0.0, 0.0, 0.13])
 

@@ -6,10 +6,18 @@ import numpy as np
 import pytest
 from contact_cases import ball, bundled, random_wrenches
 
-import assets
-from pipeline.contact import Contact, ContactSolver, Gates, Reason, TouchModel, WrenchNoise, methods
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import (
+    Contact,
+    ContactSolver,
+    Gates,
+    Reason,
+    TouchModel,
+    WrenchNoise,
+    methods,
+)
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 
 
 def solve_4x4(wrench, normal, offset):

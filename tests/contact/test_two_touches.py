@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from contact_cases import bundled
 
-import assets
-from pipeline.contact import ContactSolver, Reason, WrenchNoise
-from pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise
+from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 
 FORCE_N, SECOND_N = 8.0, 5.0
 BEFORE, RAMP, AFTER = 60, 10, 60  # samples; 50 ms of ramp at 200 Hz

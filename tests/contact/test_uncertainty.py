@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from contact_cases import bundled
 
-import assets
-from pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_touches
 
 # A flat face 100 mm from the sensor origin, large enough that no sample leaves it.
 _PLATE = Probe.from_arrays(

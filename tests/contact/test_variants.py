@@ -6,17 +6,17 @@ import sys
 
 import pytest
 
-from pipeline import kernel
-from pipeline.kernel import _cpu
+from contactbench.pipeline import kernel
+from contactbench.pipeline.kernel import _cpu
 
 _SCRIPT = """
 import hashlib, sys
 import numpy as np
-import assets
-from pipeline import kernel
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise, draw_slide
+from contactbench import assets
+from contactbench.pipeline import kernel
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_slide
 rng = np.random.default_rng(1)
 wrenches = add_noise(draw_slide(assets.surface("t-shape"), 5000, rng).wrenches, WrenchNoise(), rng)
 vertices, faces = assets.make("t-shape", 2000)
@@ -53,7 +53,7 @@ def test_same_bits_on_every_instruction_set():
 
 def test_an_unknown_variant_is_refused():
     done = subprocess.run(
-        [sys.executable, "-c", "import pipeline.kernel"],
+        [sys.executable, "-c", "import contactbench.pipeline.kernel"],
         env=os.environ | {"CONTACTBENCH_KERNEL": "sse9"},
         capture_output=True,
         text=True,

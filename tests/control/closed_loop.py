@@ -6,17 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.calibration import GravityModel
-from pipeline.contact import Gates, WrenchNoise
-from pipeline.control.arms import CartesianMount
-from pipeline.control.controller import Controller, Mount
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.sensing import Intake
-from pipeline.control.settings import ControlSettings
-from pipeline.devices.sample import WrenchSample
-from pipeline.simulation.scenes import Payload, Tissue
-from pipeline.simulation.scenes.platform import PlatformScene
-from pipeline.study.reproduce.touching import model_of, truth_of
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.contact import Gates, WrenchNoise
+from contactbench.pipeline.control.arms import CartesianMount
+from contactbench.pipeline.control.controller import Controller, Mount
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.sensing import Intake
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.simulation.scenes import Payload, Tissue
+from contactbench.pipeline.simulation.scenes.platform import PlatformScene
+from contactbench.pipeline.study.reproduce.touching import model_of, truth_of
 
 PAYLOAD = Payload()
 QUICK = {"step": 0.0025, "places": 40}

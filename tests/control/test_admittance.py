@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from pipeline.control.admittance import Admittance
-from pipeline.errors import InputError
+from contactbench.pipeline.control.admittance import Admittance
+from contactbench.pipeline.errors import InputError
 
 sizes = st.floats(0.05, 50.0)
 

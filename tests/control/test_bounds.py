@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from pipeline.control.bounds import tilt_bound
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.settings import ControlSettings
-from pipeline.control.tilt import Reading, Tilt
-from pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.control.bounds import tilt_bound
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.study.reproduce.touching import model_of
 
 
 @pytest.fixture(scope="module")

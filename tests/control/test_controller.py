@@ -3,17 +3,17 @@ import pytest
 from config.runtime.bundles import example
 from control.closed_loop import Ramp, gravity, loop, settings_for
 
-from pipeline.contact import Gates, WrenchNoise
-from pipeline.control.arms import CartesianMount
-from pipeline.control.controller import Controller, Mount
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.margins import loop_of, margins
-from pipeline.control.sensing import Intake
-from pipeline.control.settings import Variant
-from pipeline.control.states import State
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.platform_motion import PlatformMotion
-from pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.contact import Gates, WrenchNoise
+from contactbench.pipeline.control.arms import CartesianMount
+from contactbench.pipeline.control.controller import Controller, Mount
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.margins import loop_of, margins
+from contactbench.pipeline.control.sensing import Intake
+from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
+from contactbench.pipeline.study.reproduce.touching import model_of
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from pipeline.control.faults import FaultKind, FaultyLine, ScriptedFault
-from pipeline.devices.sample import WrenchSample
-from pipeline.errors import InputError
+from contactbench.pipeline.control.faults import FaultKind, FaultyLine, ScriptedFault
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.errors import InputError
 
 JUMP = (1.0, 2.0, 3.0, 0.1, 0.2, 0.3)
 

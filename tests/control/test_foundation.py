@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.simulation.scenes.tissue import spread
-from pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.simulation.scenes.tissue import spread
+from contactbench.pipeline.study.reproduce.touching import model_of
 
 
 @pytest.fixture(scope="module", params=["convex", "linear", "t-shape"])

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from pipeline.control.frames import (
+from contactbench.pipeline.control.frames import (
     BEGIN,
     END,
     FRAME,
@@ -16,11 +16,11 @@ from pipeline.control.frames import (
     line_of,
     read_line,
 )
-from pipeline.control.loop import Loop
-from pipeline.control.states import State
-from pipeline.control.virtual import virtual_robot
-from pipeline.errors import InputError
-from pipeline.study.bundle_example import example_config
+from contactbench.pipeline.control.loop import Loop
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.virtual import virtual_robot
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.bundle_example import example_config
 
 
 @pytest.fixture(scope="module")

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from pipeline.calibration import GravityModel
-from pipeline.control.arms import CartesianMount
-from pipeline.control.inertia import Inertia
-from pipeline.simulation.scenes import Payload
-from pipeline.simulation.scenes.platform import PlatformScene
-from pipeline.study.reproduce.touching import truth_of
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.control.arms import CartesianMount
+from contactbench.pipeline.control.inertia import Inertia
+from contactbench.pipeline.simulation.scenes import Payload
+from contactbench.pipeline.simulation.scenes.platform import PlatformScene
+from contactbench.pipeline.study.reproduce.touching import truth_of
 
 PAYLOAD = Payload()
 

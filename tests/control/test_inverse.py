@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.control.arms import CartesianMount
-from pipeline.control.axes import pressing, turn_of
-from pipeline.control.inverse import Held, solve_step, tip_jacobian
+from contactbench.pipeline.control.arms import CartesianMount
+from contactbench.pipeline.control.axes import pressing, turn_of
+from contactbench.pipeline.control.inverse import Held, solve_step, tip_jacobian
 
 LEVER = np.array([0.01, -0.02, -0.14])
 

@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.control.faults import FaultKind, ScriptedFault
-from pipeline.control.loop import Loop, run_loop
-from pipeline.control.settings import ControlSettings
-from pipeline.control.states import State
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import PlatformMotion
-from pipeline.study.control_rig import foundation_of, make_rig
+from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
+from contactbench.pipeline.control.loop import Loop, run_loop
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import PlatformMotion
+from contactbench.pipeline.study.control_rig import foundation_of, make_rig
 
 MOTION = PlatformMotion.along("ry", np.radians(5), 4.0, 3.0)
 

@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.margins import AXES, Loop, loop_of, margins, response, sweep
-from pipeline.control.settings import ControlSettings, Variant
-from pipeline.errors import InputError
-from pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.margins import AXES, Loop, loop_of, margins, response, sweep
+from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.reproduce.touching import model_of
 
 
 @pytest.fixture(scope="module")

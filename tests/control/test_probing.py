@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from pipeline.control.probing import StiffnessProbe
+from contactbench.pipeline.control.probing import StiffnessProbe
 
 
 def pressed(stiffness, *, noise=0.02, drift=0.0, seed=0):

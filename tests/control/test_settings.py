@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.settings import ControlSettings, for_tool
-from pipeline.errors import InputError
-from pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.settings import ControlSettings, for_tool
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.reproduce.touching import model_of
 
 
 @pytest.mark.parametrize("name", ["convex", "linear", "t-shape"])

@@ -1,14 +1,14 @@
-"""Every line of the table in `pipeline.control.states`, and that nothing else happens."""
+"""Every line of the table in `contactbench.pipeline.control.states`, and that nothing else happens."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pipeline.control.inverse import Held, Step
-from pipeline.control.sensing import Fault, Sensed
-from pipeline.control.settings import ControlSettings
-from pipeline.control.states import Safety, State
+from contactbench.pipeline.control.inverse import Held, Step
+from contactbench.pipeline.control.sensing import Fault, Sensed
+from contactbench.pipeline.control.settings import ControlSettings
+from contactbench.pipeline.control.states import Safety, State
 
 DT = 0.02
 SETTINGS = ControlSettings()

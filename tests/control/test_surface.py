@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.control.foundation import USUAL_MODULUS, Foundation
-from pipeline.control.surface import Surface
-from pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
+from contactbench.pipeline.control.surface import Surface
+from contactbench.pipeline.study.reproduce.touching import model_of
 
 DT = 0.02
 DOWN = np.diag([1.0, -1.0, -1.0])

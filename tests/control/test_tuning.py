@@ -6,16 +6,16 @@ import math
 import numpy as np
 import pytest
 
-from pipeline.config.runtime.bench import ExportSettings
-from pipeline.config.runtime.settings_file import with_file
-from pipeline.control.content import settings_of
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.control.margins import AXES, loop_of, margins
-from pipeline.control.settings import Variant
-from pipeline.control.tuning import Wanted, rows_of, settings_content, spread_of, tune
-from pipeline.errors import InputError
-from pipeline.study.control_rig import foundation_of
-from pipeline.study.control_tuning import run
+from contactbench.pipeline.config.runtime.bench import ExportSettings
+from contactbench.pipeline.config.runtime.settings_file import with_file
+from contactbench.pipeline.control.content import settings_of
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.margins import AXES, loop_of, margins
+from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.control.tuning import Wanted, rows_of, settings_content, spread_of, tune
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.control_rig import foundation_of
+from contactbench.pipeline.study.control_tuning import run
 
 
 @pytest.mark.parametrize("variant", list(Variant))

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from pipeline import demo
-from pipeline.demo import bench, gravity, housing, picture
-from pipeline.errors import InputError
+from contactbench.pipeline import demo
+from contactbench.pipeline.demo import bench, gravity, housing, picture
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from pipeline import demo
-from pipeline.calibration.files.capture_recording import capture_recording
-from pipeline.demo import report
-from pipeline.recording import read_recording
+from contactbench.pipeline import demo
+from contactbench.pipeline.calibration.files.capture_recording import capture_recording
+from contactbench.pipeline.demo import report
+from contactbench.pipeline.recording import read_recording
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.demo import bench, checking
-from pipeline.demo.checking import CheckResult, check
-from pipeline.demo.tool import Tool, draw_tool
-from pipeline.errors import InputError
-from pipeline.recording import read_recording
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.demo import bench, checking
+from contactbench.pipeline.demo.checking import CheckResult, check
+from contactbench.pipeline.demo.tool import Tool, draw_tool
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import read_recording
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline import demo
+    from contactbench.pipeline import demo
 
 MARKERS, SEED = 15, 3
 NEEDED = ("touches.mcap", "calibration.json", "probe.ply", "probe.json")

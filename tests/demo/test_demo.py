@@ -11,16 +11,16 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline import cli, demo
-from pipeline.calibration.files.calibration_file import load_calibration
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.contact.methods import METHODS
-from pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touching
-from pipeline.demo.report import LIMIT
-from pipeline.demo.view import View
-from pipeline.errors import InputError
-from pipeline.mesh import load_probe
-from pipeline.mesh.engines import EngineError
+from contactbench.pipeline import cli, demo
+from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.contact.methods import METHODS
+from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touching
+from contactbench.pipeline.demo.report import LIMIT
+from contactbench.pipeline.demo.view import View
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.mesh.engines import EngineError
 
 if TYPE_CHECKING:
     pass

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from pipeline.devices.clock import SampleClock
-from pipeline.devices.emulate import SYNTHETIC, Fault, FaultEvent, Script, constant
-from pipeline.devices.emulate.models import BotaModel, RobotiqModel, SriModel
-from pipeline.devices.emulate.signals import Truth
-from pipeline.devices.protocols import bota, robotiq, sri
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.emulate import SYNTHETIC, Fault, FaultEvent, Script, constant
+from contactbench.pipeline.devices.emulate.models import BotaModel, RobotiqModel, SriModel
+from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.protocols import bota, robotiq, sri
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 
 PARSERS = {
     SriModel: lambda _: sri.SriParser(),

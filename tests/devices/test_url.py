@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.devices.url import STEPWISE, AddressError, Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import STEPWISE, AddressError, Carrier, DeviceAddress, Protocol
 
 parse = DeviceAddress.parse
 

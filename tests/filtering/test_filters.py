@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import signal
 
-from pipeline.errors import InputError
-from pipeline.filtering import KalmanFilter, LowPass
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
 
 RATE = 200.0
 NUMBERS = st.one_of(

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy import signal
 
-from pipeline.errors import InputError
-from pipeline.filtering import LowPass, spectrum, suggest_cutoff
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import LowPass, spectrum, suggest_cutoff
 
 RATE = 200.0
 

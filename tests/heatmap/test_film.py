@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
-from pipeline.errors import InputError
-from pipeline.heatmap import HeatmapError, film, picture
-from pipeline.heatmap.contacts import Contacts
-from pipeline.heatmap.film import FilmSettings, frames, moments, write_film
-from pipeline.heatmap.playback import Playback
-from pipeline.heatmap.windowing import Selection
-from pipeline.mesh import Probe
-from pipeline.mesh.engines.errors import Cancelled
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.heatmap import HeatmapError, film, picture
+from contactbench.pipeline.heatmap.contacts import Contacts
+from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, write_film
+from contactbench.pipeline.heatmap.playback import Playback
+from contactbench.pipeline.heatmap.windowing import Selection
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.engines.errors import Cancelled
 
 SMALL = 120
 needs_ffmpeg = pytest.mark.skipif(importlib.util.find_spec("imageio_ffmpeg") is None, reason="no ffmpeg")
@@ -24,7 +24,7 @@ needs_ffmpeg = pytest.mark.skipif(importlib.util.find_spec("imageio_ffmpeg") is 
 
 @pytest.fixture(scope="module")
 def playback():
-    from assets import make
+    from contactbench.assets import make
 
     probe = Probe.from_arrays(*make("linear", 1_000), name="linear")
     centroids = probe.vertices[probe.faces].mean(axis=1)

@@ -6,8 +6,8 @@ import weakref
 import numpy as np
 import pytest
 
-from pipeline.heatmap.finer import drawing_of, finer
-from pipeline.study.preparation.shapes import bundled
+from contactbench.pipeline.heatmap.finer import drawing_of, finer
+from contactbench.pipeline.study.preparation.shapes import bundled
 
 
 @pytest.fixture(scope="module")

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from assets import make
-from pipeline.heatmap import HeatmapError, heatmap
-from pipeline.heatmap.bells import vertex_areas
-from pipeline.heatmap.heatmap import default_bandwidth
-from pipeline.mesh import Probe
+from contactbench.assets import make
+from contactbench.pipeline.heatmap import HeatmapError, heatmap
+from contactbench.pipeline.heatmap.bells import vertex_areas
+from contactbench.pipeline.heatmap.heatmap import default_bandwidth
+from contactbench.pipeline.mesh import Probe
 
 
 @pytest.fixture(scope="module")

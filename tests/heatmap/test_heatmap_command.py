@@ -8,14 +8,14 @@ import pytest
 from typer.testing import CliRunner
 from weighing_files import weighed
 
-from assets import make
-from pipeline.calibration import calibrate
-from pipeline.calibration.files.calibration_file import save_calibration
-from pipeline.cli import app
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.mesh import Probe, save_probe
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.session import Session
+from contactbench.assets import make
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.mesh import Probe, save_probe
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.session import Session
 
 N = 300
 

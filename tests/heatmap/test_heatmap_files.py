@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from matplotlib.image import imread
 
-from assets import make
-from pipeline.heatmap import heatmap
-from pipeline.heatmap.files import encode_glb, encode_ply
-from pipeline.heatmap.picture import encode_png, looks, render
-from pipeline.mesh import Probe, load_probe
+from contactbench.assets import make
+from contactbench.pipeline.heatmap import heatmap
+from contactbench.pipeline.heatmap.files import encode_glb, encode_ply
+from contactbench.pipeline.heatmap.picture import encode_png, looks, render
+from contactbench.pipeline.mesh import Probe, load_probe
 
 
 @pytest.fixture(scope="module")

@@ -9,13 +9,13 @@ from report.report_cases import probe_file, verification
 from typer.testing import CliRunner
 from weighing_files import weighed
 
-from pipeline.calibration import calibrate
-from pipeline.cli import app
-from pipeline.contact import WrenchNoise
-from pipeline.heatmap import HeatmapError, heatmap
-from pipeline.heatmap.judging import measured_noise, settled, with_calibration
-from pipeline.heatmap.touched import touches_of
-from pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.heatmap import HeatmapError, heatmap
+from contactbench.pipeline.heatmap.judging import measured_noise, settled, with_calibration
+from contactbench.pipeline.heatmap.touched import touches_of
+from contactbench.pipeline.mesh.sidecar import save_probe_file
 
 
 def test_a_press_is_settled_between_its_ramps():

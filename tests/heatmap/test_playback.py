@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.contact import WrenchNoise
-from pipeline.heatmap import HeatmapError
-from pipeline.heatmap.contacts import Contacts
-from pipeline.heatmap.finer import drawing_of
-from pipeline.heatmap.playback import Playback
-from pipeline.heatmap.windowing import Selection, selected_heatmap
-from pipeline.mesh import Probe
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.heatmap import HeatmapError
+from contactbench.pipeline.heatmap.contacts import Contacts
+from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.playback import Playback
+from contactbench.pipeline.heatmap.windowing import Selection, selected_heatmap
+from contactbench.pipeline.mesh import Probe
 
 N = 400
 BANDWIDTH = 0.003
@@ -20,7 +20,7 @@ BANDWIDTH = 0.003
 @pytest.fixture(scope="module")
 def bench():
     """A probe that is stroked from one end to the other, ever harder."""
-    from assets import make
+    from contactbench.assets import make
 
     probe = Probe.from_arrays(*make("linear", 2_000), name="linear")
     centroids = probe.vertices[probe.faces].mean(axis=1)
@@ -71,7 +71,7 @@ def test_a_window_adds_up_and_is_where_the_contacts_are(bench, playback):
     inside = (found.moments >= 1.0) & (found.moments <= 1.5) & (found.forces >= 3.2)
     frame = playback.frame(selection)
     assert frame.contacts == inside.sum() > 0
-    from pipeline.heatmap.bells import vertex_areas
+    from contactbench.pipeline.heatmap.bells import vertex_areas
 
     assert 1e6 * vertex_areas(probe) @ np.nan_to_num(frame.values) == pytest.approx(inside.sum())
     seen = probe.vertices[np.isfinite(frame.values), 0]

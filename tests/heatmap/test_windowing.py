@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.heatmap import HeatmapError, heatmap
-from pipeline.heatmap.contacts import Contacts
-from pipeline.heatmap.finer import drawing_of
-from pipeline.heatmap.windowing import (
+from contactbench.pipeline.heatmap import HeatmapError, heatmap
+from contactbench.pipeline.heatmap.contacts import Contacts
+from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.windowing import (
     OUTSIDE_FORCE,
     OUTSIDE_TIME,
     Selection,
@@ -17,12 +17,12 @@ from pipeline.heatmap.windowing import (
     shown,
     windowed,
 )
-from pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 
 @pytest.fixture(scope="module")
 def probe():
-    from assets import make
+    from contactbench.assets import make
 
     return Probe.from_arrays(*make("linear", 1_500), name="linear")
 

@@ -21,7 +21,7 @@ from kernel.runtime_cases import stream
 
 
 def embree_nanoseconds(vertices: np.ndarray, faces: np.ndarray, rays: int = 20_000) -> float | None:
-    """Return the median time of one ray, called from Python as in `pipeline.study.speed`; None without embreex."""
+    """Return the median time of one ray, called from Python; None without embreex."""
     try:
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene

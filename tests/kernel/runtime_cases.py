@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline import kernel
-    from pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline import kernel
+    from contactbench.pipeline.config.runtime import RuntimeConfig
 
 
 def stream(

@@ -7,9 +7,9 @@ import pytest
 import trimesh
 from contact_cases import bundled
 
-from pipeline.kernel import collapse_edges, crossings
-from pipeline.mesh.health import measure_health
-from pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.kernel import collapse_edges, crossings
+from contactbench.pipeline.mesh.health import measure_health
+from contactbench.pipeline.mesh.soundness import check_soundness
 
 Mesh = tuple[np.ndarray, np.ndarray]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from contact_cases import ball
 
-from pipeline.kernel import crossings
+from contactbench.pipeline.kernel import crossings
 
 CROSSING, TOUCHING, OVERLAP = range(3)
 TURN = np.linalg.qr(np.arange(9).reshape(3, 3) + np.eye(3))[0]

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay
 
-from pipeline.kernel import Geodesic
+from contactbench.pipeline.kernel import Geodesic
 
 
 def flat(count: int = 1500, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:

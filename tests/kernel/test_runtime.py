@@ -9,9 +9,9 @@ import pytest
 from config.runtime.bundles import example
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
-from pipeline import kernel
-from pipeline.config.runtime.runtime_of import kernel_arguments
-from pipeline.filtering import KalmanFilter, LowPass
+from contactbench.pipeline import kernel
+from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

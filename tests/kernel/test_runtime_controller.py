@@ -10,12 +10,12 @@ import pytest
 from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
 from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake
 
-from pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.config.runtime import RuntimeConfig
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline.config.runtime.model import ControllerPart, LimitsPart
+    from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
 
 pytestmark = pytest.mark.skipif(CMAKE is None, reason="no cmake")
 

@@ -19,11 +19,11 @@ import pytest
 from config.runtime.bundles import example, example_bundle, of_version_1, of_version_2, of_version_3
 from kernel.runtime_cases import columns, stream, with_faults, with_surprises
 
-from pipeline import kernel
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.config.runtime.canonical import encode_json
-from pipeline.config.runtime.runtime_of import kernel_arguments
-from pipeline.contact.facet_marks import facet_marks
+from contactbench.pipeline import kernel
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.config.runtime.canonical import encode_json
+from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline.contact.facet_marks import facet_marks
 
 ROOT = Path(__file__).parents[2]
 SOURCE, BUILD = ROOT / "pipeline/kernel/runtime", ROOT / "build/runtime"

@@ -14,12 +14,12 @@ import pytest
 from config.runtime.bundles import example, example_bundle, of_version_2
 from kernel.test_runtime_library import BUILD, CMAKE, SOURCE, Library, cmake, edited, put, run
 
-from pipeline.config.runtime.pack import KNOWN
-from pipeline.config.runtime.planes import encode_planes
-from pipeline.config.runtime.swap import put_aside, write_folder
-from pipeline.config.runtime.values import low_pass_sections
-from pipeline.mesh.load import MeshFile, settle
-from pipeline.mesh.ply import read_ply
+from contactbench.pipeline.config.runtime.pack import KNOWN
+from contactbench.pipeline.config.runtime.planes import encode_planes
+from contactbench.pipeline.config.runtime.swap import put_aside, write_folder
+from contactbench.pipeline.config.runtime.values import low_pass_sections
+from contactbench.pipeline.mesh.load import MeshFile, settle
+from contactbench.pipeline.mesh.ply import read_ply
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pipeline import kernel
+from contactbench.pipeline import kernel
 
 PACKAGE = Path(__file__).parents[2] / "pipeline" / "kernel"
 STUB = ast.parse((PACKAGE / "__init__.pyi").read_text(encoding="utf-8"))

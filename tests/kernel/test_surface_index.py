@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.kernel import SurfaceIndex
 
 
 def index_of(probe):

@@ -10,9 +10,9 @@ import pytest
 from config.runtime.bundles import example
 from scipy.spatial.transform import Rotation
 
-from pipeline import kernel
-from pipeline.calibration.model import GravityModel, prediction_jacobian
-from pipeline.config.runtime.runtime_of import kernel_arguments
+from contactbench.pipeline import kernel
+from contactbench.pipeline.calibration.model import GravityModel, prediction_jacobian
+from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

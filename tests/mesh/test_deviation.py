@@ -8,8 +8,8 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.mesh import Probe
-from pipeline.mesh.deviation import compare, doubled_areas, measure_deviation, sample_surface
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.deviation import compare, doubled_areas, measure_deviation, sample_surface
 
 
 def _ball(radius: float, level: int = 3) -> Probe:

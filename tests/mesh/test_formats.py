@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshError, MeshWarning, Probe
-from pipeline.mesh import load_probe as load_any
+from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe
+from contactbench.pipeline.mesh import load_probe as load_any
 
 TETRAHEDRON = ["0 0 0", "50 0 0", "0 50 0", "0 0 50"]
 OUTWARD = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]

@@ -11,14 +11,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.errors import InputError
-from pipeline.mesh import MeshError, Probe, load_probe
-from pipeline.study import mesh_fuzz
-from pipeline.study.mesh_fuzz.cases import FuzzCase, make_case, sound_files
-from pipeline.study.mesh_fuzz.large import swollen
-from pipeline.study.mesh_fuzz.worker import try_case
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import MeshError, Probe, load_probe
+from contactbench.pipeline.study import mesh_fuzz
+from contactbench.pipeline.study.mesh_fuzz.cases import FuzzCase, make_case, sound_files
+from contactbench.pipeline.study.mesh_fuzz.large import swollen
+from contactbench.pipeline.study.mesh_fuzz.worker import try_case
 
-pytestmark = pytest.mark.filterwarnings("ignore::pipeline.mesh.MeshWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::contactbench.pipeline.mesh.MeshWarning")
 
 NAMES = sorted(sound_files())
 
@@ -126,8 +126,8 @@ for n in range(first, last):
 
 
 def test_what_breaks_is_laid_to_its_file_and_the_rest_goes_on(monkeypatch):
-    monkeypatch.setattr("pipeline.study.mesh_fuzz.fuzz._WORKER", (sys.executable, "-c", WORKER))
-    monkeypatch.setattr("pipeline.study.mesh_fuzz.fuzz._HANGS_S", 1.5)
+    monkeypatch.setattr("contactbench.pipeline.study.mesh_fuzz.fuzz._WORKER", (sys.executable, "-c", WORKER))
+    monkeypatch.setattr("contactbench.pipeline.study.mesh_fuzz.fuzz._HANGS_S", 1.5)
     report = mesh_fuzz.run(10)
     assert not report.passed
     assert [failure.number for failure in report.failures] == [2, 4, 5, 6, 7]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
 
 POINTS = np.array([(0, 0, 0), (0.05, 0, 0), (0, 0.05, 0), (0, 0, 0.05)], "<f4")
 OUTWARD = np.array([(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])

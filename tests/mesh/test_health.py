@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import Probe
-from pipeline.mesh.health import measure_health
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.health import measure_health
 
 
 def health_of(vertices, faces):

@@ -10,7 +10,7 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshWarning, load_probe
+from contactbench.pipeline.mesh import MeshWarning, load_probe
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
 
 VERTICES = "0 0 0\n50 0 0\n0 50 0\n0 0 50\n"
 FACETS = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"

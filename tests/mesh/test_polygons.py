@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.mesh import MeshError, MeshWarning, load_probe
-from pipeline.mesh.polygons import Polygons, strip_triangles, triangulate
+from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh.polygons import Polygons, strip_triangles, triangulate
 
 ELL = [(0, 0), (80, 0), (80, 20), (20, 20), (20, 60), (0, 60)]
 ELL_AREA = 80 * 20 + 20 * 40

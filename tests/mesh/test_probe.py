@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.mesh import MeshError, Probe
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import MeshError, Probe
 
 
 def test_holds_what_it_is_given(box):

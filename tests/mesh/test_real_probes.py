@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshWarning, load_probe, save_probe
+from contactbench.pipeline.mesh import MeshWarning, load_probe, save_probe
 
 
 def test_loads_with_one_warning(real_file):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshError, MeshWarning, Probe, load_probe, save_probe
+from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe, save_probe
 
 
 def same(one: Probe, two: Probe) -> None:

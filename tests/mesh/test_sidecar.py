@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from contact_cases import bundled
 
-from pipeline.mesh import MeshError, load_probe, save_probe
-from pipeline.mesh.regions import Region, RegionError, RegionSet
-from pipeline.mesh.sidecar import ProbeFile, load_probe_file, save_probe_file
+from contactbench.pipeline.mesh import MeshError, load_probe, save_probe
+from contactbench.pipeline.mesh.regions import Region, RegionError, RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile, load_probe_file, save_probe_file
 
 
 @pytest.fixture

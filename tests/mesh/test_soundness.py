@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from contact_cases import ball, bundled
 
-from pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
+from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
 
 CUBE = 0.01 * np.array(list(product((0.0, 1.0), repeat=3)))
 CUBE_FACES = np.array(

@@ -8,8 +8,8 @@ import zipfile
 import numpy as np
 import pytest
 
-from pipeline.mesh import MeshError, MeshWarning, load_probe
-from pipeline.mesh.parse import LARGEST_FACETS
+from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh.parse import LARGEST_FACETS
 
 CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 MESH = (

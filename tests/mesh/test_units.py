@@ -9,8 +9,8 @@ import trimesh
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.mesh import MeshError, MeshWarning, load_probe
-from pipeline.mesh.units import METRES, guess_units, in_metres, notes_in
+from contactbench.pipeline.mesh import MeshError, MeshWarning, load_probe
+from contactbench.pipeline.mesh.units import METRES, guess_units, in_metres, notes_in
 
 
 @pytest.mark.parametrize(

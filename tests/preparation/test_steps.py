@@ -7,14 +7,14 @@ import pytest
 from contact_cases import bundled
 from mesh.shell.housings import HEIGHT, housing
 
-from pipeline.mesh import Probe, load_probe, save_probe
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.shell import Closing
-from pipeline.mesh.sidecar import load_probe_file, save_probe_file
-from pipeline.mesh.simplify import Count, MaxDeviation
-from pipeline.preparation.alignment import from_angles
-from pipeline.preparation.prepare import prepare
-from pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+from contactbench.pipeline.mesh import Probe, load_probe, save_probe
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.shell import Closing
+from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
+from contactbench.pipeline.mesh.simplify import Count, MaxDeviation
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.preparation.prepare import prepare
+from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
 
 MOUNT = from_angles([0, 0, 40], [0, 0, 90])
 LENGTHS = {"alpha": 0.002, "gap": 0.004}

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 
 ABOUT = RecordingInfo(
     1_700_000_000_123_456_789,

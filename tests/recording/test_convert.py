@@ -11,10 +11,16 @@ import pytest
 from recording.recording_cases import ABOUT, record, wrench_samples
 from scipy.spatial.transform import Rotation
 
-from pipeline.contact.wrench_csv import WrenchReader
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter, read_recording
-from pipeline.recording.convert import LONGEST_GAP, load_npz, poses_at, write_csv, write_npz
+from contactbench.pipeline.contact.wrench_csv import WrenchReader
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording import (
+    DeviceInfo,
+    RecordingError,
+    RecordingInfo,
+    RecordingWriter,
+    read_recording,
+)
+from contactbench.pipeline.recording.convert import LONGEST_GAP, load_npz, poses_at, write_csv, write_npz
 
 
 def table(file: Path) -> dict[str, list[str]]:

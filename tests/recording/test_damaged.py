@@ -15,12 +15,12 @@ import zstandard
 from mcap.stream_reader import StreamReader
 from recording.recording_cases import record
 
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.recording import Event, RecordingError, RecordingReader, read_recording
-from pipeline.recording.convert import load_npz, write_npz
-from pipeline.recording.ros2_survey import list_topics
-from pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
-from pipeline.recording.wire import record as wire_record
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.recording import Event, RecordingError, RecordingReader, read_recording
+from contactbench.pipeline.recording.convert import load_npz, write_npz
+from contactbench.pipeline.recording.ros2_survey import list_topics
+from contactbench.pipeline.recording.wire import MAGIC, MESSAGE_HEAD, PREFIX, Opcode, mapping, text
+from contactbench.pipeline.recording.wire import record as wire_record
 
 Samples = list[tuple[str, WrenchSample | FlangeSample | Event]]
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.recording import FlangeTrack, RecordingError, WrenchTrack
-from pipeline.recording.delay import Delay, estimate_delay
+from contactbench.pipeline.recording import FlangeTrack, RecordingError, WrenchTrack
+from contactbench.pipeline.recording.delay import Delay, estimate_delay
 
 G = np.array([0.0, 0.0, -5.0])
 R_SE = Rotation.from_euler("xyz", [10, -20, 75], degrees=True)

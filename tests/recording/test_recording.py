@@ -16,8 +16,8 @@ from mcap.reader import make_reader
 from mcap.stream_reader import StreamReader
 from recording.recording_cases import ABOUT, flange_samples, record, wrench_samples
 
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.recording import (
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording import (
     DeviceInfo,
     Event,
     RecordingError,
@@ -94,7 +94,7 @@ def test_arrivals_are_stored_beside_times(tmp_path: Path) -> None:
 def test_arrivals_of_an_older_recording_become_times(
     address: str, timed: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("pipeline.recording.info.FORMAT", 1)
+    monkeypatch.setattr("contactbench.pipeline.recording.info.FORMAT", 1)
     devices = (
         DeviceInfo("wrench", "/wrench", address, rate=200.0),
         DeviceInfo("flange", "/flange", "ur+tcp://10.0.0.2", rate=125.0),
@@ -328,7 +328,7 @@ def test_quaternions_for_viewers(vector: list[float], scale: float) -> None:
 
     from scipy.spatial.transform import Rotation
 
-    from pipeline.recording.messages import flange_message
+    from contactbench.pipeline.recording.messages import flange_message
 
     half_turn = Rotation.from_rotvec([0.0, math.pi, 0.0])
     rotation = Rotation.from_rotvec(np.array(vector) * scale)
@@ -367,7 +367,7 @@ def test_a_folder_that_cannot_be_synced_leaves_no_file(
     def broken(_: Path) -> None:
         raise OSError(5, "Input/output error")
 
-    monkeypatch.setattr("pipeline.recording.chunked.sync_folder", broken)
+    monkeypatch.setattr("contactbench.pipeline.recording.chunked.sync_folder", broken)
     with pytest.raises(RecordingError, match="choose another disk"):
         RecordingWriter(tmp_path / "r.mcap", ABOUT)
     assert not (tmp_path / "r.mcap").exists()

@@ -8,10 +8,10 @@ import time
 import numpy as np
 import pytest
 
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter
-from pipeline.recording.reader import RecordingReader
-from pipeline.recording.replay import Replay, find_topic
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter
+from contactbench.pipeline.recording.reader import RecordingReader
+from contactbench.pipeline.recording.replay import Replay, find_topic
 
 
 @pytest.fixture

@@ -12,11 +12,17 @@ import pytest
 from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 
-from pipeline.recording import RecordingError, read_recording
-from pipeline.recording.ros2 import Wanted, import_ros2
-from pipeline.recording.ros2_survey import list_topics
-from pipeline.recording.ros2_types import DEFINITIONS, JOINT_STATE, POSE_STAMPED, TF, WRENCH_STAMPED
-from pipeline.robot import Robot
+from contactbench.pipeline.recording import RecordingError, read_recording
+from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
+from contactbench.pipeline.recording.ros2_survey import list_topics
+from contactbench.pipeline.recording.ros2_types import (
+    DEFINITIONS,
+    JOINT_STATE,
+    POSE_STAMPED,
+    TF,
+    WRENCH_STAMPED,
+)
+from contactbench.pipeline.robot import Robot
 
 START = 1_700_000_000_000_000_000
 STEP = 10_000_000
@@ -201,7 +207,7 @@ def test_mutated_bags_give_samples_or_a_sentence(bag: Bag, tmp_path: Path) -> No
 
 @pytest.mark.parametrize("kind", sorted(DEFINITIONS))
 def test_hostile_messages_are_refused(kind: str) -> None:
-    from pipeline.recording.ros2_types import decoder
+    from contactbench.pipeline.recording.ros2_types import decoder
 
     decode, rng = decoder(kind), np.random.default_rng(1)
     for size in range(200):

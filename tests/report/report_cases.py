@@ -7,12 +7,12 @@ from datetime import UTC, datetime
 
 import numpy as np
 
-from assets import make
-from pipeline.mesh import Probe
-from pipeline.mesh.regions.region import RegionSet
-from pipeline.mesh.sidecar import ProbeFile
-from pipeline.report import ReportContent
-from pipeline.verification.figures import (
+from contactbench.assets import make
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.report import ReportContent
+from contactbench.pipeline.verification.figures import (
     Cause,
     Diagnosis,
     Limits,
@@ -23,7 +23,7 @@ from pipeline.verification.figures import (
     Verdict,
     Verification,
 )
-from pipeline.verification.statistics import intervals, summarise, summarise_by
+from contactbench.pipeline.verification.statistics import intervals, summarise, summarise_by
 
 CREATED = datetime(2026, 3, 4, 5, 6, tzinfo=UTC)
 

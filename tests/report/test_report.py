@@ -15,22 +15,22 @@ from report.report_cases import CREATED, content, with_marker_named
 from typer.testing import CliRunner
 from weighing_files import weighed
 
-from pipeline.calibration import calibrate
-from pipeline.calibration.files.calibration_file import load_record, save_calibration
-from pipeline.cli import app
-from pipeline.mesh.sidecar import save_probe_file
-from pipeline.report import ReportError, read_verification, report_html, report_pdf
-from pipeline.report.facts import settings_rows, summaries
-from pipeline.report.figures import draw
-from pipeline.report.making import report as make
-from pipeline.report.touches import error_map, marker_views
-from pipeline.verification.figures import ForceAccuracy, ModelError
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.files.calibration_file import load_record, save_calibration
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.report import ReportError, read_verification, report_html, report_pdf
+from contactbench.pipeline.report.facts import settings_rows, summaries
+from contactbench.pipeline.report.figures import draw
+from contactbench.pipeline.report.making import report as make
+from contactbench.pipeline.report.touches import error_map, marker_views
+from contactbench.pipeline.verification.figures import ForceAccuracy, ModelError
 
 
 @pytest.fixture(scope="module", autouse=True)
 def _small_pictures():
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("pipeline.report.page._PIXELS", 60)
+        patch.setattr("contactbench.pipeline.report.page._PIXELS", 60)
         yield
 
 
@@ -127,7 +127,7 @@ def test_the_same_content_gives_the_same_bytes_in_any_process(given, page, files
     assert report_html(given) == page
     code = (
         "import sys; from pathlib import Path\n"
-        "from pipeline.report import page; from pipeline.report.making import report\n"
+        "from contactbench.pipeline.report import page; from contactbench.pipeline.report.making import report\n"
         "page._PIXELS = 60\n"
         "f = Path(sys.argv[1]); i = {'verification': f / 'v.json', 'probe': f / 'p.ply', 'calibration': f / 'c.json'}\n"
         "sys.stdout.buffer.write(report(i, {}, '2026-03-04T05:06:00+00:00')['report.html'])"
@@ -247,7 +247,7 @@ def test_wrong_parameters_are_refused(files, parameters):
 
 
 def test_a_pdf_or_the_remedy(page, monkeypatch):
-    monkeypatch.setattr("pipeline.report.pdf.find_spec", lambda _: None)
+    monkeypatch.setattr("contactbench.pipeline.report.pdf.find_spec", lambda _: None)
     with pytest.raises(ReportError, match=r"contactbench\[pdf\]"):
         report_pdf(page)
     monkeypatch.undo()

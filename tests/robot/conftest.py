@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.robot import Robot
+from contactbench.pipeline.robot import Robot
 
 
 @pytest.fixture(scope="session")

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.errors import InputError
-from pipeline.robot import ELFIN3, Clearance, ClearanceCheck
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import ELFIN3, Clearance, ClearanceCheck
 
 pytest.importorskip("mujoco")
 

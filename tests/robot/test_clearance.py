@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pipeline.errors import InputError
-from pipeline.robot import ELFIN3, Clearance, ClearanceCheck
-from pipeline.robot.clearance import Capsule
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import ELFIN3, Clearance, ClearanceCheck
+from contactbench.pipeline.robot.clearance import Capsule
 
 pytest.importorskip("mujoco")
 

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.errors import InputError
-from pipeline.robot import ELFIN3, Joint, Robot, RobotDescription
-from pipeline.robot.model import mjcf
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import ELFIN3, Joint, Robot, RobotDescription
+from contactbench.pipeline.robot.model import mjcf
 
 mujoco = pytest.importorskip("mujoco")
 

@@ -9,8 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.errors import InputError
-from pipeline.robot import ELFIN3, ROBOTS, Capsule, Clearance, ClearanceCheck, Joint, Robot, RobotDescription
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import (
+    ELFIN3,
+    ROBOTS,
+    Capsule,
+    Clearance,
+    ClearanceCheck,
+    Joint,
+    Robot,
+    RobotDescription,
+)
 
 ROBOT = Robot(ELFIN3)
 inside = st.tuples(*(st.floats(joint.lower, joint.upper) for joint in ELFIN3.joints)).map(np.array)
@@ -164,7 +173,7 @@ def test_without_mujoco_the_remedy_is_named(monkeypatch):
 
 def test_importing_the_package_leaves_mujoco_alone():
     code = (
-        "import sys, pipeline.robot as r; r.Robot.named('elfin3').travel([0] * 6, [1] * 6); "
+        "import sys, contactbench.pipeline.robot as r; r.Robot.named('elfin3').travel([0] * 6, [1] * 6); "
         "sys.exit('mujoco' in sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

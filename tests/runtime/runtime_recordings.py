@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from kernel.runtime_cases import stream
 
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime import RuntimeConfig
 
 BEGIN = 1_000.0
 ABOUT = RecordingInfo(

@@ -11,12 +11,12 @@ from kernel.runtime_cases import stream
 from runtime.runtime_recordings import BEGIN, flange, wrench
 from scipy.spatial.transform import Rotation
 
-from pipeline import kernel
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.config.runtime.runtime_of import kernel_arguments, make_runtime
-from pipeline.devices.sample import FlangeSample, Status
-from pipeline.runtime import Engine
-from pipeline.runtime.lines import health_names
+from contactbench.pipeline import kernel
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.config.runtime.runtime_of import kernel_arguments, make_runtime
+from contactbench.pipeline.devices.sample import FlangeSample, Status
+from contactbench.pipeline.runtime import Engine
+from contactbench.pipeline.runtime.lines import health_names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,8 +9,8 @@ from config.runtime.bundles import example
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.runtime import Answer, make_runtime
-from pipeline.runtime.lines import HEALTH, health_names, number
+from contactbench.pipeline.runtime import Answer, make_runtime
+from contactbench.pipeline.runtime.lines import HEALTH, health_names, number
 
 
 @pytest.mark.parametrize(

@@ -13,18 +13,18 @@ from scipy.signal import butter, sosfilt
 from scipy.spatial.transform import Rotation
 from verification.touch_cases import MODEL, RATE, Push, protocol, stream
 
-from pipeline import kernel
-from pipeline.devices.clock import SampleClock
-from pipeline.devices.emulate import Fault, FaultEvent, Script
-from pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
-from pipeline.devices.emulate.signals import Truth
-from pipeline.devices.protocols import bota, rdt, robotiq, sri
-from pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.runtime import Engine, Run
-from pipeline.runtime.lines import health_names
-from pipeline.verification.source import read_touch_recording
-from pipeline.workbench.live import Live
+from contactbench.pipeline import kernel
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script
+from contactbench.pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
+from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.protocols import bota, rdt, robotiq, sri
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.runtime import Engine, Run
+from contactbench.pipeline.runtime.lines import health_names
+from contactbench.pipeline.verification.source import read_touch_recording
+from contactbench.pipeline.workbench.live import Live
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.devices.emulate.models import Model
+    from contactbench.pipeline.devices.emulate.models import Model
 
 TURN = np.radians(20.0)  # rad/s
 BATCH_S, HELD_S, HOLD_UPS = 0.016, 0.4, (1.3, 2.5)

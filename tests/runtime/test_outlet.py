@@ -12,8 +12,8 @@ from config.runtime.bundles import example
 from mcap.reader import make_reader
 from runtime.runtime_recordings import ABOUT, BEGIN
 
-from pipeline.runtime import Answer, Outlet, OutputError, RunError, make_runtime
-from pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
+from contactbench.pipeline.runtime import Answer, Outlet, OutputError, RunError, make_runtime
+from contactbench.pipeline.runtime.targets import LineTarget, McapTarget, UdpTarget
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -16,8 +16,8 @@ from mcap.reader import make_reader
 from runtime.runtime_recordings import BEGIN, record, samples
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.recording import DeviceInfo, RecordingInfo
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -39,7 +39,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def command(*arguments: object) -> list[str]:
-    return [sys.executable, "-m", "pipeline.cli", "run", *map(str, arguments)]
+    return [sys.executable, "-m", "contactbench.pipeline.cli", "run", *map(str, arguments)]
 
 
 def run(*arguments: object) -> Result:

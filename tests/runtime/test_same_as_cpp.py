@@ -20,9 +20,9 @@ from runtime.runtime_recordings import BEGIN, flange, input_lines, record, sampl
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.config.runtime import RuntimeConfig
-from pipeline.runtime.lines import number
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.config.runtime import RuntimeConfig
+from contactbench.pipeline.runtime.lines import number
 
 ROOT = Path(__file__).parents[2]
 SOURCE, BUILD = ROOT / "pipeline/kernel/runtime", ROOT / "build/runtime"

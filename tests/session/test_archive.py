@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from pipeline.commands.session import session_app
-from pipeline.session import ArchiveError, Session, SessionError
-from pipeline.session.archive import ArchiveLimits, export_archive, import_archive
-from pipeline.session.check import check, check_journal
+from contactbench.pipeline.commands.session import session_app
+from contactbench.pipeline.session import ArchiveError, Session, SessionError
+from contactbench.pipeline.session.archive import ArchiveLimits, export_archive, import_archive
+from contactbench.pipeline.session.check import check, check_journal
 
 
 @pytest.fixture
@@ -203,7 +203,7 @@ def test_names_that_differ_in_case_only_come_back(folder, tmp_path, monkeypatch)
     assert len(list((folder / "raw").iterdir())) == 1
     packed(folder, tmp_path / "x.zip")
     # As sessions were written before.
-    monkeypatch.setattr("pipeline.session.files._plain", lambda name: name)
+    monkeypatch.setattr("contactbench.pipeline.session.files._plain", lambda name: name)
     with Session.open(folder) as session:
         session.add_input(tmp_path / "one.csv", "poses", name="A.csv")
     packed(folder, tmp_path / "y.zip")
@@ -225,7 +225,7 @@ def test_what_is_added_meanwhile_is_not_in_it(folder, tmp_path, monkeypatch):
                 session.change_mesh("late.stl", (b"late",))
             return found
 
-        monkeypatch.setattr("pipeline.session.archive.check_journal", later)
+        monkeypatch.setattr("contactbench.pipeline.session.archive.check_journal", later)
         assert export_archive(folder, tmp_path / "x.zip").files == 3
         monkeypatch.undo()
     import_archive(tmp_path / "x.zip", tmp_path / "x")

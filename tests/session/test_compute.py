@@ -12,17 +12,17 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 from weighing_files import TRUTH, weighed, write_euler
 
-from pipeline import cli
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.recording import RecordingInfo, RecordingWriter
-from pipeline.session import Session, SessionError
-from pipeline.session.archive import export_archive, import_archive
-from pipeline.session.check import check
-from pipeline.session.companions import companions_of
-from pipeline.session.recompute import newest_inputs
-from pipeline.session.state import fold
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.recording import RecordingInfo, RecordingWriter
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.archive import export_archive, import_archive
+from contactbench.pipeline.session.check import check
+from contactbench.pipeline.session.companions import companions_of
+from contactbench.pipeline.session.recompute import newest_inputs
+from contactbench.pipeline.session.state import fold
 
 HOLD, MOVE, RATE = 3.0, 1.0, 100
 SIMPLE = ("--set", "facets=40", "--set", "engine=fast-simplification", "--set", "alpha=6")
@@ -212,7 +212,7 @@ def test_an_alignment_is_an_input_of_a_probe(folder, ball, tmp_path):
 
 
 def test_a_session_of_version_1_goes_on(folder, tmp_path):
-    from pipeline.session import frames
+    from contactbench.pipeline.session import frames
 
     poses = write_euler(tmp_path / "poses.csv", weighed())
     done("add", folder, poses, "--kind", "poses")

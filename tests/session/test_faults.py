@@ -5,9 +5,9 @@ import os
 
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.session import Session, SessionError
-from pipeline.session.check import check, repair
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.check import check, repair
 
 CALLS = ("write", "fsync", "replace", "link", "ftruncate")
 

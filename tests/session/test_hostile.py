@@ -10,10 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.session import Session, SessionError, SessionLockedError, frames
-from pipeline.session import lock as locks
-from pipeline.session.archive import import_archive
-from pipeline.session.check import check, repair
+from contactbench.pipeline.session import Session, SessionError, SessionLockedError, frames
+from contactbench.pipeline.session import lock as locks
+from contactbench.pipeline.session.archive import import_archive
+from contactbench.pipeline.session.check import check, repair
 
 posix = pytest.mark.skipif(os.name == "nt", reason="pipes and links of POSIX")
 

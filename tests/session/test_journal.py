@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.session import frames
-from pipeline.session.errors import JournalError
+from contactbench.pipeline.session import frames
+from contactbench.pipeline.session.errors import JournalError
 
 PAYLOADS = [frames.canonical({"n": n, "text": "µ" * n}) for n in range(6)]
 DATA = frames.encode_all(PAYLOADS)

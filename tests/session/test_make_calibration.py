@@ -8,14 +8,14 @@ from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 from workbench.gravity_bench import batches, record
 
-from pipeline import cli
-from pipeline.calibration.files.pose_csv import read_poses
-from pipeline.demo.files import write_csv
-from pipeline.errors import InputError
-from pipeline.session import Session
-from pipeline.session.errors import SessionError
-from pipeline.session.make_calibration import calibration, captures
-from pipeline.session.recompute import compute
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration.files.pose_csv import read_poses
+from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.make_calibration import calibration, captures
+from contactbench.pipeline.session.recompute import compute
 
 
 @pytest.fixture

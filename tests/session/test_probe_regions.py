@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from workbench.probe_files import egg
 
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.regions import Region, RegionSet
-from pipeline.mesh.regions.exchange import encode_json
-from pipeline.preparation.alignment import from_angles
-from pipeline.session import Session, SessionError
-from pipeline.session.recompute import compute, newest_inputs
-from pipeline.session.replay import Outcome, replay
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.probe_shell import keep_regions, regions_on, shell_file_of
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.regions.exchange import encode_json
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.recompute import compute, newest_inputs
+from contactbench.pipeline.session.replay import Outcome, replay
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.probe_shell import keep_regions, regions_on, shell_file_of
 
 USUAL = {"units": "mm", "facets": 300, "engine": "fast-simplification"}
 

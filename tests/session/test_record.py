@@ -14,14 +14,14 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.devices.sample import Status, WrenchSample
-from pipeline.recording import RecordingInfo, RecordingWriter, read_recording
-from pipeline.recording.recorder import Recorder
-from pipeline.session import Session, SessionError
-from pipeline.session.check import check, repair
-from pipeline.session.live import LiveRecording
+from contactbench.pipeline import cli
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
+from contactbench.pipeline.recording.recorder import Recorder
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.live import LiveRecording
 
 ROOT = Path(__file__).parents[2]
 
@@ -186,7 +186,7 @@ def test_a_sample_that_cannot_be_recorded_is_counted_and_a_full_disk_ends_it(tmp
 
 @pytest.mark.skipif(os.name == "nt", reason="kill is TerminateProcess there, the same by another name")
 def test_a_killed_recording_is_adopted_by_repair(folder):
-    code = "import sys; from pipeline.cli import main; main()"
+    code = "import sys; from contactbench.pipeline.cli import main; main()"
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
         command = [sys.executable, "-c", code, "session", "record", str(folder), "--sensor", device.url]
         with subprocess.Popen(

@@ -7,10 +7,10 @@ import pytest
 from typer.testing import CliRunner
 from weighing_files import weighed, write_euler
 
-from pipeline import cli
-from pipeline.session import Session, SessionError
-from pipeline.session.recompute import compute
-from pipeline.session.replay import Outcome, replay
+from contactbench.pipeline import cli
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.recompute import compute
+from contactbench.pipeline.session.replay import Outcome, replay
 
 
 def invoke(*arguments):

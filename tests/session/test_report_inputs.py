@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 from report.report_cases import content, probe_file
 
-from pipeline.mesh.sidecar import save_probe_file
-from pipeline.session import Session, SessionError
-from pipeline.session.recompute import compute, newest_inputs
+from contactbench.pipeline.mesh.sidecar import save_probe_file
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.recompute import compute, newest_inputs
 
 
 @pytest.fixture
@@ -29,7 +29,7 @@ def session(tmp_path):
 
 
 def test_the_verified_probe_is_taken_not_the_newest(session, monkeypatch):
-    monkeypatch.setattr("pipeline.report.page._PIXELS", 60)
+    monkeypatch.setattr("contactbench.pipeline.report.page._PIXELS", 60)
     inputs = newest_inputs(session.state, "report")
     old, new = (each.content for each in session.state.inputs)
     assert inputs["probe"] == old

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from typer.testing import CliRunner
 
-from pipeline.commands.session import session_app
-from pipeline.session import Session, fold
+from contactbench.pipeline.commands.session import session_app
+from contactbench.pipeline.session import Session, fold
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.session import (
+from contactbench.pipeline.session import (
     JournalError,
     SchemaError,
     Session,
@@ -17,9 +17,9 @@ from pipeline.session import (
     frames,
     migrate,
 )
-from pipeline.session.actions import VERSION
-from pipeline.session.check import check, repair
-from pipeline.session.crash import kill_writers
+from contactbench.pipeline.session.actions import VERSION
+from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.crash import kill_writers
 
 ROOT = Path(__file__).parents[2]
 
@@ -101,7 +101,7 @@ def test_what_is_wrong_is_refused(folder, tmp_path):
 
 # ---- two writers -------------------------------------------------------------------------------
 
-HOLD = "import sys; from pathlib import Path; from pipeline.session import Session\n"
+HOLD = "import sys; from pathlib import Path; from contactbench.pipeline.session import Session\n"
 HOLD += "s = Session.open(Path(sys.argv[1])); s.note('held'); print('ready', flush=True); sys.stdin.read()"
 
 

@@ -10,16 +10,16 @@ from functools import partial
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.commands.session import session_app
-from pipeline.devices.drive import Health, State
-from pipeline.devices.protocols import Counters
-from pipeline.devices.sample import WrenchSample
-from pipeline.recording import RecordingInfo, RecordingWriter, read_recording
-from pipeline.recording.recorder import Recorder
-from pipeline.session import Session, SessionError
-from pipeline.session.check import check, repair
-from pipeline.session.journal import JournalWriter
-from pipeline.session.live import LiveRecording
+from contactbench.pipeline.commands.session import session_app
+from contactbench.pipeline.devices.drive import Health, State
+from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
+from contactbench.pipeline.recording.recorder import Recorder
+from contactbench.pipeline.session import Session, SessionError
+from contactbench.pipeline.session.check import check, repair
+from contactbench.pipeline.session.journal import JournalWriter
+from contactbench.pipeline.session.live import LiveRecording
 
 ABOUT = RecordingInfo(1_700_000_000_000_000_000, 0.0)
 
@@ -209,7 +209,7 @@ def test_a_stepwise_replay_into_a_session_waits_for_the_disk(folder, tmp_path, m
     with RecordingWriter(tmp_path / "a.mcap", ABOUT) as writer:
         for sample in samples(2000):
             writer.wrench(sample)
-    monkeypatch.setattr("pipeline.session.live.Recorder", partial(Recorder, most_waiting=5))
+    monkeypatch.setattr("contactbench.pipeline.session.live.Recorder", partial(Recorder, most_waiting=5))
     address = f"replay://{tmp_path / 'a.mcap'}?speed=step"
     result = CliRunner().invoke(session_app, ["record", str(folder), "--sensor", address, "--json"])
     assert result.exit_code == 0, result.stderr

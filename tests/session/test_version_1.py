@@ -6,10 +6,10 @@ import base64
 
 import pytest
 
-from pipeline.session import Session
-from pipeline.session.actions import VERSION
-from pipeline.session.archive import export_archive, import_archive
-from pipeline.session.check import check
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.actions import VERSION
+from contactbench.pipeline.session.archive import export_archive, import_archive
+from contactbench.pipeline.session.check import check
 
 ARCHIVE = base64.b64decode(
     "UEsDBBQAAAAIAAAAIQCe6MSJuAEAAHgCAAAHAAAAam91cm5hbKWQvWsUQRjGV0h6IVoKMiomcW+dj/2YXStjlWAXy8Dx7sxsbvFu"

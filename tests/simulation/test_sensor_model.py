@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.simulation.sensor_model import PRESETS, SensorModel, SensorSettings, preset
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.sensor_model import PRESETS, SensorModel, SensorSettings, preset
 
 _TIMES = np.arange(4000) / 200.0
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-import assets
-from pipeline.contact import WrenchNoise
-from pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 
 
 @pytest.mark.parametrize("name", assets.PROBE_NAMES)

@@ -12,11 +12,11 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from recording.recording_cases import flange_samples, record, wrench_samples
 
-from pipeline.devices.drive import State
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.url import AddressError
-from pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter
-from pipeline.streams import ReplayStream, open_pair, open_poses, open_sensor
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.url import AddressError
+from contactbench.pipeline.recording import DeviceInfo, RecordingError, RecordingInfo, RecordingWriter
+from contactbench.pipeline.streams import ReplayStream, open_pair, open_poses, open_sensor
 
 
 @pytest.fixture
@@ -314,7 +314,7 @@ def test_a_damaged_recording_says_so(recording):
 
 
 def test_a_file_that_cannot_be_read_on_is_lost(recording, monkeypatch):
-    from pipeline.recording.reader import RecordingReader
+    from contactbench.pipeline.recording.reader import RecordingReader
 
     inner = RecordingReader.__iter__
 

@@ -5,10 +5,10 @@ import time
 import numpy as np
 import pytest
 
-from pipeline.devices.drive import State
-from pipeline.devices.url import AddressError, DeviceAddress
-from pipeline.errors import InputError
-from pipeline.streams import open_pair, open_poses, open_sensor
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
 
 HERE = "virtual://bench?probe=linear&sensor=ideal"
 

@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.study.bundle_fuzz import run
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.bundle_fuzz import run
 
 ROOT = Path(__file__).parents[2]
 BESIDE = Path(sys.executable).parent / "cmake"
@@ -41,7 +41,7 @@ def test_both_loaders_come_to_the_same_verdict(loader: Path) -> None:
     # In a process of its own: the most memory that this one ever used says nothing of bundles.
     code = (
         "import json, sys; from dataclasses import asdict; from pathlib import Path;"
-        " from pipeline.study.bundle_fuzz import run;"
+        " from contactbench.pipeline.study.bundle_fuzz import run;"
         " print(json.dumps(asdict(run(300, seed=7, cpp=Path(sys.argv[1])))))"
     )
     report = json.loads(built(sys.executable, "-c", code, loader))

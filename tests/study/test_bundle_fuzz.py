@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.study.bundle_fuzz import mutants, run
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.bundle_fuzz import mutants, run
 
 
 def test_every_mutant_is_refused_with_a_typed_error_or_is_what_it_was():

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from pipeline.control.faults import FaultKind
-from pipeline.errors import InputError
-from pipeline.study import control_safety
-from pipeline.study.control_safety import OVER, SPREAD, draw, report_of, run, run_start
+from contactbench.pipeline.control.faults import FaultKind
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import control_safety
+from contactbench.pipeline.study.control_safety import OVER, SPREAD, draw, report_of, run, run_start
 
 
 def test_starts_are_the_same_twice_and_of_all_kinds():

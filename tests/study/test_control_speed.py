@@ -2,9 +2,9 @@
 
 import pytest
 
-from pipeline.control.settings import Variant
-from pipeline.errors import InputError
-from pipeline.study.control_speed import run
+from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.control_speed import run
 
 
 def test_steps_and_simulation_are_timed_for_both_variants():

@@ -7,10 +7,10 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.devices.protocols.soak import PROTOCOLS
-from pipeline.errors import InputError
-from pipeline.study.devices import run_protocols, run_sessions
+from contactbench.pipeline import cli
+from contactbench.pipeline.devices.protocols.soak import PROTOCOLS
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.devices import run_protocols, run_sessions
 
 
 def test_protocols_keep_their_promises_on_a_short_run():

@@ -6,10 +6,10 @@ import dataclasses
 
 import pytest
 
-from pipeline.devices.emulate import Fault, possible_faults
-from pipeline.errors import InputError
-from pipeline.study.fault_lines import LINES, Outcome, cases, compare
-from pipeline.study.faults import matrix, run
+from contactbench.pipeline.devices.emulate import Fault, possible_faults
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.fault_lines import LINES, Outcome, cases, compare
+from contactbench.pipeline.study.faults import matrix, run
 
 pytestmark = pytest.mark.alone  # it judges how soon things happen
 
@@ -59,11 +59,11 @@ def test_the_matrix_is_a_table():
 
 
 def test_a_sample_that_was_never_sent_is_counted():
-    from pipeline.devices.drive import driver_for
-    from pipeline.devices.emulate.emulator import Sent
-    from pipeline.devices.emulate.models import sri_frame
-    from pipeline.devices.emulate.signals import Moment, Reading
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.drive import driver_for
+    from contactbench.pipeline.devices.emulate.emulator import Sent
+    from contactbench.pipeline.devices.emulate.models import sri_frame
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading
+    from contactbench.pipeline.devices.url import DeviceAddress
 
     address = DeviceAddress.parse("sri+tcp://h")
     frames = [sri_frame((float(k), 0, 0, 0, 0, 0), k) for k in range(4)]

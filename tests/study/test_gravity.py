@@ -15,13 +15,13 @@ from rich.console import Console
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline.calibration import Calibration, Level, calibrate
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.simulation.weighing import Weighing, draw_weighing
-from pipeline.study import blind_sets, gravity
-from pipeline.study.blind_sets import BLIND_SETS, BlindSet, try_blind
-from pipeline.study.gravity import Figure, GravityReport
+from contactbench.pipeline.calibration import Calibration, Level, calibrate
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.weighing import Weighing, draw_weighing
+from contactbench.pipeline.study import blind_sets, gravity
+from contactbench.pipeline.study.blind_sets import BLIND_SETS, BlindSet, try_blind
+from contactbench.pipeline.study.gravity import Figure, GravityReport
 
 GOOD, BAD = Figure("is it?", "yes", "yes", True), Figure("is it, too?", "yes", "no", False)
 
@@ -196,7 +196,7 @@ def test_time_is_told_and_not_asserted(monkeypatch):
 
 
 def gravity_times(calls):
-    from pipeline.timing import Timing
+    from contactbench.pipeline.timing import Timing
 
     for function, arguments in calls.values():
         function(arguments[0])

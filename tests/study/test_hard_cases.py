@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from pipeline.contact import Gates, Reason
-from pipeline.errors import InputError
-from pipeline.study import hard_cases
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_cases import Case, HardCasesReport, Outcome, Rule, Trial
-from pipeline.study.hard_trials import certified, complete, exact, like, refused, within
+from contactbench.pipeline.contact import Gates, Reason
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import hard_cases
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_cases import Case, HardCasesReport, Outcome, Rule, Trial
+from contactbench.pipeline.study.hard_trials import certified, complete, exact, like, refused, within
 
 GOOD = Outcome(1.0, 1e-9, 1e-8, {"OK": 10}, 0.0)
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pipeline.contact import Contact, ContactSolver, Reason, TouchModel, WrenchNoise
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_judge import Judge
+from contactbench.pipeline.contact import Contact, ContactSolver, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_judge import Judge
 
 LIMIT = replace(TouchModel(), torsion_arm=0.01, mesh_curved=False)
 

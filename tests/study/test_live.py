@@ -11,14 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.devices.emulate.models.sri import sri_frame
-from pipeline.errors import InputError
-from pipeline.study.live.machine import Sleeper
-from pipeline.study.live.parsing import PROTOCOLS, parse_speed
-from pipeline.study.live.reader import resident
-from pipeline.study.live.records import GIVEN, GIVEN_TYPE, SENT, SENT_TYPE, read_back
-from pipeline.study.live.report import run
-from pipeline.study.live.trial import compare
+from contactbench.pipeline.devices.emulate.models.sri import sri_frame
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.live.machine import Sleeper
+from contactbench.pipeline.study.live.parsing import PROTOCOLS, parse_speed
+from contactbench.pipeline.study.live.reader import resident
+from contactbench.pipeline.study.live.records import GIVEN, GIVEN_TYPE, SENT, SENT_TYPE, read_back
+from contactbench.pipeline.study.live.report import run
+from contactbench.pipeline.study.live.trial import compare
 
 pytestmark = pytest.mark.alone  # it judges how soon things happen
 
@@ -172,7 +172,7 @@ def test_a_second_run_beside_a_busy_core():
 
 @needs_pty
 def test_a_sensor_that_cannot_start_is_named(monkeypatch, tmp_path):
-    from pipeline.study.live import trial
+    from contactbench.pipeline.study.live import trial
 
     (tmp_path / "broken").write_text("#!/bin/sh\nexit 3\n", encoding="utf-8")
     Path(tmp_path / "broken").chmod(0o755)

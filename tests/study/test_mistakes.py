@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.study import mistakes
-from pipeline.study.mistakes import KNOWN, UNKNOWN, draw, judge
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import mistakes
+from contactbench.pipeline.study.mistakes import KNOWN, UNKNOWN, draw, judge
 
 FEW = ("transposed", "kgf", "mx, my swapped", "yaw, any angle", "two rows swapped", "ceiling")
 

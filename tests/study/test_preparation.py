@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.kernel import Geodesic
-from pipeline.mesh.regions import FacetGraph
-from pipeline.mesh.shell import Closing, Shell
-from pipeline.mesh.simplify import Count, simplify
-from pipeline.study.preparation import alignment, peak, regions, shapes, shell
-from pipeline.study.preparation import simplify as simplification
-from pipeline.study.preparation.housing import WALL, housing
-from pipeline.study.preparation.report import Figure
-from pipeline.study.preparation.rivals import Rival
-from pipeline.study.preparation.surface_distance import distance_errors
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Geodesic
+from contactbench.pipeline.mesh.regions import FacetGraph
+from contactbench.pipeline.mesh.shell import Closing, Shell
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.study.preparation import alignment, peak, regions, shapes, shell
+from contactbench.pipeline.study.preparation import simplify as simplification
+from contactbench.pipeline.study.preparation.housing import WALL, housing
+from contactbench.pipeline.study.preparation.report import Figure
+from contactbench.pipeline.study.preparation.rivals import Rival
+from contactbench.pipeline.study.preparation.surface_distance import distance_errors
 
 SMALL = 6_000
 
@@ -187,7 +187,7 @@ def test_wrong_distances_are_seen(monkeypatch):
             there, distance = self._inner.around(face, point, limit)
             return there, 1.03 * distance
 
-    monkeypatch.setattr("pipeline.study.preparation.surface_distance.Geodesic", Longer)
+    monkeypatch.setattr("contactbench.pipeline.study.preparation.surface_distance.Geodesic", Longer)
     for _, errors in distance_errors(np.random.default_rng(5), 2_000):
         assert not Figure.of("", "", errors, most=0.02, judged="worst").passed
 
@@ -324,7 +324,7 @@ def test_a_wrap_has_its_distances_and_no_inner_hits(hollow):
 
 def test_a_file_is_measured_from_the_command_line(tmp_path):
     pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
-    from pipeline.mesh import save_probe
+    from contactbench.pipeline.mesh import save_probe
 
     file = tmp_path / "sound.ply"
     save_probe(shapes.bundled("linear", 2_000), file)

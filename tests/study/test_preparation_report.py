@@ -10,10 +10,10 @@ import pytest
 from rich.console import Console
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.study import mesh_fuzz
-from pipeline.study.preparation.fuzz import summarise
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.study import mesh_fuzz
+from contactbench.pipeline.study.preparation.fuzz import summarise
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 
 @pytest.mark.parametrize(
@@ -126,7 +126,7 @@ def test_the_fuzz_command_reads_files_and_prints_figures(tmp_path):
 
 def test_a_missed_target_is_exit_code_1(monkeypatch):
     missed = Report("Study", {}, (Figure("a", "b", 2.0, most=1.0),))
-    monkeypatch.setattr("pipeline.study.preparation.regions.run", lambda *_, **__: missed)
+    monkeypatch.setattr("contactbench.pipeline.study.preparation.regions.run", lambda *_, **__: missed)
     ran = CliRunner().invoke(app, ["study", "regions", "--json"])
     assert ran.exit_code == 1
     assert json.loads(ran.stdout)["passed"] is False

@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.study.runtime import run
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.runtime import run
 
 pytestmark = pytest.mark.alone  # it judges how soon things happen
 

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from pipeline.study import scene_limits as study
+from contactbench.pipeline.study import scene_limits as study
 
 
 @pytest.fixture(scope="module")

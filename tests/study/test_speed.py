@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.study import speed
-from pipeline.study.speed_tables import markdown, tables
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import speed
+from contactbench.pipeline.study.speed_tables import markdown, tables
 
 
 @pytest.fixture(scope="module")
@@ -30,9 +30,9 @@ def test_every_method_is_measured_at_every_resolution(report):
 
 def test_every_hit_of_a_ray_through_a_box_is_found():
     pytest.importorskip("embreex", reason="Embree's bindings are an extra")
-    from pipeline.contact import ContactSolver
-    from pipeline.contact.wrench_axis import EmbreeAxis
-    from pipeline.study.rivals.plane import _block
+    from contactbench.pipeline.contact import ContactSolver
+    from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+    from contactbench.pipeline.study.rivals.plane import _block
 
     axis = EmbreeAxis(ContactSolver(_block()))
     origins = np.array(
@@ -72,7 +72,7 @@ def test_tracking_never_differs_and_the_count_could_say_otherwise(report):
 
     from contact_cases import bundled, random_wrenches
 
-    from pipeline.contact import ContactSolver
+    from contactbench.pipeline.contact import ContactSolver
 
     probe = bundled("linear", 500)
     wrenches = random_wrenches(probe, 100, np.random.default_rng(0), pitch=0.0, angle=30)

@@ -1,8 +1,8 @@
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.study.verification import clustered, coverage, run
-from pipeline.verification.figures import Cause
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.verification import clustered, coverage, run
+from contactbench.pipeline.verification.figures import Cause
 
 
 def test_every_figure_is_measured_and_none_is_far_from_its_target():

@@ -10,12 +10,12 @@ import pytest
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline.calibration import GravityModel
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.study import calibration_doubt as study
-from pipeline.study import wrong_models as wrong
-from pipeline.study.gravity import Figure, GravityReport
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import calibration_doubt as study
+from contactbench.pipeline.study import wrong_models as wrong
+from contactbench.pipeline.study.gravity import Figure, GravityReport
 
 QUIET = {"force_noise": (1e-9, 1e-9), "torque_noise": (1e-9, 1e-9)}
 

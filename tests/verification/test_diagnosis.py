@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.study.verification import bench
-from pipeline.verification import diagnosis
-from pipeline.verification.causes import Evidence, alignment_columns, explain
-from pipeline.verification.diagnosis import diagnose
-from pipeline.verification.figures import Cause
+from contactbench.pipeline.study.verification import bench
+from contactbench.pipeline.verification import diagnosis
+from contactbench.pipeline.verification.causes import Evidence, alignment_columns, explain
+from contactbench.pipeline.verification.diagnosis import diagnose
+from contactbench.pipeline.verification.figures import Cause
 
 MARKERS = pytest.mark.skipif(
     "MARKERS" not in Cause.__members__, reason="a verification has no such cause yet"

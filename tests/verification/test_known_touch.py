@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
-from pipeline.study.verification import mesh
-from pipeline.verification.known import Outcome
-from pipeline.verification.known_touch import MISTAKES, TouchParameters, check_touch
-from pipeline.verification.markers import MarkerError
-from pipeline.verification.source import TouchRecording
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.study.verification import mesh
+from contactbench.pipeline.verification.known import Outcome
+from contactbench.pipeline.verification.known_touch import MISTAKES, TouchParameters, check_touch
+from contactbench.pipeline.verification.markers import MarkerError
+from contactbench.pipeline.verification.source import TouchRecording
 
 RATE = 200.0
 MODEL = GravityModel(

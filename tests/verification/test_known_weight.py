@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel, PoseNoise, PoseSample, calibrate
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.errors import InputError
-from pipeline.simulation.weighing import weigh
-from pipeline.verification.known import Outcome
-from pipeline.verification.known_weight import WeightParameters, check_weight
+from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample, calibrate
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.weighing import weigh
+from contactbench.pipeline.verification.known import Outcome
+from contactbench.pipeline.verification.known_weight import WeightParameters, check_weight
 
 G = 9.80665
 TRUTH = GravityModel(

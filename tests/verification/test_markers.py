@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-import assets
-from pipeline.contact import ContactSolver
-from pipeline.kernel import Reason, SurfaceIndex
-from pipeline.mesh import Probe
-from pipeline.study.verification import mesh
-from pipeline.verification.markers import (
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.kernel import Reason, SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.study.verification import mesh
+from contactbench.pipeline.verification.markers import (
     Marker,
     MarkerError,
     MarkerSet,
@@ -16,7 +16,7 @@ from pipeline.verification.markers import (
     snap,
     with_normals,
 )
-from pipeline.verification.spread import grid_markers, spread_markers
+from contactbench.pipeline.verification.spread import grid_markers, spread_markers
 
 HEADER = "name,x_mm,y_mm,z_mm\n"
 

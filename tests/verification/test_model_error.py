@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel
-from pipeline.report.reading import parse_verification
-from pipeline.study.verification import bench, draw_presses, sensor_noise, true_markers
-from pipeline.verification.causes import Evidence, across
-from pipeline.verification.model_error import LEAST, measure_model_error, model_error_words
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.report.reading import parse_verification
+from contactbench.pipeline.study.verification import bench, draw_presses, sensor_noise, true_markers
+from contactbench.pipeline.verification.causes import Evidence, across
+from contactbench.pipeline.verification.model_error import LEAST, measure_model_error, model_error_words
 
 SETS, REPEATS = 20, 3
 FORCE, TORQUE = 0.05, 0.001  # the default

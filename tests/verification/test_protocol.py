@@ -2,13 +2,13 @@ import numpy as np
 import pytest
 from verification.touch_cases import MODEL, NOISE, Push, markers, probe, protocol, stream, touches
 
-import assets
-from pipeline.contact import TouchModel
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.verification.locating import Placing
-from pipeline.verification.markers import make_markers, with_normals
-from pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, State, Why
+from contactbench import assets
+from contactbench.pipeline.contact import TouchModel
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.verification.locating import Placing
+from contactbench.pipeline.verification.markers import make_markers, with_normals
+from contactbench.pipeline.verification.protocol import UNRESOLVED, ProtocolSettings, State, Why
 
 
 def only(found):

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from pipeline.verification.statistics import intervals, summarise, summarise_by
+from contactbench.pipeline.verification.statistics import intervals, summarise, summarise_by
 
 ERRORS = np.array([[1.0, 0, 0], [1.0, 2.0, 0], [1.0, -2.0, 0]]) / 1e3
 

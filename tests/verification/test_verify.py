@@ -7,25 +7,30 @@ from scipy.signal import lfilter
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline.calibration import calibrate
-from pipeline.calibration.files.calibration_file import save_calibration
-from pipeline.cli import app
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.errors import InputError
-from pipeline.mesh import save_probe
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from pipeline.simulation.weighing import draw_weighing
-from pipeline.study.verification import bench
-from pipeline.verification.figures import Cause, Limits
-from pipeline.verification.markers import make_markers
-from pipeline.verification.noise import measured_noise, resting
-from pipeline.verification.press import Touch
-from pipeline.verification.reference import force_accuracy
-from pipeline.verification.result import VerificationParameters, load_surface, verification, verify_files
-from pipeline.verification.source import clock_sentences, read_touch_recording
-from pipeline.verification.verdict import crowded
-from pipeline.verification.verify import VerifySettings, verify
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import save_probe
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation.weighing import draw_weighing
+from contactbench.pipeline.study.verification import bench
+from contactbench.pipeline.verification.figures import Cause, Limits
+from contactbench.pipeline.verification.markers import make_markers
+from contactbench.pipeline.verification.noise import measured_noise, resting
+from contactbench.pipeline.verification.press import Touch
+from contactbench.pipeline.verification.reference import force_accuracy
+from contactbench.pipeline.verification.result import (
+    VerificationParameters,
+    load_surface,
+    verification,
+    verify_files,
+)
+from contactbench.pipeline.verification.source import clock_sentences, read_touch_recording
+from contactbench.pipeline.verification.verdict import crowded
+from contactbench.pipeline.verification.verify import VerifySettings, verify
 
 
 @pytest.fixture(scope="module")

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.calibration import GravityModel
-from pipeline.contact import WrenchNoise
-from pipeline.study.verification import mesh
-from pipeline.verification.locating import Placing
-from pipeline.verification.markers import make_markers, with_normals
-from pipeline.verification.protocol import ProtocolSettings, TouchProtocol
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.study.verification import mesh
+from contactbench.pipeline.verification.locating import Placing
+from contactbench.pipeline.verification.markers import make_markers, with_normals
+from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol
 
 RATE = 200.0
 MODEL = GravityModel(np.array([0, 0, -5.0]), np.zeros(3), np.array([0, 0, 0.05]), np.zeros(3))
@@ -24,7 +24,7 @@ def probe():
 def markers():
     """Three markers along the face, 10 mm from each other, with normals."""
     points = np.array([[-0.01, 0, 0.2], [0.0, 0, 0.2], [0.01, 0, 0.2]])
-    from pipeline.kernel import SurfaceIndex
+    from contactbench.pipeline.kernel import SurfaceIndex
 
     _, _, feet = SurfaceIndex(probe().vertices, probe().faces).closest(points)
     return with_normals(make_markers(feet, ["left", "middle", "right"]), probe())[0]

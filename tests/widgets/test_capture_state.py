@@ -1,7 +1,7 @@
 import pytest
 
-from pipeline.calibration.stillness import StillState
-from widgets.capture_state import CaptureState
+from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.widgets.capture_state import CaptureState
 
 
 @pytest.fixture

@@ -3,10 +3,10 @@ import pytest
 from PySide6.QtCore import QPointF
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.reachable import by_hand
-from pipeline.workbench.gravity_poses import PoseRow, PoseState
-from widgets.coverage import Coverage, place
-from widgets.theme import colours
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.widgets.coverage import Coverage, place
+from contactbench.widgets.theme import colours
 
 DOWN = Rotation.from_euler("x", 180, degrees=True).as_matrix()
 

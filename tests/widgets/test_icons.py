@@ -4,9 +4,9 @@ import pytest
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QColor, QIcon
 
-from pipeline.workbench.steps import StepState
-from widgets.icons import NAMES, icon, state_icon
-from widgets.theme import colours, use_theme
+from contactbench.pipeline.workbench.steps import StepState
+from contactbench.widgets.icons import NAMES, icon, state_icon
+from contactbench.widgets.theme import colours, use_theme
 
 
 def pixels(drawn, size=64, mode=QIcon.Mode.Normal):

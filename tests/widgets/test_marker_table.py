@@ -4,8 +4,8 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QPushButton
 
-from widgets.checklist import Checklist, ShownCheck
-from widgets.marker_table import MarkerTable, ShownMarker
+from contactbench.widgets.checklist import Checklist, ShownCheck
+from contactbench.widgets.marker_table import MarkerTable, ShownMarker
 
 ROWS = (
     ShownMarker("tip", (0.0, -1.2, 150.4), 1, 2, 0.42, 0.51, "next"),

@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QComboBox, QListWidget, QPlainTextEdit
 
-from widgets.message_list import MessageList
+from contactbench.widgets.message_list import MessageList
 
 
 @pytest.fixture

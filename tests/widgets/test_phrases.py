@@ -1,6 +1,6 @@
 import pytest
 
-from widgets.phrases import PhraseBook, said, use
+from contactbench.widgets.phrases import PhraseBook, said, use
 
 BOOK = PhraseBook(
     {

@@ -7,9 +7,9 @@ import pytest
 from PySide6.QtCore import QObject, Qt, Signal
 from workbench.region_sessions import CENTRE, RADIUS, ball_shell
 
-from pipeline.workbench.regions import RegionsWork
-from widgets.region_brush import LARGEST, SMALLEST, USUAL, RegionBrush
-from widgets.scene.scene import Pick
+from contactbench.pipeline.workbench.regions import RegionsWork
+from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL, RegionBrush
+from contactbench.widgets.scene.scene import Pick
 
 NO_KEY, SHIFT = Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.ShiftModifier
 

@@ -8,11 +8,11 @@ import pytest
 from PySide6.QtCore import QModelIndex, Qt
 from PySide6.QtWidgets import QApplication, QLineEdit
 
-from pipeline.mesh.regions import PALETTE
-from pipeline.workbench.regions import RegionRow
-from widgets.region_list import RegionListWidget
-from widgets.region_list_colour import ColourMenu
-from widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY
+from contactbench.pipeline.mesh.regions import PALETTE
+from contactbench.pipeline.workbench.regions import RegionRow
+from contactbench.widgets.region_list import RegionListWidget
+from contactbench.widgets.region_list_colour import ColourMenu
+from contactbench.widgets.region_list_rows import AREA, FACETS, NAME, PRIORITY
 
 ROWS = (
     RegionRow("Lens", "#e69f00", 1200, 12.34e-4),

@@ -1,9 +1,9 @@
 import pytest
 from PySide6.QtCore import Qt
 
-from pipeline.workbench.gravity_poses import PoseRow, PoseState
-from widgets.residual_table import SIGMAS, STATE, ResidualTable
-from widgets.verdict_box import GOOD, REFUSE, Shrinking, VerdictBox
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState
+from contactbench.widgets.residual_table import SIGMAS, STATE, ResidualTable
+from contactbench.widgets.verdict_box import GOOD, REFUSE, Shrinking, VerdictBox
 
 ROWS = (
     PoseRow("pose 1", 1.0, None, "14°, +z down", PoseState.TAKEN, "", 0.84, 0.8, 0.3),

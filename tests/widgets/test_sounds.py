@@ -7,7 +7,7 @@ import wave
 import numpy as np
 import pytest
 
-from widgets.sounds import RATE, TONES, Sounds, tone
+from contactbench.widgets.sounds import RATE, TONES, Sounds, tone
 
 
 def samples(name):

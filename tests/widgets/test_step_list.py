@@ -3,8 +3,8 @@ from __future__ import annotations
 import pytest
 from PySide6.QtCore import Qt
 
-from pipeline.workbench.steps import Step, StepState, StepStatus
-from widgets.step_list import StepList
+from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
+from contactbench.widgets.step_list import StepList
 
 
 @pytest.fixture

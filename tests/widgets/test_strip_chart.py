@@ -4,8 +4,8 @@ from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 
-from widgets.strip_chart import History, StripChart
-from widgets.strip_chart_decimate import decimate, nearest, steady_range
+from contactbench.widgets.strip_chart import History, StripChart
+from contactbench.widgets.strip_chart_decimate import decimate, nearest, steady_range
 
 
 def history(count=2000, rate=200.0, start=50.0, bias=0.0):

@@ -5,8 +5,8 @@ from dataclasses import fields
 
 import pytest
 
-from widgets import theme
-from widgets.theme import colours, contrast, is_dark, style_sheet, use_theme
+from contactbench.widgets import theme
+from contactbench.widgets.theme import colours, contrast, is_dark, style_sheet, use_theme
 
 _WRITTEN = ("text", "muted", "accent", "good", "warning", "bad", "stale")
 

@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from widgets.error_view import ErrorView
-from widgets.theme import colours, palette
-from widgets.touch_state import TouchState
+from contactbench.widgets.error_view import ErrorView
+from contactbench.widgets.theme import colours, palette
+from contactbench.widgets.touch_state import TouchState
 
 
 @pytest.fixture

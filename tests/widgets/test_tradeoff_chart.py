@@ -1,9 +1,9 @@
 import pytest
 from PySide6.QtCore import QPoint, Qt
 
-from pipeline.workbench.probe_ladder import Trade, TradePoint
-from widgets.theme import use_theme
-from widgets.tradeoff_chart import TradeoffChart
+from contactbench.pipeline.workbench.probe_ladder import Trade, TradePoint
+from contactbench.widgets.theme import use_theme
+from contactbench.widgets.tradeoff_chart import TradeoffChart
 
 TRADE = Trade(
     tuple(

@@ -7,12 +7,12 @@ from functools import cache
 
 import numpy as np
 
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from pipeline.session.live import LiveRecording
-from pipeline.simulation.virtual.bench import VirtualBench
-from pipeline.workbench.live import Block
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
+from contactbench.pipeline.session.live import LiveRecording
+from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+from contactbench.pipeline.workbench.live import Block
 
 STILL_S = 4.5  # of which the wrist turns for the first
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import RegionSet
-from pipeline.mesh.sidecar import ProbeFile
-from pipeline.session import Session
-from pipeline.session.recompute import compute, newest_inputs
-from pipeline.workbench.desk import Desk
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.recompute import compute, newest_inputs
+from contactbench.pipeline.workbench.desk import Desk
 
 if TYPE_CHECKING:
     from pathlib import Path

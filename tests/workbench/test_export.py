@@ -8,13 +8,13 @@ import pytest
 from typer.testing import CliRunner
 from workbench.touch_session import make_session, verify
 
-from pipeline import cli
-from pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
-from pipeline.config.runtime.differ import Difference, Differences
-from pipeline.session import Session
-from pipeline.workbench.export import PLACE, RESULTS, SHA256, export, survey, told
-from pipeline.workbench.export_checklist import checklist, results_of
-from pipeline.workbench.steps import Step
+from contactbench.pipeline import cli
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, UnverifiedError
+from contactbench.pipeline.config.runtime.differ import Difference, Differences
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.export import PLACE, RESULTS, SHA256, export, survey, told
+from contactbench.pipeline.workbench.export_checklist import checklist, results_of
+from contactbench.pipeline.workbench.steps import Step
 
 
 @pytest.fixture(scope="module")

@@ -1,13 +1,13 @@
 import pytest
 from workbench.gravity_bench import batches, block, record
 
-from pipeline.session import Session
-from pipeline.session.errors import SessionError
-from pipeline.session.recompute import compute
-from pipeline.session.unfinished import adopt_unfinished
-from pipeline.workbench.gravity import GravityWork
-from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_results import (
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.errors import SessionError
+from contactbench.pipeline.session.recompute import compute
+from contactbench.pipeline.session.unfinished import adopt_unfinished
+from contactbench.pipeline.workbench.gravity import GravityWork
+from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_results import (
     change,
     difference,
     finish,
@@ -16,7 +16,7 @@ from pipeline.workbench.gravity_results import (
     outcome_of,
     take_up,
 )
-from pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.gravity_settings import gravity_settings
 
 
 @pytest.fixture

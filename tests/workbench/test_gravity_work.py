@@ -3,14 +3,14 @@ import pytest
 from scipy.spatial.transform import Rotation
 from workbench.gravity_bench import batches, block
 
-from pipeline.calibration import Level
-from pipeline.calibration.stillness import StillState
-from pipeline.session.state import State
-from pipeline.workbench.gravity import GravityWork
-from pipeline.workbench.gravity_check import GravityCheck
-from pipeline.workbench.gravity_poses import PoseState
-from pipeline.workbench.gravity_settings import gravity_settings
-from pipeline.workbench.live import Block
+from contactbench.pipeline.calibration import Level
+from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.pipeline.session.state import State
+from contactbench.pipeline.workbench.gravity import GravityWork
+from contactbench.pipeline.workbench.gravity_check import GravityCheck
+from contactbench.pipeline.workbench.gravity_poses import PoseState
+from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.live import Block
 
 PLAIN = gravity_settings(State())
 
@@ -177,7 +177,7 @@ def test_settings_that_make_no_sense_are_refused_with_a_remedy():
 
 
 def _state(values):
-    from pipeline.session.state import Setting
+    from contactbench.pipeline.session.state import Setting
 
     return State(
         settings={key: Setting(value, number, "") for number, (key, value) in enumerate(values.items())}

@@ -6,13 +6,19 @@ import numpy as np
 import pytest
 from workbench.touch_session import STEPWISE, make_session, press, surface, verify, weighed
 
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
-from pipeline.session import Session
-from pipeline.verification.known import TOUCH, WEIGHT, Outcome
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.known_checks import FILES, KnownChecks, PressReading, StillReading, known_outcome
-from pipeline.workbench.live import Live
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.known_checks import (
+    FILES,
+    KnownChecks,
+    PressReading,
+    StillReading,
+    known_outcome,
+)
+from contactbench.pipeline.workbench.live import Live
 
 KG = 9.80665
 

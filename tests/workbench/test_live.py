@@ -6,20 +6,20 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import GravityModel
-from pipeline.contact import ContactSolver
-from pipeline.devices.drive import State
-from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S, PoseTrack
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.devices.url import AddressError
-from pipeline.errors import InputError
-from pipeline.filtering import KalmanFilter
-from pipeline.kernel import Reason
-from pipeline.workbench.live import Live, Tap
-from pipeline.workbench.live_moment import Moment
-from pipeline.workbench.live_ring import Ring
-from pipeline.workbench.live_trial import trial_of
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S, PoseTrack
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.url import AddressError
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.kernel import Reason
+from contactbench.pipeline.workbench.live import Live, Tap
+from contactbench.pipeline.workbench.live_moment import Moment
+from contactbench.pipeline.workbench.live_ring import Ring
+from contactbench.pipeline.workbench.live_trial import trial_of
 
 STEPWISE = "virtual://bench?probe=convex&sensor=paper&speed=step"
 EMPTY = np.zeros(3)

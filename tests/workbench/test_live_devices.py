@@ -3,10 +3,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.devices.url import DeviceAddress, Protocol
-from pipeline.session import Session
-from pipeline.workbench import live_devices as devices
-from pipeline.workbench.live_devices import Devices
+from contactbench.pipeline.devices.url import DeviceAddress, Protocol
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench import live_devices as devices
+from contactbench.pipeline.workbench.live_devices import Devices
 
 
 def test_addresses_read_back():

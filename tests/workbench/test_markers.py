@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from workbench.touch_session import surface
 
-from pipeline.errors import InputError
-from pipeline.session import Session
-from pipeline.verification import MarkerError, load_markers
-from pipeline.workbench.markers import Markers, grid, imported, keep, kept, on_surface, spread
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.verification import MarkerError, load_markers
+from contactbench.pipeline.workbench.markers import Markers, grid, imported, keep, kept, on_surface, spread
 
 FIRST, SECOND = (0.0, 0.0, 0.15), (0.01, 0.0, 0.15)
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.control.frames import Beginning, Frame
-from pipeline.errors import InputError
-from pipeline.study.bundle_example import example_config
-from pipeline.workbench.motion import MotionChoice, MotionRun, placed
+from contactbench.pipeline.control.frames import Beginning, Frame
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.bundle_example import example_config
+from contactbench.pipeline.workbench.motion import MotionChoice, MotionRun, placed
 
 PLATFORM = "virtual://platform"
 

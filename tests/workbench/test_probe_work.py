@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from workbench.probe_files import bad_meshes, egg
 
-from pipeline.errors import InputError
-from pipeline.mesh.engines import Cancelled
-from pipeline.preparation.alignment import from_angles
-from pipeline.session import Session
-from pipeline.session.recompute import compute, newest_inputs
-from pipeline.session.replay import Outcome, replay
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.probe import Plan, ProbeWork
-from pipeline.workbench.probe_alignment import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.preparation.alignment import from_angles
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.session.recompute import compute, newest_inputs
+from contactbench.pipeline.session.replay import Outcome, replay
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.probe import Plan, ProbeWork
+from contactbench.pipeline.workbench.probe_alignment import (
     PointPair,
     back_to_mesh,
     by_axes,
@@ -26,9 +26,9 @@ from pipeline.workbench.probe_alignment import (
     by_points,
     numbers_of,
 )
-from pipeline.workbench.probe_commit import before, bring_back, commit, files_of
-from pipeline.workbench.probe_ladder import trade_of
-from pipeline.workbench.probe_shell import recipe_of, shell_of, used_probe
+from contactbench.pipeline.workbench.probe_commit import before, bring_back, commit, files_of
+from contactbench.pipeline.workbench.probe_ladder import trade_of
+from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_of, used_probe
 
 PLAN = Plan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 

@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
 
-from pipeline.commands.region_session import Session as CommandSession
-from pipeline.errors import InputError
-from pipeline.mesh.colours import PLAIN
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.regions import Brush, RegionError
-from pipeline.mesh.sidecar import load_probe_file, save_probe_file
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.regions import RegionsWork
-from pipeline.workbench.regions_session import (
+from contactbench.pipeline.commands.region_session import Session as CommandSession
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.colours import PLAIN
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.regions import Brush, RegionError
+from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.regions import RegionsWork
+from contactbench.pipeline.workbench.regions_session import (
     Standing,
     apply,
     keep,
@@ -28,7 +28,16 @@ from pipeline.workbench.regions_session import (
     stored,
     surface_key,
 )
-from pipeline.workbench.regions_tools import Box, Clear, Flood, Grow, Mirror, Plane, Shrink, Smooth
+from contactbench.pipeline.workbench.regions_tools import (
+    Box,
+    Clear,
+    Flood,
+    Grow,
+    Mirror,
+    Plane,
+    Shrink,
+    Smooth,
+)
 
 TOP = CENTRE + [0, 0, RADIUS]
 
@@ -280,7 +289,7 @@ def test_removing_all_regions_reaches_the_probe_too(desk):  # noqa: F811
 def test_the_command_gives_the_same_bytes(desk, folder):  # noqa: F811
     from typer.testing import CliRunner
 
-    from pipeline.cli import app
+    from contactbench.pipeline.cli import app
 
     work = open_work(desk)
     work.step(lambda model: model.add("Lens"))
@@ -299,7 +308,7 @@ def test_the_command_gives_the_same_bytes(desk, folder):  # noqa: F811
 def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
     from typer.testing import CliRunner
 
-    from pipeline.cli import app
+    from contactbench.pipeline.cli import app
 
     mesh = tmp_path / "shell.ply"
     save_probe_file(ball_shell(), mesh)

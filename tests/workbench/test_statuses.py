@@ -2,10 +2,10 @@ import json
 
 import pytest
 
-from pipeline.session import Session
-from pipeline.workbench.export_checklist import results_of
-from pipeline.workbench.statuses import Facts, read_facts, statuses
-from pipeline.workbench.steps import Step, StepState
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.export_checklist import results_of
+from contactbench.pipeline.workbench.statuses import Facts, read_facts, statuses
+from contactbench.pipeline.workbench.steps import Step, StepState
 
 
 @pytest.fixture

@@ -2,14 +2,14 @@ import time
 
 import pytest
 
-from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.errors import InputError
-from pipeline.recording import read_recording
-from pipeline.recording.errors import RecordingError
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.live import Live
-from pipeline.workbench.tape import Tape
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import read_recording
+from contactbench.pipeline.recording.errors import RecordingError
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.workbench.tape import Tape
 
 BENCH = "virtual://bench?probe=convex&sensor=paper&speed=step"
 PATIENCE = 30

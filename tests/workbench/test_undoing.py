@@ -1,7 +1,7 @@
 import pytest
 
-from pipeline.session import Session
-from pipeline.workbench.undoing import change_between, observed, value_in
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.undoing import change_between, observed, value_in
 
 
 @pytest.fixture

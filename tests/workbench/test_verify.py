@@ -6,14 +6,14 @@ import pytest
 from typer.testing import CliRunner
 from workbench.touch_session import STEPWISE, make_session, press, touch_all
 
-from pipeline import cli
-from pipeline.errors import InputError
-from pipeline.session import Session
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.live import Live
-from pipeline.workbench.markers import Markers, keep, spread
-from pipeline.workbench.verify import VerifyWork, next_name, tool_key, tool_of, why_locked
-from pipeline.workbench.verify_outcome import outcome_of
+from contactbench.pipeline import cli
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.workbench.markers import Markers, keep, spread
+from contactbench.pipeline.workbench.verify import VerifyWork, next_name, tool_key, tool_of, why_locked
+from contactbench.pipeline.workbench.verify_outcome import outcome_of
 
 
 class Work:

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from verification.touch_cases import MODEL, NOISE, Push, markers, probe, stream
 
-from pipeline.verification.protocol import ProtocolSettings, State
-from pipeline.verification.verify import VerifySettings
-from pipeline.workbench.live import Block
-from pipeline.workbench.verify_settings import Turns
-from pipeline.workbench.verify_touches import LiveTouches, live_noise
+from contactbench.pipeline.verification.protocol import ProtocolSettings, State
+from contactbench.pipeline.verification.verify import VerifySettings
+from contactbench.pipeline.workbench.live import Block
+from contactbench.pipeline.workbench.verify_settings import Turns
+from contactbench.pipeline.workbench.verify_touches import LiveTouches, live_noise
 
 
 def following(**protocol):

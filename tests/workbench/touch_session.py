@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.calibration import PoseSample, calibrate
-from pipeline.calibration.files.calibration_file import save_calibration
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import RegionSet
-from pipeline.mesh.sidecar import ProbeFile, save_probe_file
-from pipeline.session import Session
-from pipeline.simulation.virtual.bench import VirtualBench
-from pipeline.workbench.desk import Desk
-from pipeline.workbench.live import Live
-from pipeline.workbench.markers import keep, spread
-from pipeline.workbench.verify import VerifyWork, tool_of
+from contactbench import assets
+from contactbench.pipeline.calibration import PoseSample, calibrate
+from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from contactbench.pipeline.session import Session
+from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.live import Live
+from contactbench.pipeline.workbench.markers import keep, spread
+from contactbench.pipeline.workbench.verify import VerifyWork, tool_of
 
 if TYPE_CHECKING:
     from pathlib import Path

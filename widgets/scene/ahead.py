@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from widgets.scene.shapes import thinned
+from contactbench.widgets.scene.shapes import thinned
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 MANY = 30_000
 """Facets from which on a likeness stands in while all moves."""
@@ -33,7 +33,7 @@ class Prepared:
     ----------
     probe : Probe
     likeness : (vertices, faces, kept) or None
-        See `widgets.scene.shapes.thinned`; None: it has few facets.
+        See `contactbench.widgets.scene.shapes.thinned`; None: it has few facets.
     creases : (2 k, 3)
         Ends of its sharp and open edges, S, m.
     """

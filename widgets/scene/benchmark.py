@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PySide6.QtCore import QCoreApplication, QEventLoop, QPointF
 
-from pipeline.mesh import Probe
-from widgets.scene.probe_layer import ProbeLayer
-from widgets.scene.scene import Scene
-from widgets.scene.views import turned
+from contactbench.pipeline.mesh import Probe
+from contactbench.widgets.scene.probe_layer import ProbeLayer
+from contactbench.widgets.scene.scene import Scene
+from contactbench.widgets.scene.views import turned
 
 if TYPE_CHECKING:
     from collections.abc import Callable

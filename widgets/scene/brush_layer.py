@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from widgets.scene.shapes import circle, frame_on, segments
-from widgets.scene.stage import Shape
+from contactbench.widgets.scene.shapes import circle, frame_on, segments
+from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
-    from pipeline.mesh import Probe
-    from widgets.scene.picking import Pick
-    from widgets.scene.stage import Stage
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.widgets.scene.picking import Pick
+    from contactbench.widgets.scene.stage import Stage
 
 
 class BrushLayer:

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from widgets.scene.label import Label
-from widgets.scene.shapes import circle, disc, frame_on, ring_segments, segments
-from widgets.scene.stage import Shape
+from contactbench.widgets.scene.label import Label
+from contactbench.widgets.scene.shapes import circle, disc, frame_on, ring_segments, segments
+from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from widgets.scene.picking import Picker
-    from widgets.scene.stage import Stage
-    from widgets.scene.views import Screen
+    from contactbench.widgets.scene.picking import Picker
+    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.views import Screen
 
 CHI2_95 = 5.991  # of two degrees of freedom
 

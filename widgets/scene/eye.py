@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from widgets.scene.views import Look, Screen, fitted, looking, moved
+from contactbench.widgets.scene.views import Look, Screen, fitted, looking, moved
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtCore import QPointF
 
-    from widgets.scene.picking import Pick
-    from widgets.scene.pose_layer import PoseLayer
-    from widgets.scene.probe_layer import ProbeLayer
-    from widgets.scene.stage import Stage
-    from widgets.scene.view import View
+    from contactbench.widgets.scene.picking import Pick
+    from contactbench.widgets.scene.pose_layer import PoseLayer
+    from contactbench.widgets.scene.probe_layer import ProbeLayer
+    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.view import View
 
 _AROUND = 1.25  # room about the probe for the arrow of a force
 _COVERED = 64.0  # px along the lower edge: buttons and the scale bar

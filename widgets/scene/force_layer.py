@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from widgets.scene.shapes import cone, cylinder, frame_on
-from widgets.scene.stage import Shape
+from contactbench.widgets.scene.shapes import cone, cylinder, frame_on
+from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import Stage
 
 _LEAST = 1e-4  # m: a shorter arrow is none
 

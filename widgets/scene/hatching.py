@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from widgets.scene.shapes import segments
+from contactbench.widgets.scene.shapes import segments
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 _LINES = 70  # across the probe's size
 # The direction in which the lines follow each other, by the axis along which a facet's normal is longest: it is

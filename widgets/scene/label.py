@@ -15,7 +15,7 @@ from vtkmodules.vtkRenderingCore import vtkPolyDataMapper2D, vtkTexture, vtkText
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from widgets.scene.stage import Stage
+    from contactbench.widgets.scene.stage import Stage
 
 _POINTS = 11.0
 

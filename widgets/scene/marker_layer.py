@@ -10,17 +10,17 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkSphereSource
 
-from widgets.scene.label import Label
-from widgets.scene.shapes import cone, frame_on, segments
-from widgets.scene.stage import Shape
+from contactbench.widgets.scene.label import Label
+from contactbench.widgets.scene.shapes import cone, frame_on, segments
+from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from widgets.scene.stage import Stage
-    from widgets.scene.views import Screen
+    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.views import Screen
 
 _SIGNS = {"open": "", "done": " ✓", "failed": " ✗"}
 _LONGER = 10.0  # how much longer than the error its arrow is

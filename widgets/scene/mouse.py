@@ -8,12 +8,12 @@ import numpy as np
 from PySide6.QtCore import QObject, QPointF, Qt, QTimer
 from PySide6.QtWidgets import QApplication
 
-from widgets.scene.views import moved, scaled, turned
+from contactbench.widgets.scene.views import moved, scaled, turned
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QMouseEvent, QWheelEvent
 
-    from widgets.scene.scene import Scene
+    from contactbench.widgets.scene.scene import Scene
 
 _HOVER_MS = 34
 _NOTCH = 120  # of a wheel, in eighths of a degree

@@ -8,12 +8,12 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QLinearGradient, QPainter, QPen
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QToolButton, QWidget
 
-from widgets.scene.fields import cividis, round_length, ticks
+from contactbench.widgets.scene.fields import cividis, round_length, ticks
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QPaintEvent
 
-    from widgets.theme import Colours
+    from contactbench.widgets.theme import Colours
 
 _LONGEST = 190.0  # of the scale bar, pixels
 _BUTTON_HEIGHT = 36

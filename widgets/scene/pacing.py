@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from widgets.scene.view import View
+    from contactbench.widgets.scene.view import View
 
 _FRAME_MS = 33
 _SETTLE_MS = 180

@@ -7,15 +7,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from widgets.scene.label import Label
-from widgets.scene.shapes import circle, cone, cylinder, disc, frame_on, homogeneous, segments, triangles
-from widgets.scene.stage import Shape
+from contactbench.widgets.scene.label import Label
+from contactbench.widgets.scene.shapes import (
+    circle,
+    cone,
+    cylinder,
+    disc,
+    frame_on,
+    homogeneous,
+    segments,
+    triangles,
+)
+from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from widgets.scene.stage import Stage
-    from widgets.scene.views import Screen
+    from contactbench.widgets.scene.stage import Stage
+    from contactbench.widgets.scene.views import Screen
 
 # Lighter on dark grounds: a pure blue letter is not read there.
 _AXES = {False: ("#c62828", "#2e7d32", "#1554c0"), True: ("#ff7b72", "#5fd07a", "#7ab8ff")}

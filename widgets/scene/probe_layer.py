@@ -9,19 +9,19 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonCore import vtkLookupTable
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from widgets.scene.ahead import MANY
-from widgets.scene.fields import cividis
-from widgets.scene.hatching import crosses, hatches
-from widgets.scene.picking import Picker
-from widgets.scene.shapes import segments, thinned, triangles
-from widgets.scene.stage import Shape
+from contactbench.widgets.scene.ahead import MANY
+from contactbench.widgets.scene.fields import cividis
+from contactbench.widgets.scene.hatching import crosses, hatches
+from contactbench.widgets.scene.picking import Picker
+from contactbench.widgets.scene.shapes import segments, thinned, triangles
+from contactbench.widgets.scene.stage import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
-    from widgets.scene.ahead import Prepared
-    from widgets.scene.stage import Stage
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.widgets.scene.ahead import Prepared
+    from contactbench.widgets.scene.stage import Stage
 
 _NOT_TOO_MANY = 250_000  # facets up to which the window may wait for a likeness
 PLAIN = 205  # grey of facets without a region, of 255

@@ -10,26 +10,26 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QWidget
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from widgets.scene.ahead import Ahead
-from widgets.scene.brush_layer import BrushLayer
-from widgets.scene.contact_layer import ContactLayer
-from widgets.scene.eye import Eye
-from widgets.scene.fields import limits_of
-from widgets.scene.force_layer import ForceLayer
-from widgets.scene.marker_layer import MarkerLayer
-from widgets.scene.mouse import Mouse
-from widgets.scene.overlays import ColourBar, ScaleBar, ViewButtons
-from widgets.scene.pacing import Pacing
-from widgets.scene.picking import Pick
-from widgets.scene.pose_layer import PoseLayer
-from widgets.scene.probe_layer import ProbeLayer
-from widgets.scene.shapes import homogeneous
-from widgets.scene.stage import Stage, rgb
-from widgets.scene.still import StillPicture
-from widgets.scene.view import View
-from widgets.scene.views import VIEWS, Look, Screen
-from widgets.theme import colours as theme_colours
-from widgets.theme import is_dark
+from contactbench.widgets.scene.ahead import Ahead
+from contactbench.widgets.scene.brush_layer import BrushLayer
+from contactbench.widgets.scene.contact_layer import ContactLayer
+from contactbench.widgets.scene.eye import Eye
+from contactbench.widgets.scene.fields import limits_of
+from contactbench.widgets.scene.force_layer import ForceLayer
+from contactbench.widgets.scene.marker_layer import MarkerLayer
+from contactbench.widgets.scene.mouse import Mouse
+from contactbench.widgets.scene.overlays import ColourBar, ScaleBar, ViewButtons
+from contactbench.widgets.scene.pacing import Pacing
+from contactbench.widgets.scene.picking import Pick
+from contactbench.widgets.scene.pose_layer import PoseLayer
+from contactbench.widgets.scene.probe_layer import ProbeLayer
+from contactbench.widgets.scene.shapes import homogeneous
+from contactbench.widgets.scene.stage import Stage, rgb
+from contactbench.widgets.scene.still import StillPicture
+from contactbench.widgets.scene.view import View
+from contactbench.widgets.scene.views import VIEWS, Look, Screen
+from contactbench.widgets.theme import colours as theme_colours
+from contactbench.widgets.theme import is_dark
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 
-    from pipeline.mesh import Probe
-    from widgets.scene.ahead import Prepared
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.widgets.scene.ahead import Prepared
 
 __all__ = ["Pick", "Scene"]
 

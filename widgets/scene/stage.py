@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from widgets.scene.shapes import matrix
-from widgets.theme import colours
+from contactbench.widgets.scene.shapes import matrix
+from contactbench.widgets.theme import colours
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from widgets.theme import Colours
+    from contactbench.widgets.theme import Colours
 
 
 class Stage:

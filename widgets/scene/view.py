@@ -10,13 +10,13 @@ from PySide6.QtCore import Qt, Signal
 from pyvistaqt import QtInteractor
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 
-from widgets.software_gl import spare_cores
+from contactbench.widgets.software_gl import spare_cores
 
 if TYPE_CHECKING:
     from PySide6.QtGui import QDragEnterEvent, QDropEvent, QKeyEvent, QMouseEvent, QWheelEvent
     from PySide6.QtWidgets import QWidget
 
-    from widgets.scene.mouse import Mouse
+    from contactbench.widgets.scene.mouse import Mouse
 
 _LOG = logging.getLogger("contactbench.scene")
 _GL_RENDERER = 0x1F01

@@ -14,27 +14,35 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import chdtrc
 
-from pipeline.calibration.contact_error import usual_task
-from pipeline.calibration.diagnosis.evidence import weigh
-from pipeline.calibration.diagnosis.explain import FELT, NOTHING, TIE, Case, Context, Words, decided_by
-from pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations, hypotheses
-from pipeline.calibration.diagnosis.odds import NONE, odds
-from pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
-from pipeline.calibration.diagnosis.side_by_side import Noise
-from pipeline.calibration.diagnosis.turned import MOUNT, WORLD, YAW, settled
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
-from pipeline.calibration.poses import PoseError, PoseSample, stack
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.contact_error import usual_task
+from contactbench.pipeline.calibration.diagnosis.evidence import weigh
+from contactbench.pipeline.calibration.diagnosis.explain import (
+    FELT,
+    NOTHING,
+    TIE,
+    Case,
+    Context,
+    Words,
+    decided_by,
+)
+from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations, hypotheses
+from contactbench.pipeline.calibration.diagnosis.odds import NONE, odds
+from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
+from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
+from contactbench.pipeline.calibration.diagnosis.turned import MOUNT, WORLD, YAW, settled
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.evidence import Evidence
-    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from pipeline.calibration.fit import PoseNoise
+    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
+    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+    from contactbench.pipeline.calibration.fit import PoseNoise
 
 __all__ = ["Diagnosis", "Finding", "Prior", "RawOrientations", "diagnose"]
 

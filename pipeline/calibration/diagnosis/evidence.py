@@ -12,17 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from pipeline.calibration.diagnosis.rows import FEWEST_BESIDE
-from pipeline.calibration.diagnosis.side_by_side import Fits, Noise, begin, fit, joint_doubts
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
+from contactbench.pipeline.calibration.diagnosis.rows import FEWEST_BESIDE
+from contactbench.pipeline.calibration.diagnosis.side_by_side import Fits, Noise, begin, fit, joint_doubts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+    from contactbench.pipeline.calibration.poses import Stack
 
 _BUMPED = np.log(20.0)  # one pose in twenty is bumped
 _STEPS = 40  # poses beyond this number are left out more than one at a time

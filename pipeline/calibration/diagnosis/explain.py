@@ -8,21 +8,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.odds import NONE, in_words
-from pipeline.calibration.diagnosis.prior import DOWN, MASS, QUIET, REACH, SIDE, WEIGHED, Prior, angle_between
-from pipeline.calibration.diagnosis.rows import SHIFTED
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.calibration.observability import observe
-from pipeline.calibration.poses import named
+from contactbench.pipeline.calibration.diagnosis.odds import NONE, in_words
+from contactbench.pipeline.calibration.diagnosis.prior import (
+    DOWN,
+    MASS,
+    QUIET,
+    REACH,
+    SIDE,
+    WEIGHED,
+    Prior,
+    angle_between,
+)
+from contactbench.pipeline.calibration.diagnosis.rows import SHIFTED
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration.observability import observe
+from contactbench.pipeline.calibration.poses import named
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.evidence import Evidence
-    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from pipeline.calibration.poses import PoseSample
+    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
+    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+    from contactbench.pipeline.calibration.poses import PoseSample
 
 # Readings whose probabilities differ by less than a factor of exp(2) are called a tie.
 TIE = 2.0

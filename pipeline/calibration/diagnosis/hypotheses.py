@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
-from pipeline.calibration.diagnosis.prior import Prior
-from pipeline.calibration.diagnosis.rereadings import RawOrientations, Rereadings
-from pipeline.calibration.diagnosis.rows import changes, orders
-from pipeline.calibration.diagnosis.turned import directions, mounts
-from pipeline.calibration.diagnosis.wrenches import signs, swaps, units
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
+from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, Rereadings
+from contactbench.pipeline.calibration.diagnosis.rows import changes, orders
+from contactbench.pipeline.calibration.diagnosis.turned import directions, mounts
+from contactbench.pipeline.calibration.diagnosis.wrenches import signs, swaps, units
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.poses import Stack
 
 __all__ = ["AS_DECLARED", "Hypothesis", "RawOrientations", "hypotheses"]
 

@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.prior import Prior
+    from contactbench.pipeline.calibration.diagnosis.prior import Prior
 
 AS_DECLARED = "as_declared"
 

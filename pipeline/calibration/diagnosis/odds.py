@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import logsumexp
 
-from pipeline.calibration.diagnosis.prior import QUIET
+from contactbench.pipeline.calibration.diagnosis.prior import QUIET
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from pipeline.calibration.diagnosis.explain import Case
+    from contactbench.pipeline.calibration.diagnosis.explain import Case
 
 NONE = "none"
 # An unknown cause leaves residuals of any size: forces and torques by a factor of up to 3,000 each, where those of

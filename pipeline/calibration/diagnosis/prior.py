@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.diagnosis.conversions import (
+from contactbench.pipeline.calibration.diagnosis.conversions import (
     COLUMNS_REVERSED,
     FIXED_ORDERS,
     VECTOR,
@@ -17,9 +17,9 @@ from pipeline.calibration.diagnosis.conversions import (
     from_angles,
     recovered,
 )
-from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-from pipeline.calibration.orientation import Convention, Kind, rotations
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

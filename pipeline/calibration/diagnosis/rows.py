@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.hypothesis import Hypothesis
+from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.poses import Stack
 
 SHIFTED = "rows_shifted_by_"
 # A re-zero needs so many poses on either side: a single one cannot be told from a bumped pose.

@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import cross_matrix
+from contactbench.pipeline.calibration.model import cross_matrix
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-    from pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+    from contactbench.pipeline.calibration.poses import Stack
 
 # Noise is at least this share of the readings: none is so small, and simulated data have none at all.
 _LEAST = 1e-6

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-from pipeline.calibration.diagnosis.prior import angle_between
+from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+from contactbench.pipeline.calibration.diagnosis.prior import angle_between
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.diagnosis.evidence import Evidence
-    from pipeline.calibration.diagnosis.prior import Prior
+    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
+    from contactbench.pipeline.calibration.diagnosis.prior import Prior
 
 YAW, MOUNT, WORLD, TOOL_BEHIND = "yaw", "mount", "world_turned", "tool_behind"
 _YAWS = (90, 180, 270)

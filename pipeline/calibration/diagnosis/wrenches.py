@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.diagnosis.hypothesis import Hypothesis
-from pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.calibration.diagnosis.hypothesis import Hypothesis
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

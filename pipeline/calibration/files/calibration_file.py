@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline import __version__
-from pipeline.calibration.calibrate import Calibration, direction
-from pipeline.calibration.causes import Cause
-from pipeline.calibration.contact_error import ContactTask
-from pipeline.calibration.files.schema import (
+from contactbench import __version__
+from contactbench.pipeline.calibration.calibrate import Calibration, direction
+from contactbench.pipeline.calibration.causes import Cause
+from contactbench.pipeline.calibration.contact_error import ContactTask
+from contactbench.pipeline.calibration.files.schema import (
     REMEDY,
     CalibrationFileError,
     Document,
@@ -31,14 +31,14 @@ from pipeline.calibration.files.schema import (
     or_infinite,
     parse,
 )
-from pipeline.calibration.fit import PoseNoise
-from pipeline.calibration.model import STANDARD_GRAVITY, GravityModel
-from pipeline.calibration.observability import Observability
-from pipeline.calibration.outliers import Rejection
-from pipeline.calibration.poses import PoseSample
-from pipeline.calibration.verdict import Verdict
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.fit import PoseNoise
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, GravityModel
+from contactbench.pipeline.calibration.observability import Observability
+from contactbench.pipeline.calibration.outliers import Rejection
+from contactbench.pipeline.calibration.poses import PoseSample
+from contactbench.pipeline.calibration.verdict import Verdict
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
-from pipeline.calibration.orientation import RowError
-from pipeline.calibration.stillness import (
+from contactbench.pipeline.calibration.files.pose_csv import find_convention, sensor_orientations
+from contactbench.pipeline.calibration.orientation import RowError
+from contactbench.pipeline.calibration.stillness import (
     CaptureReport,
     Rejected,
     StillnessDetector,
     StillnessSettings,
     StillState,
 )
-from pipeline.calibration.stillness.checks import angle
-from pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from pipeline.tables import TableReader, TableRows, Wording, open_table
+from contactbench.pipeline.calibration.stillness.checks import angle
+from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
+from contactbench.pipeline.tables import TableReader, TableRows, Wording, open_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.model import GravityModel
-    from pipeline.calibration.orientation import Convention
-    from pipeline.calibration.poses import PoseSample
+    from contactbench.pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.calibration.orientation import Convention
+    from contactbench.pipeline.calibration.poses import PoseSample
 
 # A shorter stop was hardly meant for a pose. Between two looks a robot that moves has turned.
 _SHORTEST_STOP_S, _LOOK_S = 0.7, 0.05

@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pipeline.calibration.files.capture_file import Captured, Capturing, capture_file
-from pipeline.calibration.files.pose_csv import (
+from contactbench.pipeline.calibration.files.capture_file import Captured, Capturing, capture_file
+from contactbench.pipeline.calibration.files.pose_csv import (
     PoseTable,
     is_recorded_table,
     read_poses,
     sensor_orientations,
 )
-from pipeline.calibration.files.track_tables import read_flange_track, read_wrench_track
-from pipeline.calibration.orientation import Convention
-from pipeline.errors import InputError
-from pipeline.recording import RecordingError, read_recording
-from pipeline.recording.convert import LONGEST_GAP, poses_at
-from pipeline.recording.delay import estimate_delay
+from contactbench.pipeline.calibration.files.track_tables import read_flange_track, read_wrench_track
+from contactbench.pipeline.calibration.orientation import Convention
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import RecordingError, read_recording
+from contactbench.pipeline.recording.convert import LONGEST_GAP, poses_at
+from contactbench.pipeline.recording.delay import estimate_delay
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.model import GravityModel
-    from pipeline.calibration.stillness import StillnessSettings
-    from pipeline.recording import FlangeTrack, Recording, WrenchTrack
+    from contactbench.pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.calibration.stillness import StillnessSettings
+    from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
 
 _MAGIC = b"\x89MCAP0\r\n"
 _BLOCK_ROWS = 20_000
@@ -127,7 +127,7 @@ def capture_recording(
         A preliminary calibration, to see steady touches.
     delay : float or "auto", optional
         How much later a wrench is heard than its pose, s. An estimate that is doubtful is not applied, and the
-        warnings say so; see `pipeline.recording.delay`.
+        warnings say so; see `contactbench.pipeline.recording.delay`.
     progress : callable, optional
         Gets the bytes read so far, and those in the file.
 

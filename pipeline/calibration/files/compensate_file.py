@@ -11,15 +11,20 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from pipeline.calibration.calibrate import Calibration
-from pipeline.calibration.files.pose_csv import CHANNELS, find_convention, mount_rotation, sensor_orientations
-from pipeline.calibration.orientation import Convention, Kind, RowError
-from pipeline.calibration.verdict import Level
-from pipeline.contact.shortest import WIDTH, shortest
-from pipeline.contact.stream import Progress, WrenchFileError, refuse_overwriting, whole_output
-from pipeline.errors import InputError
-from pipeline.robot import Robot
-from pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
+from contactbench.pipeline.calibration.calibrate import Calibration
+from contactbench.pipeline.calibration.files.pose_csv import (
+    CHANNELS,
+    find_convention,
+    mount_rotation,
+    sensor_orientations,
+)
+from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError
+from contactbench.pipeline.calibration.verdict import Level
+from contactbench.pipeline.contact.shortest import WIDTH, shortest
+from contactbench.pipeline.contact.stream import Progress, WrenchFileError, refuse_overwriting, whole_output
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.tables import BLOCK_BYTES, TableReader, TableRows, Wording, open_table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -27,7 +32,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.calibration.model import GravityModel
 
 HEADER = b"t,fx,fy,fz,mx,my,mz\n"
 

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.orientation import Convention, Kind, RowError, rotations
-from pipeline.calibration.poses import PoseError, PoseSample, named
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
-from pipeline.robot import ROBOTS
-from pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
+from contactbench.pipeline.calibration.orientation import Convention, Kind, RowError, rotations
+from contactbench.pipeline.calibration.poses import PoseError, PoseSample, named
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import ROBOTS
+from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, open_table, read_table
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -9,16 +9,16 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json
 
-from pipeline.calibration.model import PARAMETERS
-from pipeline.calibration.verdict import Level
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.model import PARAMETERS
+from contactbench.pipeline.calibration.verdict import Level
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.fit import PoseNoise
-    from pipeline.calibration.observability import Observability
+    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.fit import PoseNoise
+    from contactbench.pipeline.calibration.observability import Observability
 
 SCHEMA, VERSION = "contactbench.calibration", 2
 

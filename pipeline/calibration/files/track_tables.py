@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.files.capture_file import in_order
-from pipeline.calibration.files.pose_csv import find_convention
-from pipeline.calibration.orientation import Convention, RowError, rotations
-from pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
-from pipeline.recording import FlangeTrack, WrenchTrack
-from pipeline.tables import TableReader, Wording, open_table
+from contactbench.pipeline.calibration.files.capture_file import in_order
+from contactbench.pipeline.calibration.files.pose_csv import find_convention
+from contactbench.pipeline.calibration.orientation import Convention, RowError, rotations
+from contactbench.pipeline.contact.wrench_csv import CHANNELS, WrenchFileError
+from contactbench.pipeline.recording import FlangeTrack, WrenchTrack
+from contactbench.pipeline.tables import TableReader, Wording, open_table
 
 if TYPE_CHECKING:
     from pathlib import Path

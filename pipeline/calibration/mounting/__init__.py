@@ -1,5 +1,5 @@
 """Gravity calibration when nobody knows how the sensor is turned on the flange."""
 
-from pipeline.calibration.mounting.mount import MountCalibration, estimate_mount
+from contactbench.pipeline.calibration.mounting.mount import MountCalibration, estimate_mount
 
 __all__ = ["MountCalibration", "estimate_mount"]

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtri, fdtri
 
-from pipeline.calibration.calibrate import (
+from contactbench.pipeline.calibration.calibrate import (
     Calibration,
     assembled,
     between,
@@ -31,10 +31,10 @@ from pipeline.calibration.calibrate import (
     used,
     within_scatter,
 )
-from pipeline.calibration.comparison import compare
-from pipeline.calibration.contact_error import ContactTask, usual_task, worst_sigma
-from pipeline.calibration.fit import turn_jacobian
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration.comparison import compare
+from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task, worst_sigma
+from contactbench.pipeline.calibration.fit import turn_jacobian
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     DOWN_W,
     FORCE_BIAS,
@@ -44,20 +44,20 @@ from pipeline.calibration.model import (
     cross_matrix,
     prediction_jacobian,
 )
-from pipeline.calibration.mounting.sight import see
-from pipeline.calibration.mounting.start import start_rotation
-from pipeline.calibration.mounting.turns import ROTATION, largest_sigma, matrices
-from pipeline.calibration.mounting.words import simple, verdict
-from pipeline.calibration.poses import PoseError, PoseSample, stack
-from pipeline.calibration.reml import NoisePrior
-from pipeline.calibration.verdict import Level, Limits
+from contactbench.pipeline.calibration.mounting.sight import see
+from contactbench.pipeline.calibration.mounting.start import start_rotation
+from contactbench.pipeline.calibration.mounting.turns import ROTATION, largest_sigma, matrices
+from contactbench.pipeline.calibration.mounting.words import simple, verdict
+from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
+from contactbench.pipeline.calibration.reml import NoisePrior
+from contactbench.pipeline.calibration.verdict import Level, Limits
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.fit import PoseNoise
+    from contactbench.pipeline.calibration.fit import PoseNoise
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,22 +9,22 @@ import numpy as np
 from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
-from pipeline.calibration.fit import ANY_TURN, UNKNOWN, Fit, PoseNoise, parameter_covariance
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration.fit import ANY_TURN, UNKNOWN, Fit, PoseNoise, parameter_covariance
+from contactbench.pipeline.calibration.model import (
     FORCE_BIAS,
     GRAVITY,
     TORQUE_BIAS,
     cross_matrix,
     prediction_jacobian,
 )
-from pipeline.calibration.observability import Observability, observe
-from pipeline.calibration.poses import Stack
+from contactbench.pipeline.calibration.observability import Observability, observe
+from contactbench.pipeline.calibration.poses import Stack
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-from pipeline.calibration.mounting.start import DOWNS, centred
-from pipeline.calibration.mounting.turns import ALL_UNKNOWN, ROTATION, unit
-from pipeline.calibration.mounting.words import blind_words, named_axes
+from contactbench.pipeline.calibration.mounting.start import DOWNS, centred
+from contactbench.pipeline.calibration.mounting.turns import ALL_UNKNOWN, ROTATION, unit
+from contactbench.pipeline.calibration.mounting.words import blind_words, named_axes
 
 # A mount that is known less well than this, 1 sigma, is of no use (the eye does better), and is more than a
 # linear covariance can describe.

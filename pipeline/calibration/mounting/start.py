@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.fit import solve_with_offset
-from pipeline.calibration.model import (
+from contactbench.pipeline.calibration.fit import solve_with_offset
+from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
     FORCE_BIAS,
     GRAVITY,
@@ -15,15 +15,15 @@ from pipeline.calibration.model import (
     cross_matrix,
     upright,
 )
-from pipeline.calibration.outliers import LARGEST_SHARE
-from pipeline.calibration.reml import LEAST
+from contactbench.pipeline.calibration.outliers import LARGEST_SHARE
+from contactbench.pipeline.calibration.reml import LEAST
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
-    from pipeline.calibration.reml import NoisePrior
-from pipeline.calibration.mounting.turns import turn
+    from contactbench.pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.reml import NoisePrior
+from contactbench.pipeline.calibration.mounting.turns import turn
 
 # Where gravity may point in W: down; else the sensor or the orientations are turned over, or W is.
 DOWNS = np.array([[0.0, 0, -1], [0, 0, 1], [1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0]])

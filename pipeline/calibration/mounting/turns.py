@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.fit import ANY_TURN, UNKNOWN
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.fit import ANY_TURN, UNKNOWN
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

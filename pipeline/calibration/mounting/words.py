@@ -8,14 +8,14 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
-from pipeline.calibration.calibrate import Calibration
-from pipeline.calibration.verdict import Level, Limits, Verdict, judge
+from contactbench.pipeline.calibration.calibrate import Calibration
+from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration.mounting.sight import Sight
-from pipeline.calibration.mounting.turns import largest_sigma, turn
+    from contactbench.pipeline.calibration.mounting.sight import Sight
+from contactbench.pipeline.calibration.mounting.turns import largest_sigma, turn
 
 # Fifteen unknowns bend to a wrong convention once some poses may be left out: so many must stay.
 _MOST_OUT, _FEWEST_IN = 0.25, 6

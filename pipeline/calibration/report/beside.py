@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.nuisance import DRIFT, REZERO
+from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
 
 if TYPE_CHECKING:
-    from pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.calibrate import Calibration
 
 _SAME = 1e-9  # N, N·m
 

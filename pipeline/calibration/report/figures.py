@@ -20,13 +20,17 @@ import numpy as np
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from pipeline.calibration.contact_error import contact_sensitivity, force_directions, largest_eigenvalue
-from pipeline.calibration.model import prediction_jacobian
-from pipeline.calibration.model import upright as turn_upright
-from pipeline.calibration.nuisance import REZERO
-from pipeline.calibration.outliers import FEWEST, limit
-from pipeline.calibration.report.beside import taken_off
-from pipeline.calibration.wording import plain
+from contactbench.pipeline.calibration.contact_error import (
+    contact_sensitivity,
+    force_directions,
+    largest_eigenvalue,
+)
+from contactbench.pipeline.calibration.model import prediction_jacobian
+from contactbench.pipeline.calibration.model import upright as turn_upright
+from contactbench.pipeline.calibration.nuisance import REZERO
+from contactbench.pipeline.calibration.outliers import FEWEST, limit
+from contactbench.pipeline.calibration.report.beside import taken_off
+from contactbench.pipeline.calibration.wording import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -34,7 +38,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.calibrate import Calibration
 
 EMPTY = 45.0  # degrees: an area further than this from every pose is shown as empty
 STEEPEST = 75.0  # degrees between force and normal, on the map of contact errors

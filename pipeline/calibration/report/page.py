@@ -13,20 +13,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.special import chdtrc
 
-from pipeline import __version__
-from pipeline.calibration.comparison import NOISE, PLAIN
-from pipeline.calibration.fit import UNKNOWN
-from pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
-from pipeline.calibration.nuisance import DRIFT, REZERO
-from pipeline.calibration.observability import WEAK
-from pipeline.calibration.outliers import FEWEST, limit
-from pipeline.calibration.poses import named
-from pipeline.calibration.reachable import describe
-from pipeline.calibration.report.beside import taken_off
-from pipeline.calibration.verdict import Level
-from pipeline.calibration.wording import plain, signed, with_sigma
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench import __version__
+from contactbench.pipeline.calibration.comparison import NOISE, PLAIN
+from contactbench.pipeline.calibration.fit import UNKNOWN
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, FORCE_BIAS, GRAVITY, TORQUE_BIAS
+from contactbench.pipeline.calibration.nuisance import DRIFT, REZERO
+from contactbench.pipeline.calibration.observability import WEAK
+from contactbench.pipeline.calibration.outliers import FEWEST, limit
+from contactbench.pipeline.calibration.poses import named
+from contactbench.pipeline.calibration.reachable import describe
+from contactbench.pipeline.calibration.report.beside import taken_off
+from contactbench.pipeline.calibration.verdict import Level
+from contactbench.pipeline.calibration.wording import plain, signed, with_sigma
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.calibrate import Calibration
-    from pipeline.calibration.files.calibration_file import Source
+    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.files.calibration_file import Source
 
 __all__ = ["report_html", "write_report"]
 
@@ -115,7 +115,7 @@ def report_html(
     if created is not None and created.tzinfo is None:
         raise InputError("created: the time has no zone: use datetime.now(UTC).")
     # Both take a while to import, and most runs write no report.
-    from pipeline.calibration.report.figures import CROWDED, EMPTY, STEEPEST, draw
+    from contactbench.pipeline.calibration.report.figures import CROWDED, EMPTY, STEEPEST, draw
 
     live, live_words = live_noise(calibration)
     lost = calibration.contact_error > _LOST

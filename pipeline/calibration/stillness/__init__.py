@@ -5,7 +5,7 @@ in them, and is fitted and taken out where samples are missing. All else is deci
 a sample cheap, and makes a recording give, bit for bit, the captures of the live stream.
 """
 
-from pipeline.calibration.stillness.captures import (
+from contactbench.pipeline.calibration.stillness.captures import (
     AveragingAdvice,
     Capture,
     CaptureReport,
@@ -15,8 +15,8 @@ from pipeline.calibration.stillness.captures import (
     StillnessSettings,
     StillState,
 )
-from pipeline.calibration.stillness.detector import StillnessDetector
-from pipeline.calibration.stillness.recordings import averaging_time, find_captures
+from contactbench.pipeline.calibration.stillness.detector import StillnessDetector
+from contactbench.pipeline.calibration.stillness.recordings import averaging_time, find_captures
 
 __all__ = [
     "AveragingAdvice",

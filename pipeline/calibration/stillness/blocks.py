@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from scipy.special import chdtri
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Floats = NDArray[np.float64]
-from pipeline.calibration.stillness.captures import BLOCK, LEAST
+from contactbench.pipeline.calibration.stillness.captures import BLOCK, LEAST
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
 

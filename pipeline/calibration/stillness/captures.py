@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.poses import PoseSample
-from pipeline.errors import InputError
+from contactbench.pipeline.calibration.poses import PoseSample
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

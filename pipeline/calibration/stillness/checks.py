@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
-from pipeline.calibration.stillness.captures import Capture
+from contactbench.pipeline.calibration.stillness.captures import Capture
 
 
 def both(force: float | None, torque: float | None) -> Floats:

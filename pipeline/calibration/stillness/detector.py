@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from pipeline.calibration.stillness.blocks import Block, Held, Intake, Window
-from pipeline.calibration.stillness.captures import (
+from contactbench.pipeline.calibration.stillness.blocks import Block, Held, Intake, Window
+from contactbench.pipeline.calibration.stillness.captures import (
     AveragingAdvice,
     Capture,
     LimitedBy,
@@ -29,7 +29,7 @@ from pipeline.calibration.stillness.captures import (
     StillnessSettings,
     StillState,
 )
-from pipeline.calibration.stillness.checks import (
+from contactbench.pipeline.calibration.stillness.checks import (
     angle,
     backwards,
     checked,
@@ -38,7 +38,7 @@ from pipeline.calibration.stillness.checks import (
     size,
     stale_words,
 )
-from pipeline.calibration.stillness.quiet import Yardstick, advise
+from contactbench.pipeline.calibration.stillness.quiet import Yardstick, advise
 
 _UNREST = 10.0  # times what is allowed: beyond, it moves; below, it settles
 

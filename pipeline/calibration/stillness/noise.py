@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
-from pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, LimitedBy
+from contactbench.pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, LimitedBy
 
 # 1/f noise assumed until enough was seen: equal to the white noise at 0.5 Hz, rather much for a bridge amplifier.
 _CORNER = 0.5

@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from pipeline.calibration.stillness.blocks import Block, Intake, Window, by_chance
-from pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, StillnessSettings
-from pipeline.calibration.stillness.checks import both, short, size
-from pipeline.calibration.stillness.noise import Noise, NoiseMemory, rounding_variance
+from contactbench.pipeline.calibration.stillness.blocks import Block, Intake, Window, by_chance
+from contactbench.pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, StillnessSettings
+from contactbench.pipeline.calibration.stillness.checks import both, short, size
+from contactbench.pipeline.calibration.stillness.noise import Noise, NoiseMemory, rounding_variance
 
 _FILLED = 0.6  # share of a window's samples that must have come
 

@@ -7,20 +7,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.calibration.model import GravityModel
+    from contactbench.pipeline.calibration.model import GravityModel
 
     Floats = NDArray[np.float64]
-from pipeline.calibration.stillness.blocks import Intake, Window
-from pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, CaptureReport, StillnessSettings
-from pipeline.calibration.stillness.checks import both, checked
-from pipeline.calibration.stillness.detector import StillnessDetector
-from pipeline.calibration.stillness.noise import ALL_FITS, NoiseMemory, rounding_variance
-from pipeline.calibration.stillness.quiet import advise
+from contactbench.pipeline.calibration.stillness.blocks import Intake, Window
+from contactbench.pipeline.calibration.stillness.captures import (
+    LEAST,
+    AveragingAdvice,
+    CaptureReport,
+    StillnessSettings,
+)
+from contactbench.pipeline.calibration.stillness.checks import both, checked
+from contactbench.pipeline.calibration.stillness.detector import StillnessDetector
+from contactbench.pipeline.calibration.stillness.noise import ALL_FITS, NoiseMemory, rounding_variance
+from contactbench.pipeline.calibration.stillness.quiet import advise
 
 
 def find_captures(

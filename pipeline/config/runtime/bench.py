@@ -17,31 +17,31 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from pipeline.calibration.files.calibration_file import load_record
-from pipeline.config.runtime.build import Filters, RobotNames, build_config
-from pipeline.config.runtime.checks import CHECK_KINDS, checks_of, made_with_others, read_check
-from pipeline.config.runtime.errors import ConfigError, RateUnknownError
-from pipeline.config.runtime.model import ChecksPart, LimitsPart, SensorPart, SourcePart
-from pipeline.config.runtime.mounts import (
+from contactbench.pipeline.calibration.files.calibration_file import load_record
+from contactbench.pipeline.config.runtime.build import Filters, RobotNames, build_config
+from contactbench.pipeline.config.runtime.checks import CHECK_KINDS, checks_of, made_with_others, read_check
+from contactbench.pipeline.config.runtime.errors import ConfigError, RateUnknownError
+from contactbench.pipeline.config.runtime.model import ChecksPart, LimitsPart, SensorPart, SourcePart
+from contactbench.pipeline.config.runtime.mounts import (
     UNTURNED,
     Mounts,
     mount_of,
     mount_of_angles,
     mount_reasons,
 )
-from pipeline.config.runtime.verified import rate_reasons, read_verification
-from pipeline.contact.gates import Gates
-from pipeline.contact.noise import WrenchNoise
-from pipeline.contact.touch_model import TouchModel
-from pipeline.filtering import KalmanFilter, LowPass
-from pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.config.runtime.verified import rate_reasons, read_verification
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
+from contactbench.pipeline.mesh.sidecar import load_probe_file
 
 if TYPE_CHECKING:
-    from pipeline.calibration import Calibration
-    from pipeline.calibration.files.calibration_file import CalibrationRecord
-    from pipeline.config.runtime.config import RuntimeConfig
-    from pipeline.config.runtime.model import ControllerPart
-    from pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.calibration import Calibration
+    from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.config.runtime.model import ControllerPart
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _LARGEST_FILE = 512 * 2**20
 # Seconds since 1970: times of poses from here on are a clock's, earlier ones count from some beginning.

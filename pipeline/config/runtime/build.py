@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from pydantic import ValidationError
 
-from pipeline import __version__
-from pipeline.config.consumers import ft_calib_yaml, ros2_yaml
-from pipeline.config.runtime.canonical import fault_of
-from pipeline.config.runtime.check import check_config
-from pipeline.config.runtime.checks import NONE_DONE, failed_checks
-from pipeline.config.runtime.config import RuntimeConfig
-from pipeline.config.runtime.errors import ConfigError, UnverifiedError
-from pipeline.config.runtime.model import (
+from contactbench import __version__
+from contactbench.pipeline.config.consumers import ft_calib_yaml, ros2_yaml
+from contactbench.pipeline.config.runtime.canonical import fault_of
+from contactbench.pipeline.config.runtime.check import check_config
+from contactbench.pipeline.config.runtime.checks import NONE_DONE, failed_checks
+from contactbench.pipeline.config.runtime.config import RuntimeConfig
+from contactbench.pipeline.config.runtime.errors import ConfigError, UnverifiedError
+from contactbench.pipeline.config.runtime.model import (
     SCHEMA,
     VERSION,
     ChecksPart,
@@ -31,16 +31,16 @@ from pipeline.config.runtime.model import (
     WorldPart,
     ZeroPart,
 )
-from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
-from pipeline.config.runtime.planes import encode_planes
-from pipeline.config.runtime.self_test import with_self_test
-from pipeline.config.runtime.values import low_pass_sections, wrench_covariance
-from pipeline.config.vertical import vertical_residual
-from pipeline.contact.touch_model import TouchModel
-from pipeline.devices.drive.watch import SILENCE_S
-from pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
-from pipeline.devices.sample import FROZEN_CHANCE
-from pipeline.mesh.save import encode_probe
+from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, REPORT, ROS2
+from contactbench.pipeline.config.runtime.planes import encode_planes
+from contactbench.pipeline.config.runtime.self_test import with_self_test
+from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
+from contactbench.pipeline.config.vertical import vertical_residual
+from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.devices.drive.watch import SILENCE_S
+from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE
+from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -48,13 +48,18 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from pipeline.calibration import Calibration, GravityModel
-    from pipeline.config.runtime.model import ControllerPart, LimitsPart, SourcePart, VerificationPart
-    from pipeline.contact.gates import Gates
-    from pipeline.contact.noise import WrenchNoise
-    from pipeline.filtering import KalmanFilter, LowPass
-    from pipeline.mesh import Probe
-    from pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.calibration import Calibration, GravityModel
+    from contactbench.pipeline.config.runtime.model import (
+        ControllerPart,
+        LimitsPart,
+        SourcePart,
+        VerificationPart,
+    )
+    from contactbench.pipeline.contact.gates import Gates
+    from contactbench.pipeline.contact.noise import WrenchNoise
+    from contactbench.pipeline.filtering import KalmanFilter, LowPass
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
 
 _MOST_ORDER = 8
 _UNITS = {"force": "N", "torque": "N*m", "length": "m", "time": "s", "angle": "rad"}

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.migrate import migrated
-from pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.migrate import migrated
+from contactbench.pipeline.config.runtime.model import SCHEMA, VERSION, RuntimeModel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -6,36 +6,36 @@ from typing import TYPE_CHECKING, NoReturn
 
 import numpy as np
 
-from pipeline.config.consumers import regenerate_ft_calib_yaml, regenerate_ros2_yaml
-from pipeline.config.runtime.canonical import first_difference
-from pipeline.config.runtime.checks import failed_checks
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import VERSION
-from pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
-from pipeline.config.runtime.planes import check_planes
-from pipeline.config.runtime.self_test import check_self_test
-from pipeline.config.runtime.values import (
+from contactbench.pipeline.config.consumers import regenerate_ft_calib_yaml, regenerate_ros2_yaml
+from contactbench.pipeline.config.runtime.canonical import first_difference
+from contactbench.pipeline.config.runtime.checks import failed_checks
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import VERSION
+from contactbench.pipeline.config.runtime.pack import FT_CALIB, PLANES, PROBE, ROS2
+from contactbench.pipeline.config.runtime.planes import check_planes
+from contactbench.pipeline.config.runtime.self_test import check_self_test
+from contactbench.pipeline.config.runtime.values import (
     gates_of,
     gravity_of,
     kalman_of,
     low_pass_sections,
     wrench_covariance,
 )
-from pipeline.config.runtime.verified import RATE_OFF
-from pipeline.config.vertical import points_away
-from pipeline.errors import InputError
-from pipeline.mesh.load import MeshFile, settle
-from pipeline.mesh.ply import read_ply
-from pipeline.mesh.save import encode_probe
+from contactbench.pipeline.config.runtime.verified import RATE_OFF
+from contactbench.pipeline.config.vertical import points_away
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.load import MeshFile, settle
+from contactbench.pipeline.mesh.ply import read_ply
+from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.config.runtime.model import LowPassPart, RuntimeModel, VerificationPart
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.config.runtime.model import LowPassPart, RuntimeModel, VerificationPart
+    from contactbench.pipeline.mesh import Probe
 
 _AGAIN = "Export the config again."
 _HEAVIEST_N, _LIGHTEST_KG, _HEAVIEST_KG = 1_000.0, 0.02, 50.0

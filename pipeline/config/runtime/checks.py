@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 from pydantic_core import from_json
 
-from pipeline.config.runtime.canonical import fault_of
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import ChecksPart, KnownTouchPart, KnownWeightPart
+from contactbench.pipeline.config.runtime.canonical import fault_of
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import ChecksPart, KnownTouchPart, KnownWeightPart
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -2,7 +2,7 @@
 A runtime config: one folder or zip file that a robot's controller loads.
 
 ========================  ==========================================================================================
-``contactbench.json``     everything there is to know, see `pipeline.config.runtime.model`
+``contactbench.json``     everything there is to know, see `contactbench.pipeline.config.runtime.model`
 ``contactbench.sha256``   the hash of that file, as ``sha256sum --check`` takes it; it holds the hashes of the others
 ``probe.ply``             the mesh in S, m, with the region of every facet
 ``planes.csv``            its facets as planes in priority order
@@ -21,10 +21,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from pipeline.config.runtime.canonical import decode_json, encode_json
-from pipeline.config.runtime.check import check_config, decode_mesh
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.pack import (
+from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
+from contactbench.pipeline.config.runtime.check import check_config, decode_mesh
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.pack import (
     CHECKSUM,
     CONFIG,
     KNOWN,
@@ -34,17 +34,17 @@ from pipeline.config.runtime.pack import (
     encode_zip,
     read_bundle,
 )
-from pipeline.config.runtime.swap import write_folder
-from pipeline.config.runtime.values import gravity_of
-from pipeline.durable import make_folder, write_durably
+from contactbench.pipeline.config.runtime.swap import write_folder
+from contactbench.pipeline.config.runtime.values import gravity_of
+from contactbench.pipeline.durable import make_folder, write_durably
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Mapping
 
-    from pipeline.calibration import GravityModel
-    from pipeline.config.runtime.model import RuntimeModel
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.config.runtime.model import RuntimeModel
+    from contactbench.pipeline.mesh import Probe
 
 _AGAIN = "copy or export the bundle again."
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
 
 _ABSENT = "(absent)"
 # The longest that fits first; fields that are not here mean what they say.
@@ -96,7 +96,7 @@ def differences(one: RuntimeConfig, other: RuntimeConfig) -> Differences:
 def _meshes(one: RuntimeConfig, other: RuntimeConfig) -> dict[str, Any] | None:
     if one.files[one.model.probe.file] == other.files[other.model.probe.file]:
         return None
-    from pipeline.mesh.deviation import measure_deviation
+    from contactbench.pipeline.mesh.deviation import measure_deviation
 
     found = measure_deviation(one.probe, other.probe)
     return {"facets": [len(one.probe.faces), len(other.probe.faces)], **found.to_json()}

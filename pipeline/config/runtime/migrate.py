@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import VERSION
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import VERSION
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.calibration.files.calibration_file import CalibrationRecord
+    from contactbench.pipeline.calibration.files.calibration_file import CalibrationRecord
 
     Quaternion = tuple[float, float, float, float]
 

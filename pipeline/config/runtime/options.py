@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from pipeline.config.runtime.build import RobotNames
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import ControllerPart, LimitsPart
-from pipeline.config.runtime.mounts import mount_of_angles
-from pipeline.contact import Gates, WrenchNoise
+from contactbench.pipeline.config.runtime.build import RobotNames
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import ControllerPart, LimitsPart
+from contactbench.pipeline.config.runtime.mounts import mount_of_angles
+from contactbench.pipeline.contact import Gates, WrenchNoise
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.config.runtime.bench import ExportSettings
+    from contactbench.pipeline.config.runtime.bench import ExportSettings
 
 KIND, SERIAL = "config", "devices.serial"
 _GIVE_PAIR = "--noise-force and --noise-torque: give both or none."
@@ -133,7 +133,7 @@ class ExportOptions(BaseModel):
 
     def settings(self) -> ExportSettings:
         """Return them as an export takes them; ConfigError where two contradict each other."""
-        from pipeline.config.runtime.bench import ExportSettings
+        from contactbench.pipeline.config.runtime.bench import ExportSettings
 
         noise = None
         if (self.noise_force is None) != (self.noise_torque is None):

@@ -15,8 +15,8 @@ import zlib
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.swap import put_aside
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.swap import put_aside
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

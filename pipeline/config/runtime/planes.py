@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.config.runtime.canonical import first_difference
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.pack import PROBE
+from contactbench.pipeline.config.runtime.canonical import first_difference
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.pack import PROBE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 COLUMNS = (
     "index",

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline import kernel
-from pipeline.config.runtime.values import gates_of, touch_model_of
+from contactbench.pipeline import kernel
+from contactbench.pipeline.config.runtime.values import gates_of, touch_model_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
 
 _LEAST_ORIENTATION_RAD = radians(0.1)
 
@@ -38,7 +38,7 @@ def make_runtime(config: RuntimeConfig, *, hold: float | None = None) -> kernel.
 
 def kernel_arguments(config: RuntimeConfig) -> dict[str, Any]:
     """
-    Return the arguments of :class:`pipeline.kernel.Runtime` for a config, with the bits of the C library.
+    Return the arguments of :class:`contactbench.pipeline.kernel.Runtime` for a config, with the bits of the C library.
 
     Parameters
     ----------

@@ -14,20 +14,20 @@ from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import SelfTestPart
-from pipeline.config.runtime.pack import SELF_TEST
-from pipeline.config.runtime.runtime_of import make_runtime
-from pipeline.config.runtime.synthetic import PoseRow, Row, SampleRow, synthetic_stream
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import SelfTestPart
+from contactbench.pipeline.config.runtime.pack import SELF_TEST
+from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.config.runtime.synthetic import PoseRow, Row, SampleRow, synthetic_stream
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from numpy.typing import NDArray
 
-    from pipeline import kernel
-    from pipeline.config.runtime.config import RuntimeConfig
-    from pipeline.config.runtime.model import RuntimeModel
+    from contactbench.pipeline import kernel
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.config.runtime.model import RuntimeModel
 
 SAMPLES: Final = 300
 _TOLERANCE = 1e-9  # other processors and libraries round otherwise

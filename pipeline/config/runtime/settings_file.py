@@ -13,17 +13,17 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field, ValidationError
 from pydantic_core import from_json
 
-from pipeline.config.runtime.build import Filters, gates_content
-from pipeline.config.runtime.canonical import fault_of
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import ControllerPart, GatesPart, KalmanPart, LimitsPart, Part
-from pipeline.config.runtime.values import gates_of, kalman_of
-from pipeline.contact.gates import Gates
-from pipeline.errors import InputError
-from pipeline.filtering import LowPass
+from contactbench.pipeline.config.runtime.build import Filters, gates_content
+from contactbench.pipeline.config.runtime.canonical import fault_of
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import ControllerPart, GatesPart, KalmanPart, LimitsPart, Part
+from contactbench.pipeline.config.runtime.values import gates_of, kalman_of
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import LowPass
 
 if TYPE_CHECKING:
-    from pipeline.config.runtime.bench import ExportSettings
+    from contactbench.pipeline.config.runtime.bench import ExportSettings
 
 _LARGEST = 2**20
 

@@ -13,8 +13,8 @@ import os
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.durable import scratch_beside, sync_folder
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.durable import scratch_beside, sync_folder
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.config.runtime.runtime_of import make_runtime
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.config.runtime.config import RuntimeConfig
+    from contactbench.pipeline.config.runtime.config import RuntimeConfig
 
 _DRAWN = 200  # touches that the cast is chosen from
 _OF_EACH = 3  # reason

@@ -9,16 +9,16 @@ import numpy as np
 from scipy.signal import butter
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.model import GravityModel
-from pipeline.contact.gates import Gates
-from pipeline.contact.noise import WrenchNoise
-from pipeline.contact.touch_model import TouchModel
-from pipeline.filtering import KalmanFilter
+from contactbench.pipeline.calibration.model import GravityModel
+from contactbench.pipeline.contact.gates import Gates
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.contact.touch_model import TouchModel
+from contactbench.pipeline.filtering import KalmanFilter
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.config.runtime.model import GatesPart, KalmanPart, RuntimeModel, TouchModelPart
+    from contactbench.pipeline.config.runtime.model import GatesPart, KalmanPart, RuntimeModel, TouchModelPart
 
 # The covariance of a compensated wrench is of second degree in the rotation: the mean over the 24 rotations of a cube
 # is the mean over all rotations, exactly.

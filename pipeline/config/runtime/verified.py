@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 from pydantic_core import from_json
 
-from pipeline.config.runtime.canonical import fault_of
-from pipeline.config.runtime.errors import ConfigError
-from pipeline.config.runtime.model import VerificationPart
-from pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
-from pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.config.runtime.canonical import fault_of
+from contactbench.pipeline.config.runtime.errors import ConfigError
+from contactbench.pipeline.config.runtime.model import VerificationPart
+from contactbench.pipeline.config.runtime.mounts import UNTURNED, mount_of_angles
+from contactbench.pipeline.contact.noise import WrenchNoise
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from pipeline.config.runtime.build import Filters
+    from contactbench.pipeline.config.runtime.build import Filters
 
 _SCHEMA, _VERSION = "contactbench.verification", 1
 _LONGEST = 10_000

@@ -1,12 +1,12 @@
 """Devices at work: a line, a parser and the commands between them, kept running and watched."""
 
-from pipeline.devices.drive.driver import SensorDriver, driver_for
-from pipeline.devices.drive.health import Health, State
-from pipeline.devices.drive.kept import KeptStream
-from pipeline.devices.drive.poses import ElfinPoses, UrPoses, poses_from
-from pipeline.devices.drive.rezero import Rezero, RezeroDetector
-from pipeline.devices.drive.stream import SensorStream
-from pipeline.devices.drive.watch import Watch
+from contactbench.pipeline.devices.drive.driver import SensorDriver, driver_for
+from contactbench.pipeline.devices.drive.health import Health, State
+from contactbench.pipeline.devices.drive.kept import KeptStream
+from contactbench.pipeline.devices.drive.poses import ElfinPoses, UrPoses, poses_from
+from contactbench.pipeline.devices.drive.rezero import Rezero, RezeroDetector
+from contactbench.pipeline.devices.drive.stream import SensorStream
+from contactbench.pipeline.devices.drive.watch import Watch
 
 __all__ = [
     "ElfinPoses",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from dataclasses import dataclass
 
-from pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.protocols import Counters
 
 _WINDOW_S = 1.0
 _SHARE = 0.01  # of frames or bytes: less is shown by the counters only

@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.devices.protocols import ati_scale, bota, rdt, robotiq, sri
-from pipeline.devices.url import AddressError, DeviceAddress, Protocol
-from pipeline.errors import InputError
+from contactbench.pipeline.devices.protocols import ati_scale, bota, rdt, robotiq, sri
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.devices.protocols import Command, SensorParser
+    from contactbench.pipeline.devices.protocols import Command, SensorParser
 
 # What its 16 bits hold: there it stops counting.
 _ROBOTIQ_LIMITS = (327.67, 32.767)

@@ -7,7 +7,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from pipeline.devices.protocols import Counters
+    from contactbench.pipeline.devices.protocols import Counters
 
 
 class State(StrEnum):

@@ -8,21 +8,21 @@ from abc import ABC, abstractmethod
 from contextlib import suppress
 from typing import TYPE_CHECKING, Generic, TypeVar
 
-from pipeline.devices.drive.health import Health, State
-from pipeline.devices.protocols import Counters, ProtocolError
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.devices.transport import LineError, LineLost, TcpLine
-from pipeline.devices.url import Carrier
-from pipeline.errors import InputError
+from contactbench.pipeline.devices.drive.health import Health, State
+from contactbench.pipeline.devices.protocols import Counters, ProtocolError
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine
+from contactbench.pipeline.devices.url import Carrier
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from types import TracebackType
     from typing import Self
 
-    from pipeline.devices.drive.watch import Watch
-    from pipeline.devices.transport import Line
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.drive.watch import Watch
+    from contactbench.pipeline.devices.transport import Line
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 Sample = TypeVar("Sample", WrenchSample, FlangeSample)
 

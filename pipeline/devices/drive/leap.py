@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING
 
-from pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.sample import WrenchSample
 
 if TYPE_CHECKING:
-    from pipeline.devices.sample import FlangeSample
+    from contactbench.pipeline.devices.sample import FlangeSample
 
 _LEAP_S = 0.25  # more than samples wait in buffers
 _BACK = 5  # samples over which the two clocks are compared

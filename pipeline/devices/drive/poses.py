@@ -8,24 +8,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.clock import SampleClock
-from pipeline.devices.drive.kept import READ_S, KeptStream
-from pipeline.devices.drive.watch import Watch
-from pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
-from pipeline.devices.protocols.elfin import ElfinError, Question, ReplyReader, read_numbers
-from pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
-from pipeline.devices.protocols.ur_pose import Stage, UrStream
-from pipeline.devices.sample import FlangeSample
-from pipeline.devices.transport import LineLost, line_to
-from pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.drive.kept import READ_S, KeptStream
+from contactbench.pipeline.devices.drive.watch import Watch
+from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
+from contactbench.pipeline.devices.protocols.elfin import ElfinError, Question, ReplyReader, read_numbers
+from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
+from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
+from contactbench.pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.transport import LineLost, line_to
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.devices.drive.health import Health
-    from pipeline.devices.protocols.elfin_pose import FieldOrder
-    from pipeline.devices.transport import Line
-    from pipeline.robot import Robot
+    from contactbench.pipeline.devices.drive.health import Health
+    from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder
+    from contactbench.pipeline.devices.transport import Line
+    from contactbench.pipeline.robot import Robot
 
     OnSamples = Callable[[Sequence[FlangeSample]], None]
     OnChange = Callable[[Health], None] | None
@@ -133,7 +133,7 @@ class ElfinPoses(KeptStream[FlangeSample]):
         robot: Robot | None = None,
         line: Line | None = None,
     ) -> None:
-        from pipeline.robot import Robot as Known
+        from contactbench.pipeline.robot import Robot as Known
 
         rate = address.rate or _USUAL_RATE_HZ
         self._robot = robot or Known.named("elfin3")

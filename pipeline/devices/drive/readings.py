@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.devices.sample import FROZEN_CHANCE, Status
-from pipeline.kernel import FrozenDetector
+from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
+from contactbench.pipeline.kernel import FrozenDetector
 
 if TYPE_CHECKING:
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 # Of a channel at the end of its range: noise changes the last digit of any other in this time.
 _STILL_S, _STILL_SAMPLES = 0.12, 10

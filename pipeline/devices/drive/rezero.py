@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 _LOOK_S = 0.1  # of rest before the step and of rest after it
 _FEWEST = 8

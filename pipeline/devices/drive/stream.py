@@ -5,21 +5,21 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
-from pipeline.devices.clock import SampleClock
-from pipeline.devices.drive.driver import driver_for
-from pipeline.devices.drive.kept import READ_S, KeptStream
-from pipeline.devices.drive.watch import Watch
-from pipeline.devices.sample import WrenchSample
-from pipeline.devices.transport import line_to
-from pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.devices.clock import SampleClock
+from contactbench.pipeline.devices.drive.driver import driver_for
+from contactbench.pipeline.devices.drive.kept import READ_S, KeptStream
+from contactbench.pipeline.devices.drive.watch import Watch
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.transport import line_to
+from contactbench.pipeline.devices.url import DeviceAddress
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.devices.drive.driver import SensorDriver
-    from pipeline.devices.drive.health import Health
-    from pipeline.devices.protocols import Command, Counters
-    from pipeline.devices.transport import Line
+    from contactbench.pipeline.devices.drive.driver import SensorDriver
+    from contactbench.pipeline.devices.drive.health import Health
+    from contactbench.pipeline.devices.protocols import Command, Counters
+    from contactbench.pipeline.devices.transport import Line
 
 _REPLY_S = 1.0
 _REPLY_BYTES = 4096

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.devices.drive.damage import Damage
-from pipeline.devices.drive.leap import Leap
-from pipeline.devices.drive.pace import Pace
-from pipeline.devices.drive.readings import Readings
-from pipeline.devices.drive.rezero import RezeroDetector
-from pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.drive.damage import Damage
+from contactbench.pipeline.devices.drive.leap import Leap
+from contactbench.pipeline.devices.drive.pace import Pace
+from contactbench.pipeline.devices.drive.readings import Readings
+from contactbench.pipeline.devices.drive.rezero import RezeroDetector
+from contactbench.pipeline.devices.sample import WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.protocols import Counters
-    from pipeline.devices.sample import FlangeSample
+    from contactbench.pipeline.devices.protocols import Counters
+    from contactbench.pipeline.devices.sample import FlangeSample
 
 # A silence is a fault after this, or after two frames of a slow device.
 SILENCE_S = 0.12

@@ -1,10 +1,10 @@
 """Wire-exact emulated devices on real lines, with scripted faults."""
 
-from pipeline.devices.emulate.emulator import Emulator, Sent
-from pipeline.devices.emulate.making import EMULATED, JOINTS, emulator, possible_faults, swinging
-from pipeline.devices.emulate.models import Quirk
-from pipeline.devices.emulate.script import EmulatorError, Fault, FaultEvent, Script
-from pipeline.devices.emulate.signals import (
+from contactbench.pipeline.devices.emulate.emulator import Emulator, Sent
+from contactbench.pipeline.devices.emulate.making import EMULATED, JOINTS, emulator, possible_faults, swinging
+from contactbench.pipeline.devices.emulate.models import Quirk
+from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault, FaultEvent, Script
+from contactbench.pipeline.devices.emulate.signals import (
     SYNTHETIC,
     Moment,
     Reading,

@@ -9,18 +9,18 @@ from collections import Counter, deque
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from pipeline.devices.emulate.mangle import Mangler
-from pipeline.devices.emulate.script import EmulatorError, Fault, Script
-from pipeline.devices.emulate.signals import SYNTHETIC, Truth, constant
+from contactbench.pipeline.devices.emulate.mangle import Mangler
+from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault, Script
+from contactbench.pipeline.devices.emulate.signals import SYNTHETIC, Truth, constant
 
 if TYPE_CHECKING:
     from types import TracebackType
 
-    from pipeline.devices.emulate.lines import DeviceLine
-    from pipeline.devices.emulate.mangle import Emission
-    from pipeline.devices.emulate.models.model import Model
-    from pipeline.devices.emulate.script import FaultEvent
-    from pipeline.devices.emulate.signals import Moment, Reading, Signal
+    from contactbench.pipeline.devices.emulate.lines import DeviceLine
+    from contactbench.pipeline.devices.emulate.mangle import Emission
+    from contactbench.pipeline.devices.emulate.models.model import Model
+    from contactbench.pipeline.devices.emulate.script import FaultEvent
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Signal
 
 _IDLE_S = 0.05  # how long a stop may go unnoticed
 _BETWEEN_PIECES_S = 0.0005  # without it the kernel joins them again

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.devices.emulate.emulator import LOG, Emulator
-from pipeline.devices.emulate.lines import DeviceLine, PtyLine, TcpServerLine, UdpServerLine
-from pipeline.devices.emulate.models import BotaModel, ElfinModel, RdtModel, RobotiqModel, SriModel, UrModel
-from pipeline.devices.emulate.script import EmulatorError
-from pipeline.devices.emulate.signals import SYNTHETIC, constant, sine
-from pipeline.devices.url import Carrier, Protocol
+from contactbench.pipeline.devices.emulate.emulator import LOG, Emulator
+from contactbench.pipeline.devices.emulate.lines import DeviceLine, PtyLine, TcpServerLine, UdpServerLine
+from contactbench.pipeline.devices.emulate.models import (
+    BotaModel,
+    ElfinModel,
+    RdtModel,
+    RobotiqModel,
+    SriModel,
+    UrModel,
+)
+from contactbench.pipeline.devices.emulate.script import EmulatorError
+from contactbench.pipeline.devices.emulate.signals import SYNTHETIC, constant, sine
+from contactbench.pipeline.devices.url import Carrier, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.devices.emulate.models import Model, Quirk
-    from pipeline.devices.emulate.script import Fault, Script
-    from pipeline.devices.emulate.signals import Signal, Six
+    from contactbench.pipeline.devices.emulate.models import Model, Quirk
+    from contactbench.pipeline.devices.emulate.script import Fault, Script
+    from contactbench.pipeline.devices.emulate.signals import Signal, Six
 
 _CARRIERS: dict[Protocol, tuple[Carrier, ...]] = {
     Protocol.SRI: (Carrier.SERIAL, Carrier.TCP),

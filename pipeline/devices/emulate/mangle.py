@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from random import Random
 from typing import TYPE_CHECKING
 
-from pipeline.devices.emulate.script import Fault
+from contactbench.pipeline.devices.emulate.script import Fault
 
 if TYPE_CHECKING:
-    from pipeline.devices.emulate.models.model import Model
-    from pipeline.devices.emulate.script import FaultEvent, Script
+    from contactbench.pipeline.devices.emulate.models.model import Model
+    from contactbench.pipeline.devices.emulate.script import FaultEvent, Script
 
 _AT_ONCE = 3
 _MOST_GARBAGE = 40

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from pipeline.devices.emulate.script import EmulatorError, Fault, Script
+from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault, Script
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from xml.parsers import expat
 
-from pipeline.devices.protocols.parser import ProtocolError
-from pipeline.devices.protocols.rdt import ONROBOT_SCALE, CountScale
-from pipeline.devices.transport.http_get import MOST_BYTES, http_get
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.rdt import ONROBOT_SCALE, CountScale
+from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, http_get
 
 if TYPE_CHECKING:
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 PAGE = "/netftapi2.xml"
 _PRODUCT, _PER_FORCE, _PER_TORQUE, _FORCE_UNIT, _TORQUE_UNIT = _NAMES = (

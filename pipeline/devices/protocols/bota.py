@@ -12,12 +12,12 @@ from __future__ import annotations
 import math
 import struct
 
-from pipeline.devices.protocols.checksums import crc16_x25
-from pipeline.devices.protocols.commands import Command, check_line, check_rate
-from pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
-from pipeline.devices.protocols.scanner import FrameScanner
-from pipeline.devices.protocols.sequence import DeviceClock
-from pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.protocols.checksums import crc16_x25
+from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
+from contactbench.pipeline.devices.protocols.sequence import DeviceClock
+from contactbench.pipeline.devices.sample import Status, WrenchSample
 
 FRAME_BYTES = 37
 _FRAME = struct.Struct("<xH6fIfH")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
 
 # A start bit, eight data bits and a stop bit (8N1).
 _BITS_PER_BYTE = 10

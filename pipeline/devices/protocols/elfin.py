@@ -12,7 +12,7 @@ import re
 from dataclasses import dataclass
 from enum import Enum, StrEnum
 
-from pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
 
 PORT = 10003
 _END = b";"

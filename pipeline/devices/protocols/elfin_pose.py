@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.protocols.elfin import ElfinError
-from pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.protocols.elfin import ElfinError
+from contactbench.pipeline.devices.sample import FlangeSample
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.robot import Robot
+    from contactbench.pipeline.robot import Robot
 
 _NUMBERS = 12
 _MILLIMETRE = 1e-3

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from pipeline.devices.sample import Status
-from pipeline.errors import InputError
+from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 
 class ProtocolError(InputError):

@@ -13,10 +13,10 @@ import struct
 from dataclasses import dataclass
 from enum import IntEnum
 
-from pipeline.devices.protocols.commands import Command, check_rate
-from pipeline.devices.protocols.parser import Counters, ProtocolError
-from pipeline.devices.protocols.sequence import SequenceCounter
-from pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.protocols.commands import Command, check_rate
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
+from contactbench.pipeline.devices.sample import Status, WrenchSample
 
 RECORD_BYTES = 36
 PORT = 49152

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 import struct
 
-from pipeline.devices.protocols.checksums import crc16_modbus
-from pipeline.devices.protocols.commands import Command, check_rate
-from pipeline.devices.protocols.parser import Counters
-from pipeline.devices.protocols.scanner import FrameScanner
-from pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
+from contactbench.pipeline.devices.protocols.commands import Command, check_rate
+from contactbench.pipeline.devices.protocols.parser import Counters
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
+from contactbench.pipeline.devices.sample import WrenchSample
 
 FRAME_BYTES = 16
 RATE = 100.0

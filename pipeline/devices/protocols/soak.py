@@ -13,18 +13,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.protocols.elfin import ElfinError, Question, ReplyReader, read_numbers, read_state
-from pipeline.devices.protocols.parser import ProtocolError
-from pipeline.devices.protocols.soak_frames import SUBJECTS, Subject
-from pipeline.devices.protocols.ur_pose import UrStream
-from pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, RtdeError, packet
+from contactbench.pipeline.devices.protocols.elfin import (
+    ElfinError,
+    Question,
+    ReplyReader,
+    read_numbers,
+    read_state,
+)
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.soak_frames import SUBJECTS, Subject
+from contactbench.pipeline.devices.protocols.ur_pose import UrStream
+from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, RtdeError, packet
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 ROBOTS = ("elfin", "ur")
 PROTOCOLS = (*SUBJECTS, *ROBOTS)

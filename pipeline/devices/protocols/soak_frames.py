@@ -7,17 +7,17 @@ import zlib
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.devices.protocols import bota, robotiq
-from pipeline.devices.protocols.bota import BotaParser
-from pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
-from pipeline.devices.protocols.rdt import ATI_TYPICAL, RECORD_BYTES, RdtParser
-from pipeline.devices.protocols.robotiq import RobotiqParser
-from pipeline.devices.protocols.sri import Layout, SriParser, Trailer
+from contactbench.pipeline.devices.protocols import bota, robotiq
+from contactbench.pipeline.devices.protocols.bota import BotaParser
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
+from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, RECORD_BYTES, RdtParser
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
+from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trailer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.devices.protocols.parser import SensorParser
+    from contactbench.pipeline.devices.protocols.parser import SensorParser
 
 _LAYOUTS = {Trailer.SUM: Layout(Trailer.SUM), Trailer.CRC32: Layout(Trailer.CRC32)}
 

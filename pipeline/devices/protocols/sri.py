@@ -17,12 +17,12 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING
 
-from pipeline.devices.protocols.checksums import sum8
-from pipeline.devices.protocols.commands import Command, check_line, check_rate
-from pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
-from pipeline.devices.protocols.scanner import FrameScanner
-from pipeline.devices.protocols.sequence import SequenceCounter
-from pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.protocols.checksums import sum8
+from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
+from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
+from contactbench.pipeline.devices.protocols.scanner import FrameScanner
+from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
+from contactbench.pipeline.devices.sample import Status, WrenchSample
 
 if TYPE_CHECKING:
     from collections.abc import Callable

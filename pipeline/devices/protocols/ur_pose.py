@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.protocols import ur_rtde
-from pipeline.devices.protocols.commands import check_rate
-from pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, Recipe, RtdeError
-from pipeline.devices.sample import FlangeSample
+from contactbench.pipeline.devices.protocols import ur_rtde
+from contactbench.pipeline.devices.protocols.commands import check_rate
+from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, Recipe, RtdeError
+from contactbench.pipeline.devices.sample import FlangeSample
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -12,8 +12,8 @@ import struct
 from dataclasses import dataclass
 from enum import IntEnum
 
-from pipeline.devices.protocols.commands import check_rate
-from pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.commands import check_rate
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
 
 PORT = 30004
 _VERSION = 2

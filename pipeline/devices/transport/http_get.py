@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from http.client import HTTPException, HTTPResponse
 from typing import cast
 
-from pipeline.devices.transport.line import LineError
+from contactbench.pipeline.devices.transport.line import LineError
 
 TIMEOUT_S = 2.0
 MOST_BYTES = 65_536

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.devices.transport.serial_line import SerialLine
-from pipeline.devices.transport.sockets import TcpLine, UdpLine
-from pipeline.devices.url import AddressError, Carrier
+from contactbench.pipeline.devices.transport.serial_line import SerialLine
+from contactbench.pipeline.devices.transport.sockets import TcpLine, UdpLine
+from contactbench.pipeline.devices.url import AddressError, Carrier
 
 if TYPE_CHECKING:
-    from pipeline.devices.transport.line import Line
-    from pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.transport.line import Line
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 
 def line_to(address: DeviceAddress) -> Line:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pipeline.devices.url import Protocol
+from contactbench.pipeline.devices.url import Protocol
 
 # Words in what USB says about a port. Most boxes use a bought converter that says nothing about them.
 _WORDS = {

@@ -7,7 +7,7 @@ import time
 from contextlib import suppress
 from typing import Any
 
-from pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
+from contactbench.pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
 
 try:
     import termios

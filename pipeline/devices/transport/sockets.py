@@ -10,7 +10,7 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
+from contactbench.pipeline.devices.transport.line import Chunk, LineLost, LineUnavailable
 
 if TYPE_CHECKING:
     from typing import Any

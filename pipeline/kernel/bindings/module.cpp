@@ -2,7 +2,7 @@
 #include "bindings.hpp"
 
 NB_MODULE(CONTACTBENCH_MODULE, m) {
-    m.doc() = "Contact location from a wrench and a mesh: the compiled core of pipeline.contact.";
+    m.doc() = "Contact location from a wrench and a mesh: the compiled core of contactbench.pipeline.contact.";
     m.attr("variant") = CONTACTBENCH_VARIANT;
     m.attr("compiler") = __VERSION__;
     contactbench::bindings::bind_contact(m);

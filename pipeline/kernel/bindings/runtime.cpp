@@ -374,7 +374,7 @@ void bind_runtime(nb::module_& m) {
         const std::lock_guard lock(s.busy);
         return s.runtime.update(to_sample(wrench.data(), time, arrival, flags));
     }, nb::arg("wrench"), nb::arg("time"), nb::arg("arrival") = detail::unknown, nb::arg("flags") = 0,
-       "The next sample, with the orientation at its time; `flags` as pipeline.devices.sample.Status.");
+       "The next sample, with the orientation at its time; `flags` as contactbench.pipeline.devices.sample.Status.");
     runtime.def("silent", [](PyRuntime& s, double now) -> std::optional<RuntimeContact> {
         const std::lock_guard lock(s.busy);
         RuntimeContact out;

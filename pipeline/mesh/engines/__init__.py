@@ -5,9 +5,9 @@ pymeshlab carries its own Qt, it and the CGAL half of libigl are GPL-3, and both
 crash is an `EngineError`.
 """
 
-from pipeline.mesh.engines.errors import Cancelled, EngineError
-from pipeline.mesh.engines.operation import Library, Operation
-from pipeline.mesh.engines.operations import (
+from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError
+from contactbench.pipeline.mesh.engines.operation import Library, Operation
+from contactbench.pipeline.mesh.engines.operations import (
     Control,
     alpha_wrap,
     close_holes,
@@ -15,7 +15,7 @@ from pipeline.mesh.engines.operations import (
     orient_facets,
     self_intersections,
 )
-from pipeline.mesh.engines.run import engine_pid, run, stop_engines
+from contactbench.pipeline.mesh.engines.run import engine_pid, run, stop_engines
 
 __all__ = [
     "Cancelled",

@@ -14,15 +14,15 @@ import time
 from dataclasses import dataclass
 from typing import IO, TYPE_CHECKING, BinaryIO, cast
 
-from pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
-from pipeline.mesh.engines.wire import Message, read_message, write_message
+from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
+from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh.engines.operation import Library
+    from contactbench.pipeline.mesh.engines.operation import Library
 
-_WORKER = "pipeline.mesh.engines.worker"
+_WORKER = "contactbench.pipeline.mesh.engines.worker"
 
 # How soon a cancel or a timeout is noticed, and how often the progress callback is given a sign of life.
 _POLL_S = 0.05

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.mesh.engines.operation import Operation
+from contactbench.pipeline.mesh.engines.operation import Operation
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
-from pipeline.mesh.engines.errors import EngineError
-from pipeline.mesh.engines.operation import Library, Operation
-from pipeline.mesh.engines.run import run
-from pipeline.mesh.probe import check_faces, check_vertices
+from contactbench.pipeline.mesh.engines.errors import EngineError
+from contactbench.pipeline.mesh.engines.operation import Library, Operation
+from contactbench.pipeline.mesh.engines.run import run
+from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,9 +6,9 @@ import atexit
 import os
 from typing import TYPE_CHECKING, Any
 
-from pipeline.mesh.engines.child import Child, Watch
-from pipeline.mesh.engines.operation import Library, Operation
-from pipeline.mesh.engines.wire import Message
+from contactbench.pipeline.mesh.engines.child import Child, Watch
+from contactbench.pipeline.mesh.engines.operation import Library, Operation
+from contactbench.pipeline.mesh.engines.wire import Message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from pipeline.mesh.engines.errors import WireError
+from contactbench.pipeline.mesh.engines.errors import WireError
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -1,7 +1,7 @@
 """
 The child process: reads calls from standard input, lets one mesh library do them, writes the results.
 
-``python -P -m pipeline.mesh.engines.worker meshlab``
+``python -P -m contactbench.pipeline.mesh.engines.worker meshlab``
 
 A crash, a leak or a lost state of the library ends or spoils this process only. The parent starts it,
 and it ends when its standard input does, which is when the parent goes, however it goes.
@@ -16,15 +16,15 @@ import signal
 import sys
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from pipeline.mesh.engines.errors import WireError
-from pipeline.mesh.engines.libraries import REFUSALS, perform
-from pipeline.mesh.engines.operation import Library, Operation
-from pipeline.mesh.engines.wire import Message, read_message, write_message
+from contactbench.pipeline.mesh.engines.errors import WireError
+from contactbench.pipeline.mesh.engines.libraries import REFUSALS, perform
+from contactbench.pipeline.mesh.engines.operation import Library, Operation
+from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-MODULE = "pipeline.mesh.engines.worker"
+MODULE = "contactbench.pipeline.mesh.engines.worker"
 
 _NICENESS = 10
 

@@ -14,7 +14,7 @@ from scipy.spatial.distance import pdist
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.health import EdgeTable
+    from contactbench.pipeline.mesh.health import EdgeTable
 
 # Rims are measured one by one from the longest on; a mesh whose facets do not share vertices has a million.
 LISTED = 100

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.health import label_parts
+from contactbench.pipeline.mesh.health import label_parts
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.health import EdgeTable
+    from contactbench.pipeline.mesh.health import EdgeTable
 
 # Screws and letters of an assembly come by the hundred; the rest is counted, not listed.
 LISTED = 200

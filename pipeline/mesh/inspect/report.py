@@ -7,13 +7,13 @@ from dataclasses import asdict, dataclass, field, fields, is_dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
-    from pipeline.mesh.health import MeshHealth
-    from pipeline.mesh.inspect.holes import Hole
-    from pipeline.mesh.inspect.parts import Part
-    from pipeline.mesh.inspect.shape import EdgeLengths, Slivers
-    from pipeline.mesh.inspect.visibility import Visibility
-    from pipeline.mesh.soundness import Soundness
-    from pipeline.mesh.units import UnitGuess
+    from contactbench.pipeline.mesh.health import MeshHealth
+    from contactbench.pipeline.mesh.inspect.holes import Hole
+    from contactbench.pipeline.mesh.inspect.parts import Part
+    from contactbench.pipeline.mesh.inspect.shape import EdgeLengths, Slivers
+    from contactbench.pipeline.mesh.inspect.visibility import Visibility
+    from contactbench.pipeline.mesh.soundness import Soundness
+    from contactbench.pipeline.mesh.units import UnitGuess
 
 Level = Literal["fault", "doubt", "note"]
 
@@ -147,14 +147,14 @@ class Inspection:
     @property
     def facts(self) -> tuple[str, ...]:
         """Size, area, volume and counts, in sentences."""
-        from pipeline.mesh.inspect.words import facts
+        from contactbench.pipeline.mesh.inspect.words import facts
 
         return facts(self)
 
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is wrong or worth knowing, faults first; empty when there is nothing."""
-        from pipeline.mesh.inspect.words import findings
+        from contactbench.pipeline.mesh.inspect.words import findings
 
         return findings(self)
 

@@ -8,18 +8,23 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.health import edge_table
-from pipeline.mesh.inspect.holes import count_seam_vertices, find_holes
-from pipeline.mesh.inspect.parts import find_parts, genus_of
-from pipeline.mesh.inspect.report import FileCounts, Inspection
-from pipeline.mesh.inspect.shape import count_coincident, find_repeats, measure_edges, measure_slivers
-from pipeline.mesh.inspect.visibility import SAMPLES, look
-from pipeline.mesh.load import read_mesh, settle
-from pipeline.mesh.probe import Probe
-from pipeline.mesh.sidecar import load_probe_file
-from pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.inspect.holes import count_seam_vertices, find_holes
+from contactbench.pipeline.mesh.inspect.parts import find_parts, genus_of
+from contactbench.pipeline.mesh.inspect.report import FileCounts, Inspection
+from contactbench.pipeline.mesh.inspect.shape import (
+    count_coincident,
+    find_repeats,
+    measure_edges,
+    measure_slivers,
+)
+from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, look
+from contactbench.pipeline.mesh.load import read_mesh, settle
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.mesh.soundness import check_soundness
 
 if TYPE_CHECKING:
     import os
@@ -27,7 +32,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from pipeline.mesh.units import UnitGuess, Units
+    from contactbench.pipeline.mesh.units import UnitGuess, Units
 
 # Formats whose facets each bring their own vertices, so that surplus ones say nothing.
 _SOUP = frozenset({".stl"})

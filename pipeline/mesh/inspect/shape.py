@@ -10,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.health import EdgeTable
+    from contactbench.pipeline.mesh.health import EdgeTable
 
 # Below it the normal of a facet from a float32 file is uncertain by degrees once the facet is small.
 SLIVER_DEG = 1.0

@@ -14,16 +14,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.triangles import directions
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.triangles import directions
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
 
-    from pipeline.mesh.inspect.parts import Part, Parts
+    from contactbench.pipeline.mesh.inspect.parts import Part, Parts
 
 SAMPLES = 8_000
 DIRECTIONS = 128

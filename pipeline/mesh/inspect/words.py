@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pipeline.mesh.inspect.report import Finding
+from contactbench.pipeline.mesh.inspect.report import Finding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from pipeline.mesh.inspect.report import Inspection
-    from pipeline.mesh.inspect.visibility import Visibility
+    from contactbench.pipeline.mesh.inspect.report import Inspection
+    from contactbench.pipeline.mesh.inspect.visibility import Visibility
 
 _SHELL = "Make the outer shell before use."
 _IF_CAVITY = (

@@ -5,18 +5,18 @@ A `RegionSet` is a value: names and colours in the order of priority, and a rank
 `Probe.region` holds. A `RegionModel` edits one; a `FacetGraph` knows the mesh. Nothing here draws anything.
 """
 
-from pipeline.mesh.colours import PALETTE
-from pipeline.mesh.regions.closest import carry_labels
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.exchange import load_regions, save_regions
-from pipeline.mesh.regions.facet_graph import FacetGraph
-from pipeline.mesh.regions.mirror import Mirrored, mirror
-from pipeline.mesh.regions.model import Change, RegionModel
-from pipeline.mesh.regions.morphology import grow, shrink, smooth
-from pipeline.mesh.regions.region import Region, RegionSet
-from pipeline.mesh.regions.selections import component, facing, flood, half_space, in_box
-from pipeline.mesh.regions.stroke import Brush, Stroke
-from pipeline.mesh.regions.transfer import RegionReport, Transferred, transfer
+from contactbench.pipeline.mesh.colours import PALETTE
+from contactbench.pipeline.mesh.regions.closest import carry_labels
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.exchange import load_regions, save_regions
+from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+from contactbench.pipeline.mesh.regions.mirror import Mirrored, mirror
+from contactbench.pipeline.mesh.regions.model import Change, RegionModel
+from contactbench.pipeline.mesh.regions.morphology import grow, shrink, smooth
+from contactbench.pipeline.mesh.regions.region import Region, RegionSet
+from contactbench.pipeline.mesh.regions.selections import component, facing, flood, half_space, in_box
+from contactbench.pipeline.mesh.regions.stroke import Brush, Stroke
+from contactbench.pipeline.mesh.regions.transfer import RegionReport, Transferred, transfer
 
 __all__ = [
     "PALETTE",

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt

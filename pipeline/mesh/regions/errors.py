@@ -1,6 +1,6 @@
 """What the regions package raises."""
 
-from pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import MeshError
 
 
 class RegionError(MeshError):

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.durable import write_durably
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionSet
-from pipeline.tables import TableReader, Wording, read_table
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, Region, RegionSet
+from contactbench.pipeline.tables import TableReader, Wording, read_table
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
 FORMAT, VERSION = "contactbench regions", 1
 SIZE_LIMIT = 64 * 2**20  # bytes; half a million scattered facets take a tenth of it

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import Geodesic, SurfaceIndex
-from pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.kernel import Geodesic, SurfaceIndex
+from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
     Mask = npt.NDArray[np.bool_]
 

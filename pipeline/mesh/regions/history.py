@@ -11,7 +11,7 @@ import numpy as np
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.regions.region import Region
+    from contactbench.pipeline.mesh.regions.region import Region
 
     Ints = npt.NDArray[np.int32]
 

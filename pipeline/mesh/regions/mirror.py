@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.selections import unit, vector
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.selections import unit, vector
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.regions.facet_graph import FacetGraph, Mask
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, Mask
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,18 +7,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.history import History, Step
-from pipeline.mesh.regions.region import Region, RegionSet, check_list, find_rank, free_colour, free_name
-from pipeline.mesh.regions.stroke import Stroke
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.history import History, Step
+from contactbench.pipeline.mesh.regions.region import (
+    Region,
+    RegionSet,
+    check_list,
+    find_rank,
+    free_colour,
+    free_name,
+)
+from contactbench.pipeline.mesh.regions.stroke import Stroke
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     import numpy.typing as npt
 
-    from pipeline.mesh.regions.facet_graph import FacetGraph
-    from pipeline.mesh.regions.stroke import Brush
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
+    from contactbench.pipeline.mesh.regions.stroke import Brush
 
     Ints = npt.NDArray[np.int32]
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import coo_array, diags_array
 
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.selections import component_labels
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.selections import component_labels
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from scipy.sparse import csr_array
 
-    from pipeline.mesh.regions.facet_graph import FacetGraph, Mask
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, Mask
 
 _MOST_RINGS = 10_000
 

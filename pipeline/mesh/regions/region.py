@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.colours import PALETTE
-from pipeline.mesh.probe import check_region
-from pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.colours import PALETTE
+from contactbench.pipeline.mesh.probe import check_region
+from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence

@@ -9,12 +9,12 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.regions.facet_graph import FacetGraph, Mask
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph, Mask
 
 
 def in_box(

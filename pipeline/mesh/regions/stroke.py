@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.errors import RegionError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from pipeline.mesh.regions.facet_graph import FacetGraph
+    from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 
     Ints = npt.NDArray[np.int32]
 

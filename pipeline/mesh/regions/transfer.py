@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshWarning
-from pipeline.mesh.regions.closest import carry_labels
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.region import RegionSet
+from contactbench.pipeline.mesh.errors import MeshWarning
+from contactbench.pipeline.mesh.regions.closest import carry_labels
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.region import RegionSet
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
 # Of the old mesh's size: a surface that was made a shell or simplified stays well within.
 _REACH = 0.02

@@ -12,16 +12,22 @@ import json
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import write_durably
-from pipeline.mesh.regions.errors import RegionError
-from pipeline.mesh.regions.exchange import SIZE_LIMIT, decode_json, encode_json, parse_json, read_limited
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.mesh.regions.errors import RegionError
+from contactbench.pipeline.mesh.regions.exchange import (
+    SIZE_LIMIT,
+    decode_json,
+    encode_json,
+    parse_json,
+    read_limited,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from pathlib import Path
 
-    from pipeline.mesh.probe import Probe
-    from pipeline.mesh.regions.region import RegionSet
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.regions.region import RegionSet
 
 FORMAT, VERSION = "contactbench region steps", 1
 MOST_STEPS = 100

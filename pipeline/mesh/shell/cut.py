@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import crossings
-from pipeline.mesh.engines import cut_along_crossings
-from pipeline.mesh.shell.sew import ROUNDING, distinct, sew
+from contactbench.pipeline.kernel import crossings
+from contactbench.pipeline.mesh.engines import cut_along_crossings
+from contactbench.pipeline.mesh.shell.sew import ROUNDING, distinct, sew
 
 if TYPE_CHECKING:
     from typing import Unpack
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.engines import Control
+    from contactbench.pipeline.mesh.engines import Control
 
 # New vertices are rounded, and pieces beside them may cross again by the last bits.
 _ROUNDS = 8
@@ -58,7 +58,7 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
         Any unit.
     faces : (m, 3) int32
     **control
-        See `pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.run`.
 
     Returns
     -------
@@ -67,7 +67,7 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
     Raises
     ------
     EngineError, Cancelled
-        See `pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.run`.
     """
     size = float(np.ptp(vertices, axis=0).max())
     grid = 2.0 ** np.ceil(np.log2(size * _GRID))

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.triangles import cross_products, directions
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.triangles import cross_products, directions
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.shell.exposure import exposure, exposure_at
-from pipeline.mesh.shell.wrap import PLUG, SURFACE
-from pipeline.mesh.triangles import cross_products, directions, join
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.shell.exposure import exposure, exposure_at
+from contactbench.pipeline.mesh.shell.wrap import PLUG, SURFACE
+from contactbench.pipeline.mesh.triangles import cross_products, directions, join
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.probe import Probe
-    from pipeline.mesh.shell.wrap import Wrapped
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.shell.wrap import Wrapped
 
 # What sees less of the sky than this lies in a groove that no finger enters.
 _VISIBLE = 0.2

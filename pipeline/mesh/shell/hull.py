@@ -16,9 +16,9 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.health import edge_table
-from pipeline.mesh.triangles import cross_products, directions
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.triangles import cross_products, directions
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.shell.exposure import exposure
-from pipeline.mesh.triangles import cross_products, parts, twins
+from contactbench.pipeline.mesh.shell.exposure import exposure
+from contactbench.pipeline.mesh.triangles import cross_products, parts, twins
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.health import edge_table
-from pipeline.mesh.polygons import triangulate
-from pipeline.mesh.shell.cut import cut_crossings
-from pipeline.mesh.shell.hull import outer_hull
-from pipeline.mesh.shell.openings import Opening, describe
-from pipeline.mesh.shell.patch import choose, make_patch
-from pipeline.mesh.shell.sew import ROUNDING, distinct, holes, open_edges, sew
-from pipeline.mesh.triangles import cross_products, join
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.polygons import triangulate
+from contactbench.pipeline.mesh.shell.cut import cut_crossings
+from contactbench.pipeline.mesh.shell.hull import outer_hull
+from contactbench.pipeline.mesh.shell.openings import Opening, describe
+from contactbench.pipeline.mesh.shell.patch import choose, make_patch
+from contactbench.pipeline.mesh.shell.sew import ROUNDING, distinct, holes, open_edges, sew
+from contactbench.pipeline.mesh.triangles import cross_products, join
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.engines import Control
+    from contactbench.pipeline.mesh.engines import Control
 
     Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
     Soup = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int64]]
@@ -96,7 +96,7 @@ def find_outside(
     spacing : float
         Of the vertices of what closes such a hole, metres.
     **control
-        See `pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.run`.
 
     Returns
     -------
@@ -106,7 +106,7 @@ def find_outside(
     Raises
     ------
     EngineError, Cancelled
-        See `pipeline.mesh.engines.run`.
+        See `contactbench.pipeline.mesh.engines.run`.
     """
     size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
     soup = _trimmed(_sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size))

@@ -13,16 +13,16 @@ import numpy as np
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial import ConvexHull, Delaunay, QhullError, cKDTree
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.shell.openings import shoelace
-from pipeline.mesh.shell.rim import crossings
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.shell.openings import shoelace
+from contactbench.pipeline.mesh.shell.rim import crossings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.shell.openings import Opening
+    from contactbench.pipeline.mesh.shell.openings import Opening
 
 _LONG = 2.0  # a mouth longer than this many times its width has two long rims
 _FLAT = 1e-9  # of the length

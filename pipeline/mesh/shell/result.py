@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.mesh.shell.patch import Closing
+from contactbench.pipeline.mesh.shell.patch import Closing
 
 if TYPE_CHECKING:
-    from pipeline.mesh.probe import Probe
-    from pipeline.mesh.regions import RegionReport
-    from pipeline.mesh.shell.fit import ShellFit
-    from pipeline.mesh.shell.openings import Opening
-    from pipeline.mesh.soundness import Soundness
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.regions import RegionReport
+    from contactbench.pipeline.mesh.shell.fit import ShellFit
+    from contactbench.pipeline.mesh.shell.openings import Opening
+    from contactbench.pipeline.mesh.soundness import Soundness
 
 UNCHANGED, HULL, WRAPPED = "unchanged", "hull", "wrapped"
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter1d, median_filter
 from scipy.spatial import cKDTree
 
-from pipeline.mesh.shell.openings import Opening, describe
+from contactbench.pipeline.mesh.shell.openings import Opening, describe
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.triangles import cross_products
+from contactbench.pipeline.mesh.triangles import cross_products
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

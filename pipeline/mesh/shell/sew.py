@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import cKDTree
 
-from pipeline.mesh.health import edge_table
-from pipeline.mesh.triangles import cross_products
+from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.triangles import cross_products
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import SurfaceIndex, crossings
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.errors import MeshError, MeshWarning
-from pipeline.mesh.health import label_parts
-from pipeline.mesh.probe import Probe
-from pipeline.mesh.regions import RegionSet, transfer
-from pipeline.mesh.shell.exposure import exposure
-from pipeline.mesh.shell.fit import measure_fit
-from pipeline.mesh.shell.openings import Opening, find_openings
-from pipeline.mesh.shell.outside import Outside, find_outside
-from pipeline.mesh.shell.patch import Closing, choose, make_patch
-from pipeline.mesh.shell.result import (
+from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
+from contactbench.pipeline.mesh.health import label_parts
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.regions import RegionSet, transfer
+from contactbench.pipeline.mesh.shell.exposure import exposure
+from contactbench.pipeline.mesh.shell.fit import measure_fit
+from contactbench.pipeline.mesh.shell.openings import Opening, find_openings
+from contactbench.pipeline.mesh.shell.outside import Outside, find_outside
+from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
+from contactbench.pipeline.mesh.shell.result import (
     HULL,
     LEAKS,
     NO_SPACE,
@@ -29,17 +29,17 @@ from pipeline.mesh.shell.result import (
     ClosedOpening,
     Shell,
 )
-from pipeline.mesh.shell.rim import find_lip
-from pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
-from pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
-from pipeline.mesh.triangles import cross_products, join, parts, twins
+from contactbench.pipeline.mesh.shell.rim import find_lip
+from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
+from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
+from contactbench.pipeline.mesh.triangles import cross_products, join, parts, twins
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.shell.wrap import Surface, Wrapped
+    from contactbench.pipeline.mesh.shell.wrap import Surface, Wrapped
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
 # size of the shell's facets.

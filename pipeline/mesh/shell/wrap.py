@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.sparse import csr_array
 
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh.engines import Cancelled, alpha_wrap
-from pipeline.mesh.shell.settle import settle
-from pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
-from pipeline.mesh.triangles import cross_products, join
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh.engines import Cancelled, alpha_wrap
+from contactbench.pipeline.mesh.shell.settle import settle
+from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, TOUCHING, check_soundness
+from contactbench.pipeline.mesh.triangles import cross_products, join
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh.engines import Control
+    from contactbench.pipeline.mesh.engines import Control
 
     Surface = tuple[NDArray[np.float64], NDArray[np.int32]]
 

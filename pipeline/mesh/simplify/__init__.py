@@ -1,7 +1,7 @@
 """Fewer facets for the same shape: by count, by deviation, or by any error that a caller can measure."""
 
-from pipeline.mesh.simplify.job import check_ratio
-from pipeline.mesh.simplify.simplify import Simplified, simplify
-from pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
+from contactbench.pipeline.mesh.simplify.job import check_ratio
+from contactbench.pipeline.mesh.simplify.simplify import Simplified, simplify
+from contactbench.pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
 
 __all__ = ["Count", "Engine", "MaxDeviation", "MaxError", "Simplified", "Target", "check_ratio", "simplify"]

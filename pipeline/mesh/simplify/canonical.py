@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.clean import merge_vertices
-from pipeline.mesh.deviation import doubled_areas
+from contactbench.pipeline.mesh.clean import merge_vertices
+from contactbench.pipeline.mesh.deviation import doubled_areas
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
 _LENGTH = 100.0
 

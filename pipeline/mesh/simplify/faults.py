@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.soundness import check_soundness
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh.probe import Probe
-    from pipeline.mesh.soundness import Soundness
+    from contactbench.pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.soundness import Soundness
 
 
 def find_faults(made: Probe, original: Probe, original_soundness: Callable[[], Soundness]) -> tuple[str, ...]:

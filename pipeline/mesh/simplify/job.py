@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import collapse_edges
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.probe import Probe
-from pipeline.mesh.simplify.canonical import make_canonical
-from pipeline.mesh.simplify.faults import find_faults
-from pipeline.mesh.soundness import Soundness, check_soundness
+from contactbench.pipeline.kernel import collapse_edges
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.simplify.canonical import make_canonical
+from contactbench.pipeline.mesh.simplify.faults import find_faults
+from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
 
-    from pipeline.mesh.deviation import Comparison, Deviation, Reference
+    from contactbench.pipeline.mesh.deviation import Comparison, Deviation, Reference
 
 # Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
 _STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from pipeline.mesh.errors import MeshError
-from pipeline.mesh.simplify.target import FEWEST
+from contactbench.pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.simplify.target import FEWEST
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh.simplify.job import Attempt, Job
+    from contactbench.pipeline.mesh.simplify.job import Attempt, Job
 
 MOST_ATTEMPTS = 12
 _FIRST_GUESS = 500

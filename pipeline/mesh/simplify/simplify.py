@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh.deviation import Deviation, Reference
-from pipeline.mesh.probe import Probe
-from pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, Job, check_ratio
-from pipeline.mesh.simplify.search import MOST_ATTEMPTS, fewest_facets
-from pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
+from contactbench.pipeline.mesh.deviation import Deviation, Reference
+from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, Job, check_ratio
+from contactbench.pipeline.mesh.simplify.search import MOST_ATTEMPTS, fewest_facets
+from contactbench.pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

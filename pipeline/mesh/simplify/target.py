@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from pipeline.mesh.errors import MeshError
+from contactbench.pipeline.mesh.errors import MeshError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh.probe import Probe
+    from contactbench.pipeline.mesh.probe import Probe
 
 # A tetrahedron; a closed surface has no fewer.
 FEWEST = 4

@@ -1,13 +1,13 @@
 """Where the probe's mesh lies in the sensor frame: typed, by points, by the flange, by its shape, by touches."""
 
-from pipeline.preparation.alignment.alignment import Alignment, Method, from_json
-from pipeline.preparation.alignment.axes import AxesAlignment, align_axes
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
-from pipeline.preparation.alignment.points import align_frame, align_points
-from pipeline.preparation.alignment.rigid import check_transform
-from pipeline.preparation.alignment.touch_csv import TouchFileError, read_touches
-from pipeline.preparation.alignment.touches import (
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method, from_json
+from contactbench.pipeline.preparation.alignment.axes import AxesAlignment, align_axes
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.flange import MountingFace, align_flange, find_mounting_face
+from contactbench.pipeline.preparation.alignment.points import align_frame, align_points
+from contactbench.pipeline.preparation.alignment.rigid import check_transform
+from contactbench.pipeline.preparation.alignment.touch_csv import TouchFileError, read_touches
+from contactbench.pipeline.preparation.alignment.touches import (
     Advice,
     CrossValidation,
     MarkerTouches,
@@ -15,7 +15,12 @@ from pipeline.preparation.alignment.touches import (
     TouchAlignment,
     align_touches,
 )
-from pipeline.preparation.alignment.typed import from_angles, from_matrix, from_quaternion, from_transform
+from contactbench.pipeline.preparation.alignment.typed import (
+    from_angles,
+    from_matrix,
+    from_quaternion,
+    from_transform,
+)
 
 __all__ = [
     "Advice",

@@ -11,9 +11,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic_core import from_json as parse_json
 
-from pipeline.mesh import Probe
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.rigid import apply, check_numbers, check_transform
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.rigid import apply, check_numbers, check_transform
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

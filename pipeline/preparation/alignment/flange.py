@@ -10,15 +10,15 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
-from pipeline.preparation.alignment.alignment import Alignment, Method
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.rigid import check_numbers, make_transform, turn_between
-from pipeline.preparation.alignment.rim import Rim, find_rim
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.rigid import check_numbers, make_transform, turn_between
+from contactbench.pipeline.preparation.alignment.rim import Rim, find_rim
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
     Floats = NDArray[np.float64]
 

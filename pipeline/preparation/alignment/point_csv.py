@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.tables import TableError, TableReader, Wording, read_table
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
 
 if TYPE_CHECKING:
     from pathlib import Path

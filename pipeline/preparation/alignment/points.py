@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc
 
-from pipeline.preparation.alignment.alignment import Alignment, Method
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.rigid import apply, check_numbers, make_transform
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.rigid import apply, check_numbers, make_transform
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

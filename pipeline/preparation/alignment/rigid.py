@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.rigid import across
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.rigid import across
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.contact.wrench_csv import CHANNELS
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.touches.marker import MarkerTouches
-from pipeline.tables import TableError, TableReader, Wording, read_table
+from contactbench.pipeline.contact.wrench_csv import CHANNELS
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches
+from contactbench.pipeline.tables import TableError, TableReader, Wording, read_table
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.preparation.alignment.alignment import Alignment, Method
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.rigid import (
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.rigid import (
     check_numbers,
     check_rotation,
     check_transform,

@@ -1,13 +1,17 @@
 """Quality against speed: what fewer facets cost in contact error, what they save in time, and how many to take."""
 
-from pipeline.preparation.ladder.compare import ContactReference, Difference, PartErrors
-from pipeline.preparation.ladder.criterion import FewestFacets, contact_error_criterion, fewest_facets
-from pipeline.preparation.ladder.errors import LadderError
-from pipeline.preparation.ladder.files import save_ladder
-from pipeline.preparation.ladder.ladder import Ladder, Rung
-from pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
-from pipeline.preparation.ladder.recommend import Goal, Recommendation, recommend
-from pipeline.preparation.ladder.touches import ExpectedTouches
+from contactbench.pipeline.preparation.ladder.compare import ContactReference, Difference, PartErrors
+from contactbench.pipeline.preparation.ladder.criterion import (
+    FewestFacets,
+    contact_error_criterion,
+    fewest_facets,
+)
+from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.files import save_ladder
+from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung
+from contactbench.pipeline.preparation.ladder.measure import DEFAULT_FACETS, measure_ladder
+from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation, recommend
+from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
 
 __all__ = [
     "DEFAULT_FACETS",

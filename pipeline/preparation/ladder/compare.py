@@ -8,16 +8,22 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Reason
-from pipeline.preparation.alignment.touches.model import TouchModel
-from pipeline.preparation.ladder.errors import LadderError
-from pipeline.preparation.ladder.touches import FEWEST, DrawnTouches, ExpectedTouches, Part, draw_parts
+from contactbench.pipeline.contact import ContactSolver, Reason
+from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.touches import (
+    FEWEST,
+    DrawnTouches,
+    ExpectedTouches,
+    Part,
+    draw_parts,
+)
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.contact import Batch
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.contact import Batch
+    from contactbench.pipeline.mesh import Probe
 
 Statistic = Literal["mean", "p95", "max"]
 

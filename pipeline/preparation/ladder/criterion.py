@@ -6,16 +6,16 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.mesh.simplify import MaxError, Simplified, simplify
-from pipeline.preparation.ladder.compare import ContactReference, PartErrors, Statistic
-from pipeline.preparation.ladder.recommend import Goal
-from pipeline.preparation.ladder.touches import ExpectedTouches
+from contactbench.pipeline.mesh.simplify import MaxError, Simplified, simplify
+from contactbench.pipeline.preparation.ladder.compare import ContactReference, PartErrors, Statistic
+from contactbench.pipeline.preparation.ladder.recommend import Goal
+from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.simplify import Engine
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.simplify import Engine
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,6 @@
 """What the ladder package raises."""
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 
 class LadderError(InputError):

@@ -7,14 +7,14 @@ import json
 from io import StringIO
 from typing import TYPE_CHECKING
 
-from pipeline.durable import write_durably
-from pipeline.preparation.ladder.errors import LadderError
-from pipeline.preparation.ladder.picture import draw_ladder
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.picture import draw_ladder
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline.preparation.ladder.ladder import Ladder
+    from contactbench.pipeline.preparation.ladder.ladder import Ladder
 
 
 def save_ladder(ladder: Ladder, folder: Path) -> tuple[Path, ...]:

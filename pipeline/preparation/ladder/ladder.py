@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from pipeline.mesh import Probe
-    from pipeline.preparation.ladder.compare import Difference, PartErrors
-    from pipeline.preparation.ladder.recommend import Goal, Recommendation
-    from pipeline.preparation.ladder.touches import ExpectedTouches
-    from pipeline.timing import Timing
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.preparation.ladder.compare import Difference, PartErrors
+    from contactbench.pipeline.preparation.ladder.recommend import Goal, Recommendation
+    from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
+    from contactbench.pipeline.timing import Timing
 
 SCHEMA, VERSION = "contactbench.ladder", 1
 

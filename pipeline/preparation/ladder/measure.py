@@ -7,23 +7,23 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
-from pipeline.contact import ContactSolver
-from pipeline.kernel import Algorithm1
-from pipeline.mesh import MeshError, save_probe
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.simplify import Count, simplify
-from pipeline.preparation.ladder.compare import ContactReference
-from pipeline.preparation.ladder.errors import LadderError
-from pipeline.preparation.ladder.ladder import Ladder, Rung, Speed
-from pipeline.preparation.ladder.recommend import Goal, recommend
-from pipeline.preparation.ladder.touches import ExpectedTouches
-from pipeline.timing import time_batches
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.kernel import Algorithm1
+from contactbench.pipeline.mesh import MeshError, save_probe
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.preparation.ladder.compare import ContactReference
+from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung, Speed
+from contactbench.pipeline.preparation.ladder.recommend import Goal, recommend
+from contactbench.pipeline.preparation.ladder.touches import ExpectedTouches
+from contactbench.pipeline.timing import time_batches
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.simplify import Engine
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.simplify import Engine
 
 DEFAULT_FACETS = (250, 500, 1_000, 2_000, 5_000, 10_000, 20_000)
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from pipeline.preparation.ladder.ladder import Ladder, Rung
+    from contactbench.pipeline.preparation.ladder.ladder import Ladder, Rung
 
 # Okabe and Ito's colours, told apart by everybody.
 _OURS, _LOOP, _NOISE, _CHOSEN = "#0072b2", "#d55e00", "#009e73", "#cc79a7"

@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.preparation.ladder.errors import LadderError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.preparation.ladder.compare import PartErrors, Statistic
-    from pipeline.preparation.ladder.ladder import Rung
+    from contactbench.pipeline.preparation.ladder.compare import PartErrors, Statistic
+    from contactbench.pipeline.preparation.ladder.ladder import Rung
 
 _WORDS = {"mean": "mean", "p95": "95th percentile", "max": "largest"}
 

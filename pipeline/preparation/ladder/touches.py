@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from pipeline.contact import Gates, WrenchNoise
-from pipeline.preparation.ladder.errors import LadderError
-from pipeline.simulation import Touches, add_noise, draw_touches
+from contactbench.pipeline.contact import Gates, WrenchNoise
+from contactbench.pipeline.preparation.ladder.errors import LadderError
+from contactbench.pipeline.simulation import Touches, add_noise, draw_touches
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 Part = Literal["region", "rest", "all"]
 

@@ -10,7 +10,8 @@ tissue.
 On a convex probe at 7 N, a phantom that turns by 10 degrees or heaves by 10 mm in 2 s, and set-points that follow nine
 tenths of it, the arm instead of the platform's mount changes the force by 0.1 N, angles by 0.02 degrees, and the
 force's direction by up to 0.6; half the time step changes those by 0.002 N, 0.001 and 0.07
-(`pipeline.study.scene_limits` measures it). Encoders of 17 bits put the flange where it is within some 10 µm.
+(`contactbench.pipeline.study.scene_limits` measures it). Encoders of 17 bits put the flange where it is within
+some 10 µm.
 """
 
 from __future__ import annotations
@@ -20,19 +21,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.robot import Robot
-from pipeline.simulation.scenes.physics import Payload, Truth, new_spec, physics
-from pipeline.simulation.scenes.platform import MovedScene, add_platform
-from pipeline.simulation.scenes.press import PRESS_STEP_S
-from pipeline.simulation.scenes.servo import JointServo, ServoSettings
-from pipeline.simulation.scenes.tissue import PLACES, Tissue, add_probe
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.simulation.scenes.physics import Payload, Truth, new_spec, physics
+from contactbench.pipeline.simulation.scenes.platform import MovedScene, add_platform
+from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S
+from contactbench.pipeline.simulation.scenes.servo import JointServo, ServoSettings
+from contactbench.pipeline.simulation.scenes.tissue import PLACES, Tissue, add_probe
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.robot import RobotDescription
-    from pipeline.simulation.scenes.platform_motion import PlatformMotion
+    from contactbench.pipeline.robot import RobotDescription
+    from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
 
 # In front of the base, on its table, turned to face it: there an Elfin3 is far from its limits and from singularities,
 # and the quickest motion (10 degrees in 2 s) asks for half of its speed.

@@ -12,11 +12,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT, Indenter, Press, Tip, add_indenter
-from pipeline.simulation.scenes.physics import PROBE, Payload, Scene, Truth, new_spec, physics, sensed_body
-from pipeline.simulation.scenes.pieces import add_facets, facets_near
-from pipeline.simulation.scenes.touch import PATCH_M, STEP_S, along
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.indenter import (
+    PROBE_BIT,
+    TIP_BIT,
+    Indenter,
+    Press,
+    Tip,
+    add_indenter,
+)
+from contactbench.pipeline.simulation.scenes.physics import (
+    PROBE,
+    Payload,
+    Scene,
+    Truth,
+    new_spec,
+    physics,
+    sensed_body,
+)
+from contactbench.pipeline.simulation.scenes.pieces import add_facets, facets_near
+from contactbench.pipeline.simulation.scenes.touch import PATCH_M, STEP_S, along
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -8,14 +8,14 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.tissue import BALL_M, FACE_DEPTH_M, PLACES, Tissue, spread
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.tissue import BALL_M, FACE_DEPTH_M, PLACES, Tissue, spread
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.simulation.scenes.motion import Motion
-    from pipeline.simulation.scenes.physics import Truth
+    from contactbench.pipeline.simulation.scenes.motion import Motion
+    from contactbench.pipeline.simulation.scenes.physics import Truth
 
 _OVER_S, _TIMES = 60.0, 600
 

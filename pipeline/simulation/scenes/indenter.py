@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.physics import OTHER, physics
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.physics import OTHER, physics
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

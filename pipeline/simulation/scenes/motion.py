@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 _TREMOR_HZ = (8.0, 12.0)
 _SLOW_HZ = (0.1, 0.6)

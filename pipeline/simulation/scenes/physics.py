@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 SENSOR, PROBE, OTHER = "S", "probe", "other"
 FORCE, TORQUE, CONTACT = "force", "torque", "contact"

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.physics import physics
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.physics import physics
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
-    from pipeline.simulation.scenes.physics import Truth
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.simulation.scenes.physics import Truth
 
 _THICKNESS_M = 0.002
 _FACING = 1e-3  # facets that look away from the one that is touched are its other side
@@ -101,7 +101,7 @@ def add_facets(
 
 def markers_from(points_S: Sequence[Sequence[float]], probe: Probe) -> NDArray[np.float64]:
     """Return points (n, 3) projected on a probe's surface, m."""
-    from pipeline.kernel import SurfaceIndex
+    from contactbench.pipeline.kernel import SurfaceIndex
 
     index = SurfaceIndex(probe.vertices, probe.faces)
     return np.asarray(index.closest(np.ascontiguousarray(points_S, dtype=np.float64))[2])

@@ -7,7 +7,7 @@ its sensor; neither it nor the platform stands more than 0.1 mm off under 7 N.
 
 On a convex probe at 7 N and a motion as of the paper's quickest, half the time step changes the force by 0.02 N and
 the place by 0.01 mm, four times as many places change them by 0.2 N and 0.09 mm; without friction the force leans by
-0.3 degrees less (`pipeline.study.scene_limits` measures it).
+0.3 degrees less (`contactbench.pipeline.study.scene_limits` measures it).
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
-from pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
-from pipeline.simulation.scenes.setpoints import ServoPath
-from pipeline.simulation.scenes.tissue import (
+from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
+from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S, SERVO
+from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
+from contactbench.pipeline.simulation.scenes.tissue import (
     PLACES,
     Tissue,
     TissueScene,
@@ -32,7 +32,7 @@ from pipeline.simulation.scenes.tissue import (
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.simulation.scenes.platform_motion import PlatformMotion
+    from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
 
 DOWN = np.diag([1.0, -1.0, -1.0])  # R_BS of a tool that points down, x kept
 _FASTEST = np.repeat([0.25, np.pi / 2], 3)  # m/s and rad/s, of the mount

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 _INSTANT_S = 1e-9  # times of a scene are sums of its steps
 AXES = ("x", "y", "z", "rx", "ry", "rz")

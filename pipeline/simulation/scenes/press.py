@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.simulation.scenes.motion import Motion, hand_motion
-from pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
-from pipeline.simulation.scenes.tissue import (
+from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
+from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
+from contactbench.pipeline.simulation.scenes.tissue import (
     PLACES,
     Tissue,
     TissueScene,

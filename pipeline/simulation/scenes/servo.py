@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.setpoints import ServoPath
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.setpoints import ServoPath
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.robot import Robot
+    from contactbench.pipeline.robot import Robot
 
 _MOST_HELD = 500.0  # rad/s², of what it has learned to hold against: motors at their end shall not wind it up
 

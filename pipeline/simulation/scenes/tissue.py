@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
-from pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT
-from pipeline.simulation.scenes.physics import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.simulation.scenes.indenter import PROBE_BIT, TIP_BIT
+from contactbench.pipeline.simulation.scenes.physics import (
     OTHER,
     PROBE,
     Moment,
@@ -24,7 +24,7 @@ from pipeline.simulation.scenes.physics import (
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 BALL_M = 0.001
 PLACES = 100

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.simulation.scenes.indenter import (
+from contactbench.pipeline.simulation.scenes.indenter import (
     PROBE_BIT,
     TIP_BIT,
     Indenter,
@@ -21,13 +21,13 @@ from pipeline.simulation.scenes.indenter import (
     Tip,
     add_indenter,
 )
-from pipeline.simulation.scenes.physics import Payload, Scene, Truth, new_spec, sensed_body
-from pipeline.simulation.scenes.pieces import add_facets, facets_near
+from contactbench.pipeline.simulation.scenes.physics import Payload, Scene, Truth, new_spec, sensed_body
+from contactbench.pipeline.simulation.scenes.pieces import add_facets, facets_near
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.simulation.scenes.physics import Moment
+    from contactbench.pipeline.simulation.scenes.physics import Moment
 
 STEP_S = 0.0005
 PATCH_M = 0.005  # how much of the surface a tip can reach that slips

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.robot import Robot
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -17,13 +17,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-import assets
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation.scenes import BenchScene, Truth
-from pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
-from pipeline.simulation.virtual.commands import (
+from contactbench import assets
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.scenes import BenchScene, Truth
+from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
+from contactbench.pipeline.simulation.virtual.commands import (
     Bump,
     Command,
     CommandError,
@@ -34,17 +34,17 @@ from pipeline.simulation.virtual.commands import (
     TurnTo,
     Warm,
 )
-from pipeline.simulation.virtual.given import Batch, Done, Slip
-from pipeline.simulation.virtual.markers import COUNTS, markers, markers_on
-from pipeline.simulation.virtual.script import ScriptError, Timed
-from pipeline.simulation.virtual.slips import SlipWatch
+from contactbench.pipeline.simulation.virtual.given import Batch, Done, Slip
+from contactbench.pipeline.simulation.virtual.markers import COUNTS, markers, markers_on
+from contactbench.pipeline.simulation.virtual.script import ScriptError, Timed
+from contactbench.pipeline.simulation.virtual.slips import SlipWatch
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.simulation.scenes import Moment, Payload
+    from contactbench.pipeline.simulation.scenes import Moment, Payload
 
 RATE, POSE_RATE = 200.0, 50.0
 FASTEST = 1000.0

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Final
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import Press
-from pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import Press
+from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from pipeline.simulation.virtual.commands import Command, Rezero
+from contactbench.pipeline.simulation.virtual.commands import Command, Rezero
 
 if TYPE_CHECKING:
-    from pipeline.devices.sample import FlangeSample, WrenchSample
-    from pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.simulation.scenes import Moment
 
 
 @dataclass(frozen=True)

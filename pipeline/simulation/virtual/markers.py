@@ -9,16 +9,16 @@ import numpy as np
 from scipy.cluster.vq import kmeans2
 from scipy.spatial import cKDTree
 
-import assets
-from pipeline.errors import InputError
-from pipeline.kernel import SurfaceIndex
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
     Array = NDArray[np.float64]
 

@@ -6,13 +6,13 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.given import Batch
 
 CATCH_UP_S = 0.2
 _SLICE_S = 0.01  # a command waits no longer than this much of a bench that is late

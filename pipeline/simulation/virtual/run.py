@@ -8,20 +8,20 @@ from functools import partial
 from operator import itemgetter
 from typing import TYPE_CHECKING
 
-from pipeline.durable import scratch_beside
-from pipeline.errors import InputError
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
-from pipeline.simulation.virtual.commands import command_fields
-from pipeline.simulation.virtual.script import LONGEST_S, ScriptError
-from pipeline.simulation.virtual.truth_csv import TruthTable
+from contactbench.pipeline.durable import scratch_beside
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC
+from contactbench.pipeline.simulation.virtual.commands import command_fields
+from contactbench.pipeline.simulation.virtual.script import LONGEST_S, ScriptError
+from contactbench.pipeline.simulation.virtual.truth_csv import TruthTable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.given import Batch, Slip
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.given import Batch, Slip
 
 # The bench has no calendar: a fixed day, so that the same run gives the same bytes.
 STARTED_NS = 946_684_800 * 10**9  # 2000-01-01

@@ -6,8 +6,8 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.errors import InputError
-from pipeline.simulation.virtual.commands import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.virtual.commands import (
     Command,
     command_fields,
     is_finite,

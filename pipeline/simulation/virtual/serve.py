@@ -8,10 +8,10 @@ import time
 from collections import deque
 from typing import TYPE_CHECKING
 
-from pipeline.devices.emulate import emulator
-from pipeline.errors import InputError
-from pipeline.simulation.virtual.arm import WristArm
-from pipeline.simulation.virtual.pace import Pacer
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.virtual.arm import WristArm
+from contactbench.pipeline.simulation.virtual.pace import Pacer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.devices.emulate import Emulator, Six
-    from pipeline.simulation.virtual.bench import VirtualBench
-    from pipeline.simulation.virtual.given import Batch
+    from contactbench.pipeline.devices.emulate import Emulator, Six
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.given import Batch
 
 # The devices tell what was there so long ago: the bench, which may be late, has been there then.
 DELAY_S = 0.03

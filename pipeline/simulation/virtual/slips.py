@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.simulation.virtual.given import Slip
+from contactbench.pipeline.simulation.virtual.given import Slip
 
 if TYPE_CHECKING:
-    from pipeline.simulation.virtual.given import Done
+    from contactbench.pipeline.simulation.virtual.given import Done
 
 SLIPPED_S = 0.5
 _SENTENCE = (

@@ -6,14 +6,14 @@ import csv
 import json
 from typing import TYPE_CHECKING
 
-from pipeline.simulation.virtual.commands import command_fields
+from contactbench.pipeline.simulation.virtual.commands import command_fields
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import TextIO
 
-    from pipeline.simulation.scenes import Moment
-    from pipeline.simulation.virtual.given import Batch, Done
+    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.virtual.given import Batch, Done
 
 COLUMNS = (
     "time_s",

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 
 def add_ablation_command(app: typer.Typer) -> None:
@@ -40,11 +40,11 @@ def ablation(
     Needs MuJoCo. Local torque, smooth normals, the friction gate, drift, the mount's rotation, crosstalk,
     a phantom that yields, an arm with dynamics.
     """
-    from pipeline.durable import make_folder
-    from pipeline.study.ablation.run import KIND, QUICK, Sizes, run
-    from pipeline.study.ablation.verdicts import about_choices
-    from pipeline.study.pages import make_page
-    from pipeline.study.results import environment, read_results, write_results
+    from contactbench.pipeline.durable import make_folder
+    from contactbench.pipeline.study.ablation.run import KIND, QUICK, Sizes, run
+    from contactbench.pipeline.study.ablation.verdicts import about_choices
+    from contactbench.pipeline.study.pages import make_page
+    from contactbench.pipeline.study.results import environment, read_results, write_results
 
     sizes = QUICK if quick else Sizes()
     given: dict[str, Any] = {"probes": tuple(probe or ()), "scenes": tuple(scene or ()), "seeds": seeds}

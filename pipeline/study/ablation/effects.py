@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.control.settings import LEFT
-from pipeline.study.ablation import locating, reading
-from pipeline.study.ablation.locating import Locators, locators, sigmas_of
-from pipeline.study.sweep.noise import FILTERS
+from contactbench.pipeline.control.settings import LEFT
+from contactbench.pipeline.study.ablation import locating, reading
+from contactbench.pipeline.study.ablation.locating import Locators, locators, sigmas_of
+from contactbench.pipeline.study.sweep.noise import FILTERS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.study.ablation.records import Record
+    from contactbench.pipeline.study.ablation.records import Record
 
 INERTIA = reading.INERTIA
 CHOICES = (*locating.CHOICES, *reading.CHOICES, INERTIA)

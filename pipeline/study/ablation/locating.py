@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, WrenchNoise
-from pipeline.mesh import Probe
-from pipeline.simulation.sensor_model import preset
-from pipeline.study.ablation.smooth import SmoothNormals
-from pipeline.study.reproduce.touching import model_of
-from pipeline.timing import time_batches
+from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.sensor_model import preset
+from contactbench.pipeline.study.ablation.smooth import SmoothNormals
+from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.timing import time_batches
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.kernel import Batch
+    from contactbench.pipeline.kernel import Batch
 
 LOCAL_TORQUE, SMOOTH, BULGE, FINER, GATE = CHOICES = (
     "local torque",

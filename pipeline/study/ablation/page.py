@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.study.ablation import locating, scenery
-from pipeline.study.ablation.effects import INERTIA, NOISES
-from pipeline.study.ablation.reading import MOUNT
-from pipeline.study.ablation.records import ANYWHERE, SCENES
-from pipeline.study.ablation.verdicts import (
+from contactbench.pipeline.study.ablation import locating, scenery
+from contactbench.pipeline.study.ablation.effects import INERTIA, NOISES
+from contactbench.pipeline.study.ablation.reading import MOUNT
+from contactbench.pipeline.study.ablation.records import ANYWHERE, SCENES
+from contactbench.pipeline.study.ablation.verdicts import (
     MATTERS,
     NOISE,
     Verdict,
@@ -20,14 +20,14 @@ from pipeline.study.ablation.verdicts import (
     crossings,
     unit_of,
 )
-from pipeline.study.chapters import chapter
-from pipeline.study.markdown import number, table
+from contactbench.pipeline.study.chapters import chapter
+from contactbench.pipeline.study.markdown import number, table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pipeline.study.results import Results
+    from contactbench.pipeline.study.results import Results
 
 Row = dict[str, Any]
 _ALL = (ANYWHERE, *SCENES)
@@ -67,7 +67,7 @@ def make(results: Results, folder: Path) -> str:
     InputError
         A picture cannot be written.
     """
-    from pipeline.study.ablation.plots import plots
+    from contactbench.pipeline.study.ablation.plots import plots
 
     pictures = plots(results.rows)
     return chapter("What a scene needs", _ABOUT, tables(results.rows), pictures, _SAID, folder)

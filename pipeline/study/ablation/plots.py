@@ -8,10 +8,10 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from pipeline.study.ablation import locating, reading
-from pipeline.study.ablation.effects import FILTERED
-from pipeline.study.ablation.verdicts import ANSWERS, MATTERS, located_more, noise_name, share_of
-from pipeline.study.chapters import COLOURS, STYLE, png
+from contactbench.pipeline.study.ablation import locating, reading
+from contactbench.pipeline.study.ablation.effects import FILTERED
+from contactbench.pipeline.study.ablation.verdicts import ANSWERS, MATTERS, located_more, noise_name, share_of
+from contactbench.pipeline.study.chapters import COLOURS, STYLE, png
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -10,22 +10,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline import kernel
-from pipeline.calibration import PoseNoise, PoseSample, calibrate
-from pipeline.calibration.mounting import estimate_mount
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.control.inertia import Inertia
-from pipeline.simulation.sensor_model import preset
-from pipeline.study.ablation.locating import SENSOR, sigmas_of
-from pipeline.study.ablation.records import WEIGHT
-from pipeline.timing import time_calls
+from contactbench.pipeline import kernel
+from contactbench.pipeline.calibration import PoseNoise, PoseSample, calibrate
+from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.control.inertia import Inertia
+from contactbench.pipeline.simulation.sensor_model import preset
+from contactbench.pipeline.study.ablation.locating import SENSOR, sigmas_of
+from contactbench.pipeline.study.ablation.records import WEIGHT
+from contactbench.pipeline.timing import time_calls
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.calibration import GravityModel
-    from pipeline.study.ablation.records import Record
+    from contactbench.pipeline.calibration import GravityModel
+    from contactbench.pipeline.study.ablation.records import Record
 
 DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
 INERTIA = "inertia of the tool"  # of what moves; see `effects`

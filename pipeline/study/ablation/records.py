@@ -8,23 +8,30 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.calibration import GravityModel
-from pipeline.calibration.model import STANDARD_GRAVITY
-from pipeline.errors import InputError
-from pipeline.simulation import draw_touches
-from pipeline.simulation.scenes import BenchScene, Payload, Press, PressScene, depth_for, hand_motion
-from pipeline.simulation.scenes.press import PRESS_STEP_S
-from pipeline.simulation.virtual.markers import markers
-from pipeline.study import scene_limits
-from pipeline.study.reproduce.touching import ANGLES, press_markers, truth_of
+from contactbench import assets
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.simulation.scenes import (
+    BenchScene,
+    Payload,
+    Press,
+    PressScene,
+    depth_for,
+    hand_motion,
+)
+from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study import scene_limits
+from contactbench.pipeline.study.reproduce.touching import ANGLES, press_markers, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation.scenes import Moment, MovedScene, Truth
+    from contactbench.pipeline.simulation.scenes import Moment, MovedScene, Truth
 
 TOUCH, PRESS, BENCH, PLATFORM, ARM = SCENES = ("touch", "press", "bench", "platform", "arm")
 ANYWHERE = "whole head"  # touches drawn over the whole head: no physics, but every curvature

@@ -8,12 +8,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.study.ablation import locating, reading, scenery
-from pipeline.study.ablation.effects import CHOICES, FILTERED, NOISES, QUIET, RAW, effect, meaningful
-from pipeline.study.ablation.locating import locators, sigmas_of
-from pipeline.study.ablation.records import SCENES, Record, drawn, record
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.ablation import locating, reading, scenery
+from contactbench.pipeline.study.ablation.effects import (
+    CHOICES,
+    FILTERED,
+    NOISES,
+    QUIET,
+    RAW,
+    effect,
+    meaningful,
+)
+from contactbench.pipeline.study.ablation.locating import locators, sigmas_of
+from contactbench.pipeline.study.ablation.records import SCENES, Record, drawn, record
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

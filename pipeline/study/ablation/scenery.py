@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.study import scene_limits
-from pipeline.study.ablation.records import LEAST_N, SAMPLE_S, pressed, ridden
-from pipeline.study.reproduce.touching import truth_of
+from contactbench.pipeline.study import scene_limits
+from contactbench.pipeline.study.ablation.records import LEAST_N, SAMPLE_S, pressed, ridden
+from contactbench.pipeline.study.reproduce.touching import truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation.scenes import Moment, Truth
+    from contactbench.pipeline.simulation.scenes import Moment, Truth
 
     Array = NDArray[np.float64]
 

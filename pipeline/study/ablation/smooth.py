@@ -9,8 +9,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.kernel import Batch
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.mesh import Probe
 
 _ROUNDS = 6  # four are enough where the facet stays the same
 _OUTSIDE = -1e-9

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.study.ablation import effects, locating, reading, scenery
-from pipeline.study.ablation.records import ANYWHERE, SCENES
+from contactbench.pipeline.study.ablation import effects, locating, reading, scenery
+from contactbench.pipeline.study.ablation.records import ANYWHERE, SCENES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

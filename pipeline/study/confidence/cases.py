@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Reason, WrenchNoise
-from pipeline.contact.methods import make
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation import add_noise, draw_touches
-from pipeline.study.sweep.bodies import Body, MeshSurface, body_of, mesh_of
+from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise
+from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_touches
+from contactbench.pipeline.study.sweep.bodies import Body, MeshSurface, body_of, mesh_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.contact import Batch
-    from pipeline.simulation import Touches
+    from contactbench.pipeline.contact import Batch
+    from contactbench.pipeline.simulation import Touches
 
     Float = NDArray[np.float64]
     Bools = NDArray[np.bool_]
@@ -95,7 +95,7 @@ def press(
     drift : bool
         Draw the model's error into the wrenches, too.
     **drawn
-        As for :func:`pipeline.simulation.draw_touches`.
+        As for :func:`contactbench.pipeline.simulation.draw_touches`.
     """
     touches = draw_touches(body.surface, count, rng, **({"above": body.above} | drawn))  # type: ignore[arg-type]
     wrenches = add_noise(touches.wrenches, solver.noise, rng)

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from pipeline.console import JsonOption, say
-from pipeline.study.finishing import SeedOption, finish
+from contactbench.pipeline.console import JsonOption, say
+from contactbench.pipeline.study.finishing import SeedOption, finish
 
 
 def add_confidence_command(app: typer.Typer) -> None:
@@ -38,8 +38,8 @@ def confidence(
 
     Exit code 1 when a figure misses its bound.
     """
-    from assets import PROBE_NAMES
-    from pipeline.study.confidence import study
+    from contactbench.assets import PROBE_NAMES
+    from contactbench.pipeline.study.confidence import study
 
     sizes = study.QUICK if quick else study.Sizes()
     sizes = replace(sizes, touches=touches or sizes.touches, seeds=seeds or sizes.seeds)

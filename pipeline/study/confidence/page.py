@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING
 
-from assets import PROBE_NAMES
-from pipeline.study.chapters import COLOURS, STYLE, chapter, png
-from pipeline.study.confidence.study import PARTS, Row
-from pipeline.study.markdown import number, table
+from contactbench.assets import PROBE_NAMES
+from contactbench.pipeline.study.chapters import COLOURS, STYLE, chapter, png
+from contactbench.pipeline.study.confidence.study import PARTS, Row
+from contactbench.pipeline.study.markdown import number, table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pipeline.study.results import Results
+    from contactbench.pipeline.study.results import Results
 
 _PICTURE = "reliability.png"
 _ABOUT = """Touches whose place is known, on exact surfaces or on a file's own mesh, located with default gates. An

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from assets import PROBE_NAMES
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.study.confidence import cases
-from pipeline.study.stability.probes import check, title_of
+from contactbench.assets import PROBE_NAMES
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.confidence import cases
+from contactbench.pipeline.study.stability.probes import check, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from rich.table import Table
 
-    from pipeline.study.confidence.cases import Bools, Float, Measured
+    from contactbench.pipeline.study.confidence.cases import Bools, Float, Measured
 
 KIND = "confidence"
 PARTS = {
@@ -148,7 +148,7 @@ class ConfidenceReport:
         """Build what missed its bound for a terminal."""
         from rich.table import Table
 
-        from pipeline.study.confidence.page import bound, figure
+        from contactbench.pipeline.study.confidence.page import bound, figure
 
         judged = [row for row in self.rows if bound(row)]
         missed = [row for row in judged if not row.met]
@@ -166,7 +166,7 @@ class ConfidenceReport:
 
     def markdown(self) -> str:
         """Write every figure as Markdown."""
-        from pipeline.study.confidence.page import tables
+        from contactbench.pipeline.study.confidence.page import tables
 
         return "\n\n".join(f"### {title}\n\n{text}" for title, text in tables(self.rows)) + "\n"
 
@@ -208,8 +208,8 @@ def run(
 
 def keep(report: ConfidenceReport, folder: Path, *, quick: bool) -> Path:
     """Write a report's results, its page and its pictures; returns the page, InputError if it cannot be written."""
-    from pipeline.study.pages import PAGE, make_page
-    from pipeline.study.results import environment, write_results
+    from contactbench.pipeline.study.pages import PAGE, make_page
+    from contactbench.pipeline.study.results import environment, write_results
 
     make_folder(folder)
     words = ["contactbench", "study", "confidence", *(["--quick"] if quick else [])]

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.protocols.soak_frames import SUBJECTS
+from contactbench.pipeline.devices.protocols.soak_frames import SUBJECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.protocols.soak_frames import Subject
+    from contactbench.pipeline.devices.protocols.soak_frames import Subject
 
 _PIECE = 4096  # what a line hands over at most
 _ROUNDS = 3

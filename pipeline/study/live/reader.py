@@ -1,6 +1,7 @@
 """A child process of the study: reads all sensors at once, as the application does, and notes what it is given.
 
-Started as ``python -m pipeline.study.live.reader FOLDER SECONDS URL...``; the last line that it writes is JSON.
+Started as ``python -m contactbench.pipeline.study.live.reader FOLDER SECONDS URL...``; the last line that it
+writes is JSON.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from pipeline.devices.drive import SensorStream
-from pipeline.study.live.records import GIVEN
+from contactbench.pipeline.devices.drive import SensorStream
+from contactbench.pipeline.study.live.records import GIVEN
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.devices.sample import WrenchSample
+    from contactbench.pipeline.devices.sample import WrenchSample
 
 _PATIENCE_S = 10.0
 _POLL_S = 0.01

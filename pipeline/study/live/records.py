@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.devices.protocols.sri import Layout
-from pipeline.errors import InputError
+from contactbench.pipeline.devices.protocols.sri import Layout
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.study.live.parsing import PROTOCOLS, parse_speed
-from pipeline.study.live.trial import run_trial
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.live.parsing import PROTOCOLS, parse_speed
+from contactbench.pipeline.study.live.trial import run_trial
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.study.live.trial import Trial
+    from contactbench.pipeline.study.live.trial import Trial
 
 MOST_SENSORS = 16
 SHORTEST_S = 1.0

@@ -1,6 +1,7 @@
 """A child process of the study: one emulated SRI sensor on a pseudo-terminal, which notes what it sends and when.
 
-Started as ``python -m pipeline.study.live.sensor FILE RATE``. It prints its address, and runs until its standard
+Started as ``python -m contactbench.pipeline.study.live.sensor FILE RATE``. It prints its address, and runs
+until its standard
 input is closed, so that it never outlives the process that started it.
 """
 
@@ -12,14 +13,14 @@ import time
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from pipeline.devices.emulate.emulator import Emulator
-from pipeline.devices.emulate.lines import PtyLine
-from pipeline.devices.emulate.models import SriModel
-from pipeline.study.live.records import FRAME_BYTES, SENT
+from contactbench.pipeline.devices.emulate.emulator import Emulator
+from contactbench.pipeline.devices.emulate.lines import PtyLine
+from contactbench.pipeline.devices.emulate.models import SriModel
+from contactbench.pipeline.study.live.records import FRAME_BYTES, SENT
 
 if TYPE_CHECKING:
-    from pipeline.devices.emulate.lines import DeviceLine
-    from pipeline.devices.emulate.signals import Six
+    from contactbench.pipeline.devices.emulate.lines import DeviceLine
+    from contactbench.pipeline.devices.emulate.signals import Six
 
 _BAUD = 921_600  # what carries 1 kHz
 

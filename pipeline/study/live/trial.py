@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.study.live.machine import Sleeper
-from pipeline.study.live.reader import Cost
-from pipeline.study.live.records import GIVEN_TYPE, SENT_TYPE, read_back
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.live.machine import Sleeper
+from contactbench.pipeline.study.live.reader import Cost
+from contactbench.pipeline.study.live.records import GIVEN_TYPE, SENT_TYPE, read_back
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -160,7 +160,7 @@ def compare(sent: NDArray[np.void], given: NDArray[np.void], until: float) -> Co
 @contextmanager
 def sensor_process(notes: Path, rate: float) -> Iterator[str]:
     """Run a sensor; gives its address."""
-    command = [sys.executable, "-m", "pipeline.study.live.sensor", str(notes), f"{rate:g}"]
+    command = [sys.executable, "-m", "contactbench.pipeline.study.live.sensor", str(notes), f"{rate:g}"]
     with subprocess.Popen(  # noqa: S603 - our own module
         command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
@@ -192,7 +192,14 @@ def busy_process(at_most: float) -> Iterator[None]:
 
 
 def _reader(folder: Path, seconds: float, urls: Sequence[str]) -> Cost:
-    command = [sys.executable, "-m", "pipeline.study.live.reader", str(folder), f"{seconds:g}", *urls]
+    command = [
+        sys.executable,
+        "-m",
+        "contactbench.pipeline.study.live.reader",
+        str(folder),
+        f"{seconds:g}",
+        *urls,
+    ]
     try:
         done = subprocess.run(  # noqa: S603 - our own module
             command, stdout=subprocess.PIPE, text=True, timeout=seconds + _MARGIN_S, check=True

@@ -1,5 +1,5 @@
 """Hostile mesh files: made by the thousand, read in child processes, judged."""
 
-from pipeline.study.mesh_fuzz.fuzz import BYTES, BYTES_PER_BYTE, Failure, FuzzReport, run
+from contactbench.pipeline.study.mesh_fuzz.fuzz import BYTES, BYTES_PER_BYTE, Failure, FuzzReport, run
 
 __all__ = ["BYTES", "BYTES_PER_BYTE", "Failure", "FuzzReport", "run"]

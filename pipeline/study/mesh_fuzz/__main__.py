@@ -1,10 +1,10 @@
-"""``python -m pipeline.study.mesh_fuzz [COUNT [SEED]]``: 10,000 hostile files unless told otherwise."""
+"""``python -m contactbench.pipeline.study.mesh_fuzz [COUNT [SEED]]``: 10,000 hostile files unless told otherwise."""
 
 from __future__ import annotations
 
 import sys
 
-from pipeline.study.mesh_fuzz.fuzz import run
+from contactbench.pipeline.study.mesh_fuzz.fuzz import run
 
 if __name__ == "__main__":
     many, first_seed, *_ = (*(int(word) for word in sys.argv[1:3]), *(10_000, 0)[len(sys.argv) - 1 :])

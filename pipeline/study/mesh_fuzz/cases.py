@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.mesh_fuzz.large import archive, glb, swollen
+from contactbench.pipeline.study.mesh_fuzz.large import archive, glb, swollen
 
 if TYPE_CHECKING:
     from collections.abc import Callable

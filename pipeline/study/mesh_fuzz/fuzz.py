@@ -14,7 +14,7 @@ from collections import Counter
 from dataclasses import asdict, dataclass, field
 from typing import IO, TYPE_CHECKING, Any
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,7 +32,7 @@ _UNPACKED = 100
 # A case that takes longer hangs.
 _HANGS_S = 60.0
 _BATCH = 500
-_WORKER = (sys.executable, "-m", "pipeline.study.mesh_fuzz.worker")
+_WORKER = (sys.executable, "-m", "contactbench.pipeline.study.mesh_fuzz.worker")
 _LISTED = 20
 
 

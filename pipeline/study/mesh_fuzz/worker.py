@@ -1,6 +1,7 @@
 """The child process of the mesh fuzz: reads hostile files and says what came of each, a line of JSON per file.
 
-Started as ``python -m pipeline.study.mesh_fuzz.worker seed first last``. It says which file it begins with before
+Started as ``python -m contactbench.pipeline.study.mesh_fuzz.worker seed first last``. It says which file it
+begins with before
 it does, so that whoever started it knows which one it died of.
 """
 
@@ -17,13 +18,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.mesh import MeshError, MeshWarning, Probe, load_probe, save_probe
-from pipeline.mesh.probe import degenerate_facets
-from pipeline.study.mesh_fuzz.cases import make_case, sound_files
+from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe, save_probe
+from contactbench.pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.study.mesh_fuzz.cases import make_case, sound_files
 
 if TYPE_CHECKING:
-    from pipeline.mesh.units import Units
-    from pipeline.study.mesh_fuzz.cases import FuzzCase
+    from contactbench.pipeline.mesh.units import Units
+    from contactbench.pipeline.study.mesh_fuzz.cases import FuzzCase
 
 # Far more than any of the files may take, far less than would make the machine swap.
 _ADDRESS_SPACE = 4 * 2**30

@@ -10,18 +10,18 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
-import assets
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.preparation.alignment import Advice, MarkerTouches, MountBelief, align_touches
-from pipeline.preparation.alignment.rigid import apply, difference
-from pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
-from pipeline.preparation.alignment.touches.marker import put_on_mesh
-from pipeline.preparation.alignment.touches.model import TouchModel
-from pipeline.simulation import add_noise, draw_touches
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.preparation.shapes import bundled
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.preparation.alignment import Advice, MarkerTouches, MountBelief, align_touches
+from contactbench.pipeline.preparation.alignment.rigid import apply, difference
+from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
+from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
+from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.simulation import add_noise, draw_touches
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.preparation.shapes import bundled
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.study.mesh_fuzz.fuzz import BYTES, BYTES_PER_BYTE, SECONDS, SECONDS_PER_MB
-from pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.mesh_fuzz.fuzz import BYTES, BYTES_PER_BYTE, SECONDS, SECONDS_PER_MB
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
-    from pipeline.study.mesh_fuzz import FuzzReport
+    from contactbench.pipeline.study.mesh_fuzz import FuzzReport
 
 
 def summarise(report: FuzzReport) -> Report:

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.mesh import Probe
-from pipeline.mesh.triangles import cross_products, twins
-from pipeline.study.preparation.shapes import bundled
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.triangles import cross_products, twins
+from contactbench.pipeline.study.preparation.shapes import bundled
 
 if TYPE_CHECKING:
     import numpy.typing as npt

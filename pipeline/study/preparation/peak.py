@@ -1,7 +1,8 @@
 """
 Peak memory of simplifying a large mesh, in a fresh process that has done nothing else.
 
-``python -m pipeline.study.preparation.peak make FACETS FILE``, then ``... measure COUNT FILE``: making the mesh takes
+``python -m contactbench.pipeline.study.preparation.peak make FACETS FILE``, then ``... measure COUNT FILE``:
+making the mesh takes
 memory too, so it is done in a process of its own.
 """
 
@@ -17,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.simplify import Count, simplify
-from pipeline.study.preparation.shapes import bumpy_sphere
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.study.preparation.shapes import bumpy_sphere
 
 _SHAPE = "t-shape"
 
@@ -67,7 +68,7 @@ def measure_peak(facets: int, count: int, folder: Path) -> Peak:
 
 
 def _in_a_process(*words: str) -> dict[str, Any]:
-    command = [sys.executable, "-m", "pipeline.study.preparation.peak", *words]
+    command = [sys.executable, "-m", "contactbench.pipeline.study.preparation.peak", *words]
     ran = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603 - our own module
     if ran.returncode:
         why = ran.stderr.strip().splitlines()[-1:] or ["no reason given"]

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh.regions import Brush, FacetGraph, RegionModel, RegionSet
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.preparation.shapes import bundled
-from pipeline.study.preparation.surface_distance import distance_errors
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.regions import Brush, FacetGraph, RegionModel, RegionSet
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.preparation.shapes import bundled
+from contactbench.pipeline.study.preparation.surface_distance import distance_errors
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from scipy.sparse import csr_array
     from scipy.spatial import cKDTree
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
     Floats = npt.NDArray[np.float64]
 

@@ -20,7 +20,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -79,7 +79,7 @@ class Rival:
         self.library = library
         self._folder = folder
         self._child = subprocess.Popen(  # noqa: S603 -- this Python and this module
-            [sys.executable, "-m", "pipeline.study.preparation.rivals", library],
+            [sys.executable, "-m", "contactbench.pipeline.study.preparation.rivals", library],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,

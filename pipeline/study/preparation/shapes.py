@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh import load_probe
-from pipeline.mesh.shell import Closing, make_shell
-from pipeline.mesh.shell.fit import sample_surface
-from pipeline.mesh.soundness import check_soundness
-from pipeline.study.preparation.housing import housing
-from pipeline.study.preparation.report import Figure, Report
+from contactbench import assets
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.mesh.shell import Closing, make_shell
+from contactbench.pipeline.mesh.shell.fit import sample_surface
+from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.study.preparation.housing import housing
+from contactbench.pipeline.study.preparation.report import Figure, Report
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator, Sequence
 
-    from pipeline.mesh import Probe
-    from pipeline.mesh.shell import Shell
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.shell import Shell
 
 _NEAR_MM = 0.3
 _SAMPLES = 60_000

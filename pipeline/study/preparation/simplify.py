@@ -10,15 +10,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.deviation import Reference
-from pipeline.mesh.simplify import Count, simplify
-from pipeline.study.preparation.peak import measure_peak
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.preparation.rivals import RIVALS, Rival
-from pipeline.study.preparation.shapes import BUMPY, bumpy_sphere, bundled, painted
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.deviation import Reference
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.study.preparation.peak import measure_peak
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.preparation.rivals import RIVALS, Rival
+from contactbench.pipeline.study.preparation.shapes import BUMPY, bumpy_sphere, bundled, painted
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

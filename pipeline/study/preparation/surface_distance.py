@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.kernel import Geodesic
-from pipeline.study.preparation import shapes
+from contactbench.pipeline.kernel import Geodesic
+from contactbench.pipeline.study.preparation import shapes
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.study.reproduce.locating import LITERAL, OURS, key_of, solver_for
-from pipeline.study.reproduce.setup import COLD_S, draw_bench, read_touches
-from pipeline.study.reproduce.statistics import Located, distances_mm
-from pipeline.study.reproduce.touching import ANGLES
+from contactbench.pipeline.study.reproduce.locating import LITERAL, OURS, key_of, solver_for
+from contactbench.pipeline.study.reproduce.setup import COLD_S, draw_bench, read_touches
+from contactbench.pipeline.study.reproduce.statistics import Located, distances_mm
+from contactbench.pipeline.study.reproduce.touching import ANGLES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.study.reproduce.setup import Bench
-    from pipeline.study.reproduce.touching import Touched
+    from contactbench.pipeline.study.reproduce.setup import Bench
+    from contactbench.pipeline.study.reproduce.touching import Touched
 
 REFERENCE_M = 0.0005
 STIFFNESS = 150.0  # N·m/rad: 10 N across, 130 mm away, turn the probe by half a degree

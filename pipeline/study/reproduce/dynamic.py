@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.control.bounds import tilt_bound
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.control.settings import ControlSettings, Variant
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.study.control_rig import SCENES, foundation_of
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.reproduce.dynamic_cells import (
+from contactbench import assets
+from contactbench.pipeline.control.bounds import tilt_bound
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.control_rig import SCENES, foundation_of
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.reproduce.dynamic_cells import (
     FORCE_N,
     METHODS,
     MOTIONS,
@@ -26,20 +26,20 @@ from pipeline.study.reproduce.dynamic_cells import (
     Cell,
     Outcome,
 )
-from pipeline.study.reproduce.dynamic_paper import DIFFERENCES
-from pipeline.study.reproduce.dynamic_plot import draw_course, draw_methods
-from pipeline.study.reproduce.dynamic_runs import run_cells
-from pipeline.study.reproduce.dynamic_store import Store
-from pipeline.study.reproduce.dynamic_tables import order_notes, runs, table_one, table_two
-from pipeline.study.reproduce.sheets import write_bytes, write_text
+from contactbench.pipeline.study.reproduce.dynamic_paper import DIFFERENCES
+from contactbench.pipeline.study.reproduce.dynamic_plot import draw_course, draw_methods
+from contactbench.pipeline.study.reproduce.dynamic_runs import run_cells
+from contactbench.pipeline.study.reproduce.dynamic_store import Store
+from contactbench.pipeline.study.reproduce.dynamic_tables import order_notes, runs, table_one, table_two
+from contactbench.pipeline.study.reproduce.sheets import write_bytes, write_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
 
-    from pipeline.control.trace import Trace
-    from pipeline.study.control_rig import SceneName
-    from pipeline.study.reproduce.sheets import Sheet
+    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.study.control_rig import SceneName
+    from contactbench.pipeline.study.reproduce.sheets import Sheet
 
 OURS = "contactbench"
 MOST_DEGREES = {10.0: 0.8, 5.0: 1.8, 2.0: 4.0}

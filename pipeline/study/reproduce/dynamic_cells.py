@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.control.loop import arm_of, run_loop
-from pipeline.control.settings import ControlSettings, Variant
-from pipeline.control.states import State
-from pipeline.simulation.scenes import PlatformMotion, Tissue
-from pipeline.study.control_rig import SceneName, foundation_of, make_rig
+from contactbench.pipeline.control.loop import arm_of, run_loop
+from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.control.states import State
+from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
+from contactbench.pipeline.study.control_rig import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.control.trace import Trace
-    from pipeline.simulation.scenes import MovedScene
+    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.simulation.scenes import MovedScene
 
 START_S = 4.0  # by then it tracks: half a second in the air, touch, ramp, one small press
 FORCE_N = 7.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pipeline.study.reproduce.dynamic_cells import IN_PLANE, OUT_OF_PLANE, VERTICAL
+from contactbench.pipeline.study.reproduce.dynamic_cells import IN_PLANE, OUT_OF_PLANE, VERTICAL
 
 # (motion, period s) -> degrees; None: the robot could not follow.
 TABLE_1: dict[str, dict[tuple[str, float], float | None]] = {

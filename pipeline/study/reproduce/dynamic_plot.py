@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.study.reproduce.dynamic_cells import IN_PLANE, MOTIONS, OUT_OF_PLANE, START_S
-from pipeline.study.reproduce.dynamic_paper import FORCES
+from contactbench.pipeline.study.reproduce.dynamic_cells import IN_PLANE, MOTIONS, OUT_OF_PLANE, START_S
+from contactbench.pipeline.study.reproduce.dynamic_paper import FORCES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from pipeline.control.trace import Trace
-    from pipeline.study.reproduce.dynamic_cells import Cell, Outcome
+    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.study.reproduce.dynamic_cells import Cell, Outcome
 
 _COLOURS = {"plain": "#d55e00", "aware": "#0072b2"}
 _BARS = ("#0072b2", "#56b4e9", "#e69f00", "#009e73")

@@ -6,15 +6,15 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 from typing import TYPE_CHECKING
 
-from pipeline.study.reproduce.dynamic_cells import Cell, run_cell
+from contactbench.pipeline.study.reproduce.dynamic_cells import Cell, run_cell
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from pipeline.control.settings import ControlSettings
-    from pipeline.control.trace import Trace
-    from pipeline.study.reproduce.dynamic_cells import Outcome
-    from pipeline.study.reproduce.dynamic_store import Store
+    from contactbench.pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.trace import Trace
+    from contactbench.pipeline.study.reproduce.dynamic_cells import Outcome
+    from contactbench.pipeline.study.reproduce.dynamic_store import Store
 
 
 def run_cells(

@@ -16,15 +16,15 @@ from zipfile import BadZipFile
 import numpy as np
 from pydantic import TypeAdapter
 
-import pipeline
-from pipeline.control.states import Change, State
-from pipeline.control.trace import Trace
-from pipeline.durable import make_folder
-from pipeline.study.reproduce.dynamic_cells import Cell, Outcome
-from pipeline.study.reproduce.sheets import write_bytes
+from contactbench import pipeline
+from contactbench.pipeline.control.states import Change, State
+from contactbench.pipeline.control.trace import Trace
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.study.reproduce.dynamic_cells import Cell, Outcome
+from contactbench.pipeline.study.reproduce.sheets import write_bytes
 
 if TYPE_CHECKING:
-    from pipeline.control.settings import ControlSettings
+    from contactbench.pipeline.control.settings import ControlSettings
 
 # What a run computes with; other parts may change, and it stays what it was.
 _SOURCES = ("control", "simulation", "contact", "study/control_rig.py")

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.control.foundation import USUAL_MODULUS
-from pipeline.study.control_rig import foundation_of
-from pipeline.study.reproduce.dynamic_cells import FORCE_N, IN_PLANE, OUT_OF_PLANE
-from pipeline.study.reproduce.dynamic_paper import FORCES, TABLE_1, TABLE_2
-from pipeline.study.reproduce.sheets import Cell as Value
-from pipeline.study.reproduce.sheets import Sheet, short
+from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.study.control_rig import foundation_of
+from contactbench.pipeline.study.reproduce.dynamic_cells import FORCE_N, IN_PLANE, OUT_OF_PLANE
+from contactbench.pipeline.study.reproduce.dynamic_paper import FORCES, TABLE_1, TABLE_2
+from contactbench.pipeline.study.reproduce.sheets import Cell as Value
+from contactbench.pipeline.study.reproduce.sheets import Sheet, short
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.reproduce.dynamic_cells import Outcome
+    from contactbench.pipeline.study.reproduce.dynamic_cells import Outcome
 
 _CROSS = "not followed"
 _FOLLOWED = 0.999

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.filtering import KalmanFilter, LowPass, spectrum, suggest_cutoff
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.reproduce.filter_plot import draw
-from pipeline.study.reproduce.setup import RATE_HZ
-from pipeline.study.reproduce.sheets import Sheet, write_bytes, write_text
-from pipeline.study.reproduce.sliding import FORCE_N, Slide, slide
+from contactbench import assets
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.filtering import KalmanFilter, LowPass, spectrum, suggest_cutoff
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.reproduce.filter_plot import draw
+from contactbench.pipeline.study.reproduce.setup import RATE_HZ
+from contactbench.pipeline.study.reproduce.sheets import Sheet, write_bytes, write_text
+from contactbench.pipeline.study.reproduce.sliding import FORCE_N, Slide, slide
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.filtering import CutoffSuggestion, Spectrum
+    from contactbench.pipeline.filtering import CutoffSuggestion, Spectrum
 
 PAPER_HZ = 10.0
 FACETS = 1_000

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.reproduce.setup import RATE_HZ
+from contactbench.pipeline.study.reproduce.setup import RATE_HZ
 
 if TYPE_CHECKING:
-    from pipeline.study.reproduce.filter import FilterResult
+    from contactbench.pipeline.study.reproduce.filter import FilterResult
 
 _SHOWN_S = (2.0, 5.0)
 _FAINT, _BLUE, _RED, _GREEN = "#b0b0b0", "#0072b2", "#d55e00", "#009e73"

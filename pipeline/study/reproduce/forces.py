@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.simulation.scenes import Press
-from pipeline.study.reproduce.locating import OURS, solver_for
-from pipeline.study.reproduce.setup import read_touches
-from pipeline.study.reproduce.statistics import Errors, Located, bounds_m, errors_of
-from pipeline.study.reproduce.touching import ANGLES, Station, row, stack
+from contactbench.pipeline.simulation.scenes import Press
+from contactbench.pipeline.study.reproduce.locating import OURS, solver_for
+from contactbench.pipeline.study.reproduce.setup import read_touches
+from contactbench.pipeline.study.reproduce.statistics import Errors, Located, bounds_m, errors_of
+from contactbench.pipeline.study.reproduce.touching import ANGLES, Station, row, stack
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.study.reproduce.setup import Bench
-    from pipeline.study.reproduce.touching import Touched
+    from contactbench.pipeline.study.reproduce.setup import Bench
+    from contactbench.pipeline.study.reproduce.touching import Touched
 
 FORCES_N = (1.0, 2.0, 5.0, 10.0, 15.0, 20.0)
 RISING_N = (5.0, 10.0, 15.0, 20.0)

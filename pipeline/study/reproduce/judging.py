@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import Reason
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.reproduce.attribution import FINE
-from pipeline.study.reproduce.locating import LITERAL, OURS
-from pipeline.study.reproduce.statistics import distances_mm, root_mean_square
-from pipeline.study.reproduce.touching import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
+from contactbench.pipeline.contact import Reason
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.reproduce.attribution import FINE
+from contactbench.pipeline.study.reproduce.locating import LITERAL, OURS
+from contactbench.pipeline.study.reproduce.statistics import distances_mm, root_mean_square
+from contactbench.pipeline.study.reproduce.touching import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.study.reproduce.attribution import Attributed, Explained
-    from pipeline.study.reproduce.locating import ProbeResult
+    from contactbench.pipeline.study.reproduce.attribution import Attributed, Explained
+    from contactbench.pipeline.study.reproduce.locating import ProbeResult
 
 MOST_PERPENDICULAR_MM = 0.6
 MOST_RATIO = 1.2

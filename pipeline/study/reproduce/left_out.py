@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import BenchScene, Press, Tip, TouchScene
-from pipeline.simulation.scenes.touch import STEP_S
-from pipeline.study.reproduce.locating import OURS, solver_for
-from pipeline.study.reproduce.statistics import distances_mm
-from pipeline.study.reproduce.touching import ANGLES, TRUE_FACETS, held, truth_of
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import BenchScene, Press, Tip, TouchScene
+from contactbench.pipeline.simulation.scenes.touch import STEP_S
+from contactbench.pipeline.study.reproduce.locating import OURS, solver_for
+from contactbench.pipeline.study.reproduce.statistics import distances_mm
+from contactbench.pipeline.study.reproduce.touching import ANGLES, TRUE_FACETS, held, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation.scenes import Moment
-    from pipeline.study.reproduce.setup import Bench
+    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.study.reproduce.setup import Bench
 
 _FORCE_N = 9.0
 _REST_S = 1.0

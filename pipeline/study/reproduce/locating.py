@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.contact import WrenchNoise
-from pipeline.contact.methods import METHODS, make
-from pipeline.errors import InputError
-from pipeline.study.reproduce.setup import read_touches
-from pipeline.study.reproduce.statistics import Errors, Located, bounds_m, errors_of
-from pipeline.study.reproduce.touching import ANGLES, model_of
+from contactbench import assets
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.contact.methods import METHODS, make
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.reproduce.setup import read_touches
+from contactbench.pipeline.study.reproduce.statistics import Errors, Located, bounds_m, errors_of
+from contactbench.pipeline.study.reproduce.touching import ANGLES, model_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.contact.methods import Method
-    from pipeline.study.reproduce.setup import Bench
-    from pipeline.study.reproduce.touching import Touched
+    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.study.reproduce.setup import Bench
+    from contactbench.pipeline.study.reproduce.touching import Touched
 
 OURS, LITERAL = "contactbench", "algorithm1"
 

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration import Calibration, GravityModel, PoseSample, calibrate
-from pipeline.calibration.reachable import by_hand
-from pipeline.calibration.suggest import plan_poses
-from pipeline.contact import WrenchNoise
-from pipeline.filtering import KalmanFilter
-from pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
-from pipeline.simulation.weighing import draw_load
+from contactbench.pipeline.calibration import Calibration, GravityModel, PoseSample, calibrate
+from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.suggest import plan_poses
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings, preset
+from contactbench.pipeline.simulation.weighing import draw_load
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

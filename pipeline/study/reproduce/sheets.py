@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -7,23 +7,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.contact import WrenchNoise
-from pipeline.contact.methods import make
-from pipeline.filtering import KalmanFilter
-from pipeline.simulation.scenes import PressScene, depth_for, hand_motion
-from pipeline.simulation.sensor_model import SensorModel
-from pipeline.study.reproduce.locating import OURS
-from pipeline.study.reproduce.setup import RATE_HZ, WARM_S, draw_bench
-from pipeline.study.reproduce.touching import model_of, truth_of
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
+from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.study.reproduce.locating import OURS
+from contactbench.pipeline.study.reproduce.setup import RATE_HZ, WARM_S, draw_bench
+from contactbench.pipeline.study.reproduce.touching import model_of, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.kernel import Batch
-    from pipeline.simulation.scenes import Motion, Truth
+    from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.simulation.scenes import Motion, Truth
 
 FORCE_N = 7.0  # mean, as the paper presses
 _ROUNDS = 5  # depth and heave depend on each other

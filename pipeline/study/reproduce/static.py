@@ -5,21 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import assets
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.simulation.virtual.markers import markers
-from pipeline.study.reproduce import static_sheets as sheets
-from pipeline.study.reproduce.attribution import attribute, explain
-from pipeline.study.reproduce.forces import MARKER, by_force, force_errors
-from pipeline.study.reproduce.judging import judged
-from pipeline.study.reproduce.left_out import effects
-from pipeline.study.reproduce.locating import locate_all
-from pipeline.study.reproduce.setup import POSES, draw_bench
-from pipeline.study.reproduce.sheets import write_bytes, write_text
-from pipeline.study.reproduce.static_plot import draw
-from pipeline.study.reproduce.static_sheets import PAPER_PROBE
-from pipeline.study.reproduce.touching import press_markers
+from contactbench import assets
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.reproduce import static_sheets as sheets
+from contactbench.pipeline.study.reproduce.attribution import attribute, explain
+from contactbench.pipeline.study.reproduce.forces import MARKER, by_force, force_errors
+from contactbench.pipeline.study.reproduce.judging import judged
+from contactbench.pipeline.study.reproduce.left_out import effects
+from contactbench.pipeline.study.reproduce.locating import locate_all
+from contactbench.pipeline.study.reproduce.setup import POSES, draw_bench
+from contactbench.pipeline.study.reproduce.sheets import write_bytes, write_text
+from contactbench.pipeline.study.reproduce.static_plot import draw
+from contactbench.pipeline.study.reproduce.static_sheets import PAPER_PROBE
+from contactbench.pipeline.study.reproduce.touching import press_markers
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -27,12 +27,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.study.preparation.report import Report
-    from pipeline.study.reproduce.attribution import Attributed, Explained
-    from pipeline.study.reproduce.forces import ForceErrors
-    from pipeline.study.reproduce.left_out import Effect
-    from pipeline.study.reproduce.locating import ProbeResult
-    from pipeline.study.reproduce.sheets import Sheet
+    from contactbench.pipeline.study.preparation.report import Report
+    from contactbench.pipeline.study.reproduce.attribution import Attributed, Explained
+    from contactbench.pipeline.study.reproduce.forces import ForceErrors
+    from contactbench.pipeline.study.reproduce.left_out import Effect
+    from contactbench.pipeline.study.reproduce.locating import ProbeResult
+    from contactbench.pipeline.study.reproduce.sheets import Sheet
 
 PROBES = ("t-shape", "linear", "convex")
 FACETS = 2_000

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.study.reproduce.locating import OURS
-from pipeline.study.reproduce.statistics import distances_mm
-from pipeline.study.reproduce.touching import ANGLES, PERPENDICULAR
+from contactbench.pipeline.study.reproduce.locating import OURS
+from contactbench.pipeline.study.reproduce.statistics import distances_mm
+from contactbench.pipeline.study.reproduce.touching import ANGLES, PERPENDICULAR
 
 if TYPE_CHECKING:
-    from pipeline.study.reproduce.static import StaticResult
+    from contactbench.pipeline.study.reproduce.static import StaticResult
 
 _COLOURS = ("#0072b2", "#d55e00", "#009e73")
 _PAPER = "#6b6b6b"

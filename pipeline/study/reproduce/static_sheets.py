@@ -6,21 +6,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.study.reproduce.locating import OURS
-from pipeline.study.reproduce.sheets import Sheet
-from pipeline.study.reproduce.statistics import distances_mm
-from pipeline.study.reproduce.touching import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
+from contactbench.pipeline.study.reproduce.locating import OURS
+from contactbench.pipeline.study.reproduce.sheets import Sheet
+from contactbench.pipeline.study.reproduce.statistics import distances_mm
+from contactbench.pipeline.study.reproduce.touching import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.study.reproduce.attribution import Attributed, Explained
-    from pipeline.study.reproduce.forces import ForceErrors
-    from pipeline.study.reproduce.left_out import Effect
-    from pipeline.study.reproduce.locating import ProbeResult
-    from pipeline.study.reproduce.sheets import Cell
+    from contactbench.pipeline.study.reproduce.attribution import Attributed, Explained
+    from contactbench.pipeline.study.reproduce.forces import ForceErrors
+    from contactbench.pipeline.study.reproduce.left_out import Effect
+    from contactbench.pipeline.study.reproduce.locating import ProbeResult
+    from contactbench.pipeline.study.reproduce.sheets import Cell
 
 PAPER_PROBE = "t-shape"  # of its angles, forces and times
 

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration.contact_error import contact_sensitivity
-from pipeline.contact import Reason
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.contact import Reason
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from pipeline.contact import Batch
-    from pipeline.study.reproduce.setup import Bench
-    from pipeline.study.reproduce.touching import Touched
+    from contactbench.pipeline.contact import Batch
+    from contactbench.pipeline.study.reproduce.setup import Bench
+    from contactbench.pipeline.study.reproduce.touching import Touched
 
 
 @dataclass(frozen=True)

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation.scenes import Press, TouchScene, Truth
-from pipeline.simulation.scenes.touch import along
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.scenes import Press, TouchScene, Truth
+from contactbench.pipeline.simulation.scenes.touch import along
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import Moment
 
 TRUE_FACETS = 20_000
 FORCE_N = (8.0, 10.0)

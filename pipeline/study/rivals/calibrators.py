@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.calibration import calibrate
-from pipeline.calibration.contact_error import usual_task
-from pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix
-from pipeline.calibration.poses import stack
-from pipeline.simulation.weighing import bump, draw_weighing
-from pipeline.study.rivals.interleave import medians
-from pipeline.study.rivals.rows import OURS, TOLD, Contender, Row, erred, known, timed
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.contact_error import usual_task
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix
+from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.simulation.weighing import bump, draw_weighing
+from contactbench.pipeline.study.rivals.interleave import medians
+from contactbench.pipeline.study.rivals.rows import OURS, TOLD, Contender, Row, erred, known, timed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
-    from pipeline.calibration.poses import Stack
-    from pipeline.simulation.weighing import Weighing
+    from contactbench.pipeline.calibration.poses import Stack
+    from contactbench.pipeline.simulation.weighing import Weighing
 
 FAMILY = "gravity calibration"
 ONE = "one calibration of 12 poses"

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 
 def add_rivals_command(app: typer.Typer) -> None:
@@ -36,13 +36,13 @@ def rivals(
     What is not installed is said: pip install contactbench[rivals]. Exit code 1: a rival locates contacts both faster
     and more accurately.
     """
-    from pipeline.durable import make_folder
-    from pipeline.study.finishing import NOT_GOOD_ENOUGH
-    from pipeline.study.pages import make_page
-    from pipeline.study.results import environment, write_results
-    from pipeline.study.rivals.place import FAMILY
-    from pipeline.study.rivals.run import KIND, QUICK, Sizes, run
-    from pipeline.study.rivals.verdicts import duels
+    from contactbench.pipeline.durable import make_folder
+    from contactbench.pipeline.study.finishing import NOT_GOOD_ENOUGH
+    from contactbench.pipeline.study.pages import make_page
+    from contactbench.pipeline.study.results import environment, write_results
+    from contactbench.pipeline.study.rivals.place import FAMILY
+    from contactbench.pipeline.study.rivals.run import KIND, QUICK, Sizes, run
+    from contactbench.pipeline.study.rivals.verdicts import duels
 
     given: dict[str, Any] = {"families": tuple(family or ()), "probes": tuple(probe or ()), "rounds": rounds}
     sizes = replace(

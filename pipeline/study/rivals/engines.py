@@ -8,18 +8,18 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.deviation import Reference
-from pipeline.mesh.simplify import Count, simplify
-from pipeline.study.preparation.rivals import LIBRARIES, Rival
-from pipeline.study.reproduce.touching import model_of
-from pipeline.study.rivals.rows import OURS, Contender, Row, known, missing, timed
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.deviation import Reference
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.study.preparation.rivals import LIBRARIES, Rival
+from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.rivals.rows import OURS, Contender, Row, known, missing, timed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from pipeline.mesh.deviation import Deviation
+    from contactbench.pipeline.mesh.deviation import Deviation
 
 FAMILY = "simplification"
 _PACKAGES = {"open3d": "open3d-cpu", "point_cloud_utils": "point-cloud-utils"}

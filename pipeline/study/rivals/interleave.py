@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from pipeline.timing import clock_overhead
+from contactbench.pipeline.timing import clock_overhead
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence

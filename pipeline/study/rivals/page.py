@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pipeline.study.chapters import chapter
-from pipeline.study.markdown import number, table
-from pipeline.study.rivals import calibrators, engines, place, plane
-from pipeline.study.rivals.rows import OURS
-from pipeline.study.rivals.verdicts import MARGIN, Duel, duels
+from contactbench.pipeline.study.chapters import chapter
+from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.rivals import calibrators, engines, place, plane
+from contactbench.pipeline.study.rivals.rows import OURS
+from contactbench.pipeline.study.rivals.verdicts import MARGIN, Duel, duels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pipeline.study.results import Results
+    from contactbench.pipeline.study.results import Results
 
 Row = dict[str, Any]
 _FAMILIES = (place.FAMILY, plane.FAMILY, engines.FAMILY, calibrators.FAMILY)
@@ -61,7 +61,7 @@ def make(results: Results, folder: Path) -> str:
     InputError
         A picture cannot be written.
     """
-    from pipeline.study.rivals.plots import plots
+    from contactbench.pipeline.study.rivals.plots import plots
 
     pictures = plots(results.rows)
     return chapter(

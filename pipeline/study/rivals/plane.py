@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-import assets
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.mesh import Probe
-from pipeline.simulation import draw_touches
-from pipeline.study.ablation.effects import NOISES
-from pipeline.study.ablation.locating import sigmas_of
-from pipeline.study.reproduce.touching import model_of
-from pipeline.study.rivals.interleave import medians
-from pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed
+from contactbench import assets
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.study.ablation.effects import NOISES
+from contactbench.pipeline.study.ablation.locating import sigmas_of
+from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.rivals.interleave import medians
+from contactbench.pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

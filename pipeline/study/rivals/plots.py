@@ -8,9 +8,9 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from pipeline.study.chapters import COLOURS, STYLE, png
-from pipeline.study.rivals import engines, place
-from pipeline.study.rivals.rows import OURS
+from contactbench.pipeline.study.chapters import COLOURS, STYLE, png
+from contactbench.pipeline.study.rivals import engines, place
+from contactbench.pipeline.study.rivals.rows import OURS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

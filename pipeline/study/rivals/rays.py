@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact.wrench_axis import EmbreeAxis, WrenchAxis
-from pipeline.study.rivals.rows import Contender
+from contactbench.pipeline.contact.wrench_axis import EmbreeAxis, WrenchAxis
+from contactbench.pipeline.study.rivals.rows import Contender
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.contact import ContactSolver
+    from contactbench.pipeline.contact import ContactSolver
 
 _NONE = np.iinfo(np.uint32).max
 

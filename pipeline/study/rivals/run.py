@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import assets
-from pipeline.errors import InputError
-from pipeline.study.rivals.calibrators import calibration_rows
-from pipeline.study.rivals.engines import engine_rows
-from pipeline.study.rivals.place import place_rows
-from pipeline.study.rivals.plane import plane_rows
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.rivals.calibrators import calibration_rows
+from contactbench.pipeline.study.rivals.engines import engine_rows
+from contactbench.pipeline.study.rivals.place import place_rows
+from contactbench.pipeline.study.rivals.plane import plane_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from pipeline.study.rivals.rows import Row
+    from contactbench.pipeline.study.rivals.rows import Row
 
 KIND = "rivals"
 FAMILIES = ("location", "plane", "simplification", "calibration")

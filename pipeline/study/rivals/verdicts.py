@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from pipeline.study.rivals import engines, place
-from pipeline.study.rivals.rows import OURS
+from contactbench.pipeline.study.rivals import engines, place
+from contactbench.pipeline.study.rivals.rows import OURS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

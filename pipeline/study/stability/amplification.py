@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, WrenchNoise
-from pipeline.simulation import add_noise
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_trials import EXACT
-from pipeline.study.stability import probes, theory
-from pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
+from contactbench.pipeline.simulation import add_noise
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.stability import probes, theory
+from contactbench.pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.hard_meshes import Body, Float
-    from pipeline.study.stability.theory import Touches
+    from contactbench.pipeline.study.hard_meshes import Body, Float
+    from contactbench.pipeline.study.stability.theory import Touches
 
 PART = "amplification"
 # No preference for the surface that is met first: it is no part of the closed form.

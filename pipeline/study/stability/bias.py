@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.calibration import GravityModel
-from pipeline.contact import ContactSolver
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_trials import EXACT
-from pipeline.study.stability import builds, theory
-from pipeline.study.stability.amplification import OPEN, QUIET
-from pipeline.study.stability.rounding import DOUBLE, SINGLE
-from pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.stability import builds, theory
+from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
+from contactbench.pipeline.study.stability.rounding import DOUBLE, SINGLE
+from contactbench.pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
-    from pipeline.study.hard_meshes import Body, Float
-    from pipeline.study.stability.builds import Workshop
-    from pipeline.study.stability.theory import Touches
+    from contactbench.pipeline.study.hard_meshes import Body, Float
+    from contactbench.pipeline.study.stability.builds import Workshop
+    from contactbench.pipeline.study.stability.theory import Touches
 
 PART = "bias"
 RATIO = "bias, of the contact's force and torque"

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline import kernel
-from pipeline.errors import InputError
+from contactbench.pipeline import kernel
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.contact import Batch, ContactSolver, Gates
+    from contactbench.pipeline.contact import Batch, ContactSolver, Gates
 
     Rows = NDArray[np.void]
 

@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_trials import EXACT
-from pipeline.study.stability import theory
-from pipeline.study.stability.amplification import OPEN, QUIET
-from pipeline.study.stability.rounding import DOUBLE, both_precisions, measure
-from pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.contact import ContactSolver, Gates
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.stability import theory
+from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
+from contactbench.pipeline.study.stability.rounding import DOUBLE, both_precisions, measure
+from contactbench.pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
-    from pipeline.study.hard_meshes import Body, Ints, Long
-    from pipeline.study.stability.builds import Workshop
-    from pipeline.study.stability.theory import Touches
+    from contactbench.pipeline.study.hard_meshes import Body, Ints, Long
+    from contactbench.pipeline.study.stability.builds import Workshop
+    from contactbench.pipeline.study.stability.theory import Touches
 
 PART = "edges"
 NEAR = "distance from the edge or vertex, of the edge's length"

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_trials import EXACT
-from pipeline.study.stability import theory
-from pipeline.study.stability.amplification import OPEN, QUIET
-from pipeline.study.stability.rows import Row
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.stability import theory
+from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
+from contactbench.pipeline.study.stability.rows import Row
 
 if TYPE_CHECKING:
-    from pipeline.contact import Contact
-    from pipeline.study.hard_meshes import Body, Drawn, Float
+    from contactbench.pipeline.contact import Contact
+    from contactbench.pipeline.study.hard_meshes import Body, Drawn, Float
 
     Vector = tuple[Fraction, Fraction, Fraction]
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.study.markdown import number, table
-from pipeline.study.stability import precision
-from pipeline.study.stability.rows import PARTS, Row, of_part
-from pipeline.study.stability.verdicts import verdicts
+from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.stability import precision
+from contactbench.pipeline.study.stability.rows import PARTS, Row, of_part
+from contactbench.pipeline.study.stability.verdicts import verdicts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
-    from pipeline.study.results import Results
+    from contactbench.pipeline.study.results import Results
 
 _COLUMNS = ("case", "figure", "by", "over", "tries", "worst", "at", "bound", "")
 _HEAD = """## Numerical stability
@@ -34,7 +34,7 @@ def make(results: Results, folder: Path) -> str:
         Of kind ``stability``.
     folder : Path
     """
-    from pipeline.study.stability import pictures
+    from contactbench.pipeline.study.stability import pictures
 
     rows = [Row.from_json(row) for row in results.rows]
     parts = [_HEAD, verdict_list(rows)]

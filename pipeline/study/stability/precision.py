@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
-from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from pipeline.study.stability import builds, probes, theory
-from pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+from contactbench.pipeline.study.stability import builds, probes, theory
+from contactbench.pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.hard_meshes import Body, Float
-    from pipeline.study.stability.builds import Workshop
+    from contactbench.pipeline.study.hard_meshes import Body, Float
+    from contactbench.pipeline.study.stability.builds import Workshop
 
 PART = "precision"
 APART = "point, single from double precision"

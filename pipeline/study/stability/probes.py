@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.study.hard_meshes import Body
-from pipeline.study.sweep.bodies import file_facets, mesh_of
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.hard_meshes import Body
+from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.hard_meshes import Float
+    from contactbench.pipeline.study.hard_meshes import Float
 
 BUNDLED = ("linear", "convex", "t-shape")
 

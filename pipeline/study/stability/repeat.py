@@ -12,19 +12,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline import kernel
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.errors import InputError
-from pipeline.simulation import add_noise, draw_slide
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import builds
-from pipeline.study.stability.repeat_child import tracked, write_task
-from pipeline.study.stability.rows import Row
+from contactbench import assets
+from contactbench.pipeline import kernel
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation import add_noise, draw_slide
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import builds
+from contactbench.pipeline.study.stability.repeat_child import tracked, write_task
+from contactbench.pipeline.study.stability.rows import Row
 
 if TYPE_CHECKING:
-    from pipeline.study.hard_meshes import Float
-    from pipeline.study.stability.builds import Rows, Workshop
+    from contactbench.pipeline.study.hard_meshes import Float
+    from contactbench.pipeline.study.stability.builds import Rows, Workshop
 
 PART = "repeatability"
 DIFFER, APART, REASON = "answers that differ in any bit", "points, apart", "answers with another reason"

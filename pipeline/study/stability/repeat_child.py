@@ -1,4 +1,4 @@
-"""A process of its own that solves wrenches from a file: ``python -m pipeline.study.stability.repeat_child IN OUT``."""
+"""Solve wrenches from a file: ``python -m contactbench.pipeline.study.stability.repeat_child IN OUT``."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver
-from pipeline.mesh import Probe
-from pipeline.study.stability import builds
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.study.stability import builds
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

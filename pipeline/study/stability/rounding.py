@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, methods
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_trials import EXACT
-from pipeline.study.stability import builds, theory
-from pipeline.study.stability.amplification import COSINE, COSINES, OPEN, QUIET
-from pipeline.study.stability.rows import Row
+from contactbench.pipeline.contact import ContactSolver, methods
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.stability import builds, theory
+from contactbench.pipeline.study.stability.amplification import COSINE, COSINES, OPEN, QUIET
+from contactbench.pipeline.study.stability.rows import Row
 
 if TYPE_CHECKING:
-    from pipeline.contact import Gates
-    from pipeline.study.hard_meshes import Body, Float
-    from pipeline.study.stability.builds import Rows, Workshop
-    from pipeline.study.stability.theory import Touches
+    from contactbench.pipeline.contact import Gates
+    from contactbench.pipeline.study.hard_meshes import Body, Float
+    from contactbench.pipeline.study.stability.builds import Rows, Workshop
+    from contactbench.pipeline.study.stability.theory import Touches
 
 PART = "rounding"
 ERROR = "error against long double"

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
-from pipeline.study.stability import (
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.stability import (
     amplification,
     bias,
     builds,
@@ -23,15 +23,15 @@ from pipeline.study.stability import (
     thin,
     units,
 )
-from pipeline.study.stability.verdicts import verdicts
+from contactbench.pipeline.study.stability.verdicts import verdicts
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
     from rich.table import Table
 
-    from pipeline.study.stability.builds import Workshop
-    from pipeline.study.stability.rows import Row
+    from contactbench.pipeline.study.stability.builds import Workshop
+    from contactbench.pipeline.study.stability.rows import Row
 
 KIND = "stability"
 FEWEST = 50
@@ -92,7 +92,7 @@ class StabilityReport:
 
     def markdown(self) -> str:
         """Write the verdicts and the tables as Markdown."""
-        from pipeline.study.stability.page import tables, verdict_list
+        from contactbench.pipeline.study.stability.page import tables, verdict_list
 
         parts = [f"### {title}\n\n{text}" for title, text in tables(self.rows)]
         return "\n\n".join([verdict_list(self.rows), *parts]) + "\n"
@@ -142,7 +142,7 @@ def run(
 
 def keep(report: StabilityReport, folder: Path) -> Path:
     """
-    Write a report's results, its page and its pictures; `pipeline.study.pages` makes the latter again.
+    Write a report's results, its page and its pictures; `contactbench.pipeline.study.pages` makes the latter again.
 
     Parameters
     ----------
@@ -160,8 +160,8 @@ def keep(report: StabilityReport, folder: Path) -> Path:
     InputError
         The folder cannot be written.
     """
-    from pipeline.study.pages import PAGE, make_page
-    from pipeline.study.results import environment, write_results
+    from contactbench.pipeline.study.pages import PAGE, make_page
+    from contactbench.pipeline.study.results import environment, write_results
 
     make_folder(folder)
     words = [

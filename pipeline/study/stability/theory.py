@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study import hard_meshes as hm
 
 if TYPE_CHECKING:
-    from pipeline.study.hard_meshes import Body, Bools, Float, Ints, Long
+    from contactbench.pipeline.study.hard_meshes import Body, Bools, Float, Ints, Long
 
 DOUBLE, SINGLE = 2.0**-53, 2.0**-24  # half a unit in the last place of 1
 
@@ -55,7 +55,7 @@ def touch(
     Parameters
     ----------
     angle, arm
-        As for :func:`pipeline.study.hard_meshes.press`.
+        As for :func:`contactbench.pipeline.study.hard_meshes.press`.
     shares : (count, 3), optional
         Areal coordinates of the points; by default random ones of at least 0.1.
     among : (k,) of facets, optional

@@ -6,20 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver
-from pipeline.errors import InputError
-from pipeline.study import hard_meshes as hm
-from pipeline.study.hard_trials import EXACT
-from pipeline.study.stability import builds, probes, theory
-from pipeline.study.stability.amplification import OPEN, QUIET
-from pipeline.study.stability.rounding import DOUBLE, ERROR, SINGLE
-from pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.hard_trials import EXACT
+from contactbench.pipeline.study.stability import builds, probes, theory
+from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
+from contactbench.pipeline.study.stability.rounding import DOUBLE, ERROR, SINGLE
+from contactbench.pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.hard_meshes import Body, Float, Ints
-    from pipeline.study.stability.builds import Workshop
+    from contactbench.pipeline.study.hard_meshes import Body, Float, Ints
+    from contactbench.pipeline.study.stability.builds import Workshop
 
 PART = "thin facets"
 HEIGHT = "height of the facet, of its longest edge"

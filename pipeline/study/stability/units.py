@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
-from pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from pipeline.mesh import Probe
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import builds, theory
-from pipeline.study.stability.rounding import DOUBLE, SINGLE
-from pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import builds, theory
+from contactbench.pipeline.study.stability.rounding import DOUBLE, SINGLE
+from contactbench.pipeline.study.stability.rows import Row, Where
 
 if TYPE_CHECKING:
-    from pipeline.study.hard_meshes import Body, Float
-    from pipeline.study.stability.builds import Rows, Workshop
+    from contactbench.pipeline.study.hard_meshes import Body, Float
+    from contactbench.pipeline.study.stability.builds import Rows, Workshop
 
 PART = "units"
 DIFFER, ROUNDING = "answers that differ in any bit", "point, unscaled, off by, of the probe's size"

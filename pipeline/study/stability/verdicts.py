@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.stability import amplification as am
-from pipeline.study.stability import bias, edges, exact, precision, repeat, thin, units
-from pipeline.study.stability import rounding as ro
-from pipeline.study.stability.rows import PARTS, Row, of_part
+from contactbench.pipeline.study.stability import amplification as am
+from contactbench.pipeline.study.stability import bias, edges, exact, precision, repeat, thin, units
+from contactbench.pipeline.study.stability import rounding as ro
+from contactbench.pipeline.study.stability.rows import PARTS, Row, of_part
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.sidecar import load_probe_file
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.sidecar import load_probe_file
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.simulation.touches import Sampled
+    from contactbench.pipeline.simulation.touches import Sampled
 
 _ABOVE_M = 0.02  # of a bundled probe: what is nearer to the flange is not touched
 _KEPT = 8  # meshes of a process
@@ -87,7 +87,7 @@ def mesh_of(name: str, facets: int) -> Probe:
     if name in assets.PROBE_NAMES:
         vertices, faces = assets.make(name, facets)
         return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
-    from pipeline.mesh.simplify import Count, simplify
+    from contactbench.pipeline.mesh.simplify import Count, simplify
 
     probe = _file(name)
     return probe if facets >= len(probe.faces) else simplify(probe, Count(facets)).probe

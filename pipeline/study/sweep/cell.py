@@ -8,25 +8,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import Gates
-from pipeline.contact.methods import make
-from pipeline.contact.wrench_axis import EmbreeAxis
-from pipeline.errors import InputError
-from pipeline.simulation import draw_touches
-from pipeline.study.sweep.bodies import body_of, file_facets, mesh_of
-from pipeline.study.sweep.judging import bound_of, judged
-from pipeline.study.sweep.noise import believed, deviations
-from pipeline.study.sweep.plan import identity, label
-from pipeline.timing import Timing, time_calls
+from contactbench.pipeline.contact import Gates
+from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation import draw_touches
+from contactbench.pipeline.study.sweep.bodies import body_of, file_facets, mesh_of
+from contactbench.pipeline.study.sweep.judging import bound_of, judged
+from contactbench.pipeline.study.sweep.noise import believed, deviations
+from contactbench.pipeline.study.sweep.plan import identity, label
+from contactbench.pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.contact.methods import Method
-    from pipeline.simulation import Touches
-    from pipeline.study.sweep.plan import Cell
+    from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.simulation import Touches
+    from contactbench.pipeline.study.sweep.plan import Cell
 
 # What does not depend on who computes it, nor when; the rest are times.
 TIMES = ("compiled_median_ns", "compiled_p99_ns", "python_median_ns", "python_p99_ns")

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.errors import InputError
-from pipeline.study.sweep.growth import ERROR, TIME, merged
-from pipeline.study.sweep.tables import exponents
-from pipeline.study.sweep.targets import is_noisy, plain
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.sweep.growth import ERROR, TIME, merged
+from contactbench.pipeline.study.sweep.tables import exponents
+from contactbench.pipeline.study.sweep.targets import is_noisy, plain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.sweep.growth import Row
+    from contactbench.pipeline.study.sweep.growth import Row
 
 MOST_EXPONENT = 0.1
 # Two methods closer than this are in no order: chance, in times of a shared machine more of it.

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.contact import Reason
+from contactbench.pipeline.contact import Reason
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from pipeline.kernel import Batch
-    from pipeline.simulation import Touches
+    from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.simulation import Touches
 
     Float = NDArray[np.float64]
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact.noise import WrenchNoise
-from pipeline.filtering import KalmanFilter
-from pipeline.simulation.sensor_model import PRESETS
+from contactbench.pipeline.contact.noise import WrenchNoise
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.simulation.sensor_model import PRESETS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

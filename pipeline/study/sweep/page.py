@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.durable import write_durably
-from pipeline.errors import InputError
-from pipeline.study.sweep.pictures import astray, draw
-from pipeline.study.sweep.plan import Plan
-from pipeline.study.sweep.run import faults_of
-from pipeline.study.sweep.tables import speed_table, tables
-from pipeline.study.sweep.targets import is_noisy, plain, usual
+from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.sweep.pictures import astray, draw
+from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.run import faults_of
+from contactbench.pipeline.study.sweep.tables import speed_table, tables
+from contactbench.pipeline.study.sweep.targets import is_noisy, plain, usual
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline.study.results import Results
+    from contactbench.pipeline.study.results import Results
 
 _SAID = {
     "speed-error.png": "Speed against error: mean of all answers against the median time from Python, for every method"
@@ -55,7 +55,7 @@ def make(results: Results, folder: Path) -> str:
     InputError
         The rows are not those of a sweep, or a picture cannot be written.
     """
-    from pipeline.study.sweep.plots import plots
+    from contactbench.pipeline.study.sweep.plots import plots
 
     rows = list(results.rows)
     plan = Plan.of(dict(results.about.get("plan", {})), "results")

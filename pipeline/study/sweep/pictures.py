@@ -1,7 +1,8 @@
 """
 Touches that went astray, on the probe: rendered in a process of its own, which ends if there is no graphics driver.
 
-The child is ``python -m pipeline.study.sweep.pictures FILE``; it gets what to draw as JSON on standard input.
+The child is ``python -m contactbench.pipeline.study.sweep.pictures FILE``; it gets what to draw as JSON on
+standard input.
 """
 
 from __future__ import annotations
@@ -17,15 +18,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pipeline.study.sweep.bodies import unpacked_mesh
-from pipeline.study.sweep.targets import plain
+from contactbench.pipeline.study.sweep.bodies import unpacked_mesh
+from contactbench.pipeline.study.sweep.targets import plain
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.study.sweep.growth import Row
+    from contactbench.pipeline.study.sweep.growth import Row
 
 _PATIENCE_S = 180
 _WIDTH, _HEIGHT = 300, 300  # pixels of a panel
@@ -105,7 +106,7 @@ def draw(lines: Sequence[Sequence[Panel]]) -> bytes:
     orders = json.dumps([[asdict(panel) for panel in line] for line in lines])
     with TemporaryDirectory() as folder:
         file = Path(folder, "astray.png")
-        command = [sys.executable, "-m", "pipeline.study.sweep.pictures", str(file)]
+        command = [sys.executable, "-m", "contactbench.pipeline.study.sweep.pictures", str(file)]
         try:
             subprocess.run(  # noqa: S603  (this interpreter and this module)
                 command, input=orders.encode(), capture_output=True, check=True, timeout=_PATIENCE_S

@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
-import assets
-from pipeline import __version__
-from pipeline.contact.methods import METHODS
-from pipeline.errors import InputError
-from pipeline.study.sweep.noise import FILTERS, NOISES
+from contactbench import __version__, assets
+from contactbench.pipeline.contact.methods import METHODS
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.sweep.noise import FILTERS, NOISES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,7 +37,7 @@ class Cell:
     Attributes
     ----------
     method : str
-        Of `pipeline.contact.methods.METHODS`.
+        Of `contactbench.pipeline.contact.methods.METHODS`.
     probe : str
         Name of a bundled probe, or path of a prepared one.
     facets : int

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged
-from pipeline.study.sweep.tables import exponents
-from pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain, usual
+from contactbench.pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged
+from contactbench.pipeline.study.sweep.tables import exponents
+from contactbench.pipeline.study.sweep.targets import OURS, is_noisy, of_meshes, plain, usual
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

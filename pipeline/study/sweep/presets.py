@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from pipeline.errors import InputError
-from pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.sweep.plan import Plan
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

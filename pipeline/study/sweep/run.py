@@ -8,18 +8,18 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
-from pipeline.errors import InputError
-from pipeline.study.results import environment, write_results
-from pipeline.study.sweep.bodies import file_facets, mesh_of, packed_mesh
-from pipeline.study.sweep.cell import forget, gates_for, run_cell
-from pipeline.study.sweep.plan import identity, label
-from pipeline.study.sweep.store import Store
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.results import environment, write_results
+from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of, packed_mesh
+from contactbench.pipeline.study.sweep.cell import forget, gates_for, run_cell
+from contactbench.pipeline.study.sweep.plan import identity, label
+from contactbench.pipeline.study.sweep.store import Store
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
 
-    from pipeline.study.sweep.plan import Cell, Plan
+    from contactbench.pipeline.study.sweep.plan import Cell, Plan
 
 KIND = "sweep"  # of the results
 _TOGETHER = 24  # cells of a task: few enough that little is lost when it is cancelled

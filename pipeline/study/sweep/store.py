@@ -6,8 +6,8 @@ import json
 import os
 from typing import TYPE_CHECKING, Any
 
-from pipeline.durable import make_folder
-from pipeline.errors import InputError
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from pathlib import Path

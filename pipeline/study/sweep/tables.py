@@ -7,9 +7,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.markdown import number, table
-from pipeline.study.sweep.growth import COMPILED, ERROR, TIME, Row, front, knee, merged, power, settling
-from pipeline.study.sweep.targets import (
+from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.sweep.growth import (
+    COMPILED,
+    ERROR,
+    TIME,
+    Row,
+    front,
+    knee,
+    merged,
+    power,
+    settling,
+)
+from contactbench.pipeline.study.sweep.targets import (
     OURS,
     STEEP_DEG,
     is_noisy,
@@ -23,7 +33,7 @@ from pipeline.study.sweep.targets import (
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from pipeline.study.sweep.growth import Power
+    from contactbench.pipeline.study.sweep.growth import Power
 
 _AXIS = "wrench_axis"
 _REASONS = ("ok", "vertex", "ambiguous", "implausible", "off_surface", "tangential", "low_force")

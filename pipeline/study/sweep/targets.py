@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.study.sweep.growth import Row, beaten, enough_facets, merged
+from contactbench.pipeline.study.sweep.growth import Row, beaten, enough_facets, merged
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -8,17 +8,17 @@ from PySide6.QtWidgets import QFileDialog
 from typer.testing import CliRunner
 from weighing_files import weighed
 
-from app.heatmap_viewer import HeatmapViewer
-from app.heatmap_viewer.side import number_with_unit
-from assets import make
-from pipeline.calibration import calibrate
-from pipeline.calibration.files.calibration_file import save_calibration
-from pipeline.cli import app as commands
-from pipeline.devices.sample import FlangeSample, WrenchSample
-from pipeline.mesh import Probe, save_probe
-from pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
-from pipeline.session import Session
-from widgets.scene import Pick
+from contactbench.app.heatmap_viewer import HeatmapViewer
+from contactbench.app.heatmap_viewer.side import number_with_unit
+from contactbench.assets import make
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.files.calibration_file import save_calibration
+from contactbench.pipeline.cli import app as commands
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.mesh import Probe, save_probe
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.session import Session
+from contactbench.widgets.scene import Pick
 
 N = 400
 LONG = 20_000  # ms

@@ -13,23 +13,23 @@ from calibration.streams import Recording, stream
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
-from pipeline import cli
-from pipeline.calibration import calibrate
-from pipeline.calibration.files.capture_file import capture_file
-from pipeline.calibration.files.capture_recording import (
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.files.capture_file import capture_file
+from contactbench.pipeline.calibration.files.capture_recording import (
     Delay,
     capture_any,
     capture_recording,
     is_recording,
     read_any_poses,
 )
-from pipeline.calibration.orientation import Convention, Kind
-from pipeline.contact.wrench_csv import WrenchFileError
-from pipeline.demo.files import write_csv as write_table
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.errors import InputError
-from pipeline.recording import RecordingError, RecordingInfo, RecordingWriter, read_recording
-from pipeline.recording.convert import write_csv
+from contactbench.pipeline.calibration.orientation import Convention, Kind
+from contactbench.pipeline.contact.wrench_csv import WrenchFileError
+from contactbench.pipeline.demo.files import write_csv as write_table
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import RecordingError, RecordingInfo, RecordingWriter, read_recording
+from contactbench.pipeline.recording.convert import write_csv
 
 MOUNT = Rotation.from_euler("xyz", (10, -20, 70), degrees=True).as_matrix()  # R_ES
 LATE = 0.0413

@@ -6,10 +6,10 @@ import json
 from functools import cache
 from typing import TYPE_CHECKING
 
-from pipeline.calibration.calibrate import DOWN_W
-from pipeline.mesh.save import encode_probe
-from pipeline.study.bundle_example import example_config
-from pipeline.study.bundle_mutations import seal
+from contactbench.pipeline.calibration.calibrate import DOWN_W
+from contactbench.pipeline.mesh.save import encode_probe
+from contactbench.pipeline.study.bundle_example import example_config
+from contactbench.pipeline.study.bundle_mutations import seal
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline.config.runtime import RuntimeConfig
 
 
 @cache

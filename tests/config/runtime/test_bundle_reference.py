@@ -16,17 +16,17 @@ import pytest
 from config.runtime.bundle_reference import Answer, Reference
 from config.runtime.bundles import example
 
-import assets
-from pipeline.config.runtime.runtime_of import make_runtime
-from pipeline.config.runtime.synthetic import PoseRow, synthetic_stream
-from pipeline.mesh import Probe
-from pipeline.mesh.save import encode_probe
+from contactbench import assets
+from contactbench.pipeline.config.runtime.runtime_of import make_runtime
+from contactbench.pipeline.config.runtime.synthetic import PoseRow, synthetic_stream
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from pipeline import kernel
-    from pipeline.config.runtime import RuntimeConfig
+    from contactbench.pipeline import kernel
+    from contactbench.pipeline.config.runtime import RuntimeConfig
 
 SAMPLES = int(os.environ.get("CONTACTBENCH_REFERENCE_SAMPLES", "1500"))
 NEAR_M = 1e-7

@@ -13,17 +13,17 @@ from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 from weighing_files import weighed
 
-import assets
-from pipeline import cli
-from pipeline.calibration import calibrate
-from pipeline.calibration.files.calibration_file import Mount, save_calibration
-from pipeline.config.runtime import ConfigError, RuntimeConfig
-from pipeline.config.runtime.canonical import json_schema
-from pipeline.config.runtime.verified import read_verification
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import RegionSet
-from pipeline.mesh.sidecar import ProbeFile, save_probe_file
-from pipeline.session import Session
+from contactbench import assets
+from contactbench.pipeline import cli
+from contactbench.pipeline.calibration import calibrate
+from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
+from contactbench.pipeline.config.runtime.canonical import json_schema
+from contactbench.pipeline.config.runtime.verified import read_verification
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from contactbench.pipeline.session import Session
 
 RATE = ("--rate", 1000)
 

@@ -16,20 +16,26 @@ import pytest
 from config.runtime.bundles import example, example_bundle
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration import Level, Verdict
-from pipeline.config.runtime import ConfigError, Filters, RuntimeConfig, UnverifiedError, build_config
-from pipeline.config.runtime.canonical import decode_json, encode_json, json_schema
-from pipeline.config.runtime.config import checksum
-from pipeline.config.runtime.differ import differences
-from pipeline.config.runtime.pack import KNOWN, read_bundle
-from pipeline.config.runtime.swap import write_folder
-from pipeline.contact import Gates, TouchModel, WrenchNoise
-from pipeline.filtering import LowPass
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import Region, RegionSet
-from pipeline.mesh.sidecar import ProbeFile
-from pipeline.study import bundle_example
-from pipeline.study.bundle_mutations import seal
+from contactbench.pipeline.calibration import Level, Verdict
+from contactbench.pipeline.config.runtime import (
+    ConfigError,
+    Filters,
+    RuntimeConfig,
+    UnverifiedError,
+    build_config,
+)
+from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json, json_schema
+from contactbench.pipeline.config.runtime.config import checksum
+from contactbench.pipeline.config.runtime.differ import differences
+from contactbench.pipeline.config.runtime.pack import KNOWN, read_bundle
+from contactbench.pipeline.config.runtime.swap import write_folder
+from contactbench.pipeline.contact import Gates, TouchModel, WrenchNoise
+from contactbench.pipeline.filtering import LowPass
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import Region, RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.study import bundle_example
+from contactbench.pipeline.study.bundle_mutations import seal
 
 HERE = Path(__file__).parents[3]
 

@@ -14,10 +14,10 @@ from config.runtime.bundles import example, of_version_2, of_version_3
 from runtime.test_same_as_cpp import BUILD, CMAKE, SOURCE, run
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.config.runtime import ConfigError, RuntimeConfig
-from pipeline.config.runtime.self_test import replay, with_self_test
-from pipeline.study.bundle_mutations import seal
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
+from contactbench.pipeline.config.runtime.self_test import replay, with_self_test
+from contactbench.pipeline.study.bundle_mutations import seal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -10,8 +10,8 @@ import time
 import pytest
 from config.runtime.bundles import example
 
-from pipeline.config.runtime import ConfigError, RuntimeConfig, swap
-from pipeline.config.runtime.swap import exchange
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, swap
+from contactbench.pipeline.config.runtime.swap import exchange
 
 CALLS = ("mkdir", "fsync", "rename", "unlink", "rmdir", "replace")
 
@@ -102,7 +102,7 @@ def test_a_writer_that_is_killed(tmp_path, configs):
         config.write(tmp_path / name)
     old.write(tmp_path / "b")
     script = (
-        "import sys; from pipeline.config.runtime import RuntimeConfig as C\n"
+        "import sys; from contactbench.pipeline.config.runtime import RuntimeConfig as C\n"
         "one, other = C.load('new'), C.load('old')\n"
         "print('ready', flush=True)\n"
         "while True: one.write('b'); other.write('b')\n"

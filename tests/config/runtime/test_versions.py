@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
 
-from pipeline.config.runtime import ConfigError, RuntimeConfig
-from pipeline.config.runtime import migrate as migrations
-from pipeline.config.runtime.canonical import decode_json, encode_json
-from pipeline.study.bundle_mutations import seal
+from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
+from contactbench.pipeline.config.runtime import migrate as migrations
+from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
+from contactbench.pipeline.study.bundle_mutations import seal
 
 
 def test_an_older_version_is_carried_over(monkeypatch):

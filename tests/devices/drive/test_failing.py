@@ -10,10 +10,10 @@ import pytest
 from devices.drive.test_kept import Script, frames, sri
 from devices.drive.test_stream import Heard
 
-from pipeline.devices.drive import ElfinPoses, SensorStream, State, kept
-from pipeline.devices.transport import LineLost, LineUnavailable
-from pipeline.devices.url import DeviceAddress
-from pipeline.errors import InputError
+from contactbench.pipeline.devices.drive import ElfinPoses, SensorStream, State, kept
+from contactbench.pipeline.devices.transport import LineLost, LineUnavailable
+from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.errors import InputError
 
 
 def until(what, seconds=5.0):
@@ -73,7 +73,7 @@ def test_kinematics_that_are_missing_are_refused_at_once(monkeypatch):
 @pytest.mark.parametrize(("address", "again"), [("sri+tcp://h?rate=100", True), ("bota+serial:///x", False)])
 def test_a_connection_that_is_dead_is_opened_again(monkeypatch, address, again):
     monkeypatch.setattr(kept, "_DEAD_S", 0.3)
-    monkeypatch.setattr("pipeline.devices.drive.stream._REPLY_S", 0.05)
+    monkeypatch.setattr("contactbench.pipeline.devices.drive.stream._REPLY_S", 0.05)
     heard = Heard()
     line = Script(lambda _line, _now: b"")
     line.write = lambda _: None

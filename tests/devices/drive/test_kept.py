@@ -8,11 +8,11 @@ import time
 import pytest
 from devices.drive.test_stream import Heard
 
-from pipeline.devices.drive import ElfinPoses, SensorStream, State
-from pipeline.devices.emulate.models import sri_frame
-from pipeline.devices.transport import Chunk, LineLost
-from pipeline.devices.url import DeviceAddress
-from pipeline.study.fault_lines import resting
+from contactbench.pipeline.devices.drive import ElfinPoses, SensorStream, State
+from contactbench.pipeline.devices.emulate.models import sri_frame
+from contactbench.pipeline.devices.transport import Chunk, LineLost
+from contactbench.pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.study.fault_lines import resting
 
 
 class Script:

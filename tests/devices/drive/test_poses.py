@@ -9,13 +9,13 @@ import pytest
 from devices.drive.test_kept import Script
 from devices.drive.test_stream import Heard, fault
 
-from pipeline.devices.drive import ElfinPoses, State, UrPoses, poses_from
-from pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
-from pipeline.devices.emulate.arms import UR5E_TABLE, flange_pose
-from pipeline.devices.emulate.models import ElfinModel, Quirk
-from pipeline.devices.emulate.signals import Moment, Reading
-from pipeline.devices.url import AddressError, DeviceAddress
-from pipeline.robot import Robot
+from contactbench.pipeline.devices.drive import ElfinPoses, State, UrPoses, poses_from
+from contactbench.pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
+from contactbench.pipeline.devices.emulate.arms import UR5E_TABLE, flange_pose
+from contactbench.pipeline.devices.emulate.models import ElfinModel, Quirk
+from contactbench.pipeline.devices.emulate.signals import Moment, Reading
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.robot import Robot
 
 
 @pytest.mark.parametrize("protocol", ["elfin", "ur"])
@@ -138,7 +138,7 @@ def test_answers_that_took_long_are_dropped_and_told():
 
 
 def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
-    monkeypatch.setattr("pipeline.devices.drive.poses._UNANSWERED_S", 0.3)
+    monkeypatch.setattr("contactbench.pipeline.devices.drive.poses._UNANSWERED_S", 0.3)
     heard = Heard()
     line = Controller(9.0)
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):

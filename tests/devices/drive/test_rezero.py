@@ -9,10 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.devices.drive import RezeroDetector
-from pipeline.devices.emulate import swinging
-from pipeline.devices.sample import WrenchSample
-from pipeline.study.faults import rezero_figures
+from contactbench.pipeline.devices.drive import RezeroDetector
+from contactbench.pipeline.devices.emulate import swinging
+from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.study.faults import rezero_figures
 
 WEIGHT = np.array([1.0, -2.0, 4.5, 0.12, -0.2, 0.05])
 RATE = 100.0

@@ -9,14 +9,14 @@ import pytest
 from devices.drive.test_kept import Script
 from devices.drive.test_stream import Heard, listen, moving
 
-from pipeline.devices.drive import SensorStream, driver, driver_for
-from pipeline.devices.drive.readings import Readings
-from pipeline.devices.emulate import emulator
-from pipeline.devices.emulate.models import Quirk, rdt_record
-from pipeline.devices.protocols import rdt
-from pipeline.devices.protocols.ati_scale import ScaleError
-from pipeline.devices.sample import Status
-from pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.devices.drive import SensorStream, driver, driver_for
+from contactbench.pipeline.devices.drive.readings import Readings
+from contactbench.pipeline.devices.emulate import emulator
+from contactbench.pipeline.devices.emulate.models import Quirk, rdt_record
+from contactbench.pipeline.devices.protocols import rdt
+from contactbench.pipeline.devices.protocols.ati_scale import ScaleError
+from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.url import DeviceAddress
 
 
 def test_an_older_box_is_asked_for_its_rate_in_its_own_words():

@@ -7,10 +7,10 @@ import time
 
 import pytest
 
-from pipeline.devices.drive import SensorStream, State, driver_for
-from pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
-from pipeline.devices.sample import Status
-from pipeline.devices.url import AddressError, DeviceAddress
+from contactbench.pipeline.devices.drive import SensorStream, State, driver_for
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]
 PATIENCE_S = 5.0

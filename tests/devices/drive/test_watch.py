@@ -7,15 +7,15 @@ from itertools import count
 
 import pytest
 
-from pipeline.devices.drive import Watch, driver_for
-from pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
-from pipeline.devices.emulate.mangle import Mangler
-from pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
-from pipeline.devices.emulate.signals import Truth
-from pipeline.devices.protocols import Counters
-from pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from pipeline.devices.url import Carrier, DeviceAddress, Protocol
-from pipeline.study.fault_lines import LINES, cases, expectation, resting
+from contactbench.pipeline.devices.drive import Watch, driver_for
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
+from contactbench.pipeline.devices.emulate.mangle import Mangler
+from contactbench.pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
+from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.study.fault_lines import LINES, cases, expectation, resting
 
 SENSORS = [line for line in LINES if not line.robot]
 RATE = 100.0

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.commands.emulate import emulate_app
-from pipeline.devices.emulate import EmulatorError
-from pipeline.devices.transport import line_to
-from pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.commands.emulate import emulate_app
+from contactbench.pipeline.devices.emulate import EmulatorError
+from contactbench.pipeline.devices.transport import line_to
+from contactbench.pipeline.devices.url import DeviceAddress
 
 runner = CliRunner()
 
@@ -43,7 +43,7 @@ def test_wrong_tools_are_refused():
     assert runner.invoke(emulate_app, arguments).exit_code == 0
 
 
-COMMAND = [sys.executable, "-m", "pipeline.commands.emulate"]
+COMMAND = [sys.executable, "-m", "contactbench.pipeline.commands.emulate"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

@@ -3,10 +3,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.devices.emulate import SYNTHETIC
-from pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
-from pipeline.devices.emulate.checksums import crc16_modbus, crc16_x25
-from pipeline.devices.emulate.models import bota_frame, rdt_record, robotiq_frame, rtde_packet, sri_frame
+from contactbench.pipeline.devices.emulate import SYNTHETIC
+from contactbench.pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
+from contactbench.pipeline.devices.emulate.checksums import crc16_modbus, crc16_x25
+from contactbench.pipeline.devices.emulate.models import (
+    bota_frame,
+    rdt_record,
+    robotiq_frame,
+    rtde_packet,
+    sri_frame,
+)
 
 
 def test_checksums_have_their_published_check_values():

@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, Moment, Reading
-from pipeline.devices.emulate.models import (
+from contactbench.pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, Moment, Reading
+from contactbench.pipeline.devices.emulate.models import (
     BotaModel,
     ElfinModel,
     Model,
@@ -106,7 +106,7 @@ def test_what_must_not_be_sent_is_refused_and_kept(kind: type[Model], command: b
     if kind is UrModel:
         device.feed(AGREED)
     if kind is RobotiqModel and len(command) == 9:
-        from pipeline.devices.emulate.checksums import crc16_modbus
+        from contactbench.pipeline.devices.emulate.checksums import crc16_modbus
 
         command += crc16_modbus(command).to_bytes(2, "little")
     device.feed(command)

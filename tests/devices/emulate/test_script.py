@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.devices.emulate import (
+from contactbench.pipeline.devices.emulate import (
     SYNTHETIC,
     EmulatorError,
     Fault,
@@ -18,9 +18,9 @@ from pipeline.devices.emulate import (
     recorded,
     sine,
 )
-from pipeline.devices.emulate.mangle import Mangler
-from pipeline.devices.emulate.models import RdtModel, SriModel, sri_frame
-from pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.emulate.mangle import Mangler
+from contactbench.pipeline.devices.emulate.models import RdtModel, SriModel, sri_frame
+from contactbench.pipeline.devices.emulate.signals import Truth
 
 
 def test_events_are_read():

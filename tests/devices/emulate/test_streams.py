@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from pipeline.devices.emulate import (
+from contactbench.pipeline.devices.emulate import (
     EMULATED,
     SYNTHETIC,
     Emulator,
@@ -23,12 +23,12 @@ from pipeline.devices.emulate import (
     possible_faults,
     swinging,
 )
-from pipeline.devices.protocols import bota, elfin, rdt, robotiq, sri, ur_pose
-from pipeline.devices.protocols.commands import Command
-from pipeline.devices.protocols.parser import SensorParser
-from pipeline.devices.sample import Status, WrenchSample
-from pipeline.devices.transport import Line, LineError, LineLost, line_to
-from pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.devices.protocols import bota, elfin, rdt, robotiq, sri, ur_pose
+from contactbench.pipeline.devices.protocols.commands import Command
+from contactbench.pipeline.devices.protocols.parser import SensorParser
+from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.transport import Line, LineError, LineLost, line_to
+from contactbench.pipeline.devices.url import DeviceAddress
 
 SENSORS = ("sri", "bota", "robotiq", "rdt")
 RATE = 400.0

@@ -11,11 +11,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.devices.protocols.ati_scale import AtiScale, ScaleError, parse_scale, read_scale, scale_for
-from pipeline.devices.protocols.parser import ProtocolError
-from pipeline.devices.protocols.rdt import CountScale
-from pipeline.devices.transport.http_get import MOST_BYTES, PageError
-from pipeline.devices.url import DeviceAddress
+from contactbench.pipeline.devices.protocols.ati_scale import (
+    AtiScale,
+    ScaleError,
+    parse_scale,
+    read_scale,
+    scale_for,
+)
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.rdt import CountScale
+from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, PageError
+from contactbench.pipeline.devices.url import DeviceAddress
 
 
 def page(force="N", torque="N-m", cpf="1000000", cpt="1000000", product="ATI Net F/T"):

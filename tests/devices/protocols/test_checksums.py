@@ -7,7 +7,7 @@ import zlib
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
 
 _CHECK = b"123456789"
 

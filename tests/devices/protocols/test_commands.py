@@ -10,10 +10,19 @@ from pathlib import Path
 
 import pytest
 
-import pipeline.devices.protocols as protocols
-from pipeline.devices.protocols import Command, ProtocolError, bota, elfin, rdt, robotiq, sri, ur_rtde
-from pipeline.devices.protocols.ur_pose import UrStream
-from pipeline.devices.protocols.ur_rtde import Kind, packet
+import contactbench.pipeline.devices.protocols as protocols
+from contactbench.pipeline.devices.protocols import (
+    Command,
+    ProtocolError,
+    bota,
+    elfin,
+    rdt,
+    robotiq,
+    sri,
+    ur_rtde,
+)
+from contactbench.pipeline.devices.protocols.ur_pose import UrStream
+from contactbench.pipeline.devices.protocols.ur_rtde import Kind, packet
 
 _ALLOWED = (
     rb"AT\+GSD(=STOP)?\r\n",

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.protocols.elfin import (
+from contactbench.pipeline.devices.protocols.elfin import (
     ElfinError,
     Outcome,
     Question,
@@ -17,8 +17,8 @@ from pipeline.devices.protocols.elfin import (
     read_numbers,
     read_state,
 )
-from pipeline.devices.protocols.elfin_pose import FieldOrder, flange_sample, resolve_order
-from pipeline.robot import Robot
+from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder, flange_sample, resolve_order
+from contactbench.pipeline.robot import Robot
 
 Q = (0.3, -0.4, 1.1, 0.5, -0.7, 0.9)
 P_MM = (528.910, 113.500, 556.217)

@@ -7,12 +7,12 @@ import zlib
 
 import pytest
 
-from pipeline.devices.protocols import SensorParser
-from pipeline.devices.protocols.bota import BotaParser
-from pipeline.devices.protocols.rdt import ATI_TYPICAL, ONROBOT_SCALE, RdtParser
-from pipeline.devices.protocols.robotiq import RobotiqParser
-from pipeline.devices.protocols.sri import Layout, SriParser, Trailer
-from pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.protocols import SensorParser
+from contactbench.pipeline.devices.protocols.bota import BotaParser
+from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, ONROBOT_SCALE, RdtParser
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
+from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trailer
+from contactbench.pipeline.devices.sample import Status, WrenchSample
 
 SRI_CAPTURE = bytes.fromhex(
     "AA55001BC4C7016AF4C0EF7D33C04962C9C0A25CC6BDA6198FBDAFDA693E6E",

@@ -11,13 +11,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.devices.protocols import ProtocolError, SensorParser
-from pipeline.devices.protocols.bota import BotaParser
-from pipeline.devices.protocols.checksums import crc16_x25, sum8
-from pipeline.devices.protocols.rdt import ATI_TYPICAL, CountScale, RdtParser
-from pipeline.devices.protocols.robotiq import RobotiqParser
-from pipeline.devices.protocols.sri import Layout, SriParser
-from pipeline.devices.sample import Status
+from contactbench.pipeline.devices.protocols import ProtocolError, SensorParser
+from contactbench.pipeline.devices.protocols.bota import BotaParser
+from contactbench.pipeline.devices.protocols.checksums import crc16_x25, sum8
+from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, CountScale, RdtParser
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
+from contactbench.pipeline.devices.protocols.sri import Layout, SriParser
+from contactbench.pipeline.devices.sample import Status
 
 SERIAL: dict[str, Callable[[], SensorParser]] = {
     "sri": SriParser,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from pipeline.devices.protocols import ProtocolError
-from pipeline.devices.protocols.soak import PROTOCOLS, damage, soak
-from pipeline.devices.protocols.soak_frames import SUBJECTS
+from contactbench.pipeline.devices.protocols import ProtocolError
+from contactbench.pipeline.devices.protocols.soak import PROTOCOLS, damage, soak
+from contactbench.pipeline.devices.protocols.soak_frames import SUBJECTS
 
 _CHECKED = [name for name, subject in SUBJECTS.items() if subject.false_bits is not None]
 

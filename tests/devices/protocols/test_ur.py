@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.protocols.ur_pose import Stage, UrStream
-from pipeline.devices.protocols.ur_rtde import (
+from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
+from contactbench.pipeline.devices.protocols.ur_rtde import (
     Kind,
     Packet,
     PacketReader,

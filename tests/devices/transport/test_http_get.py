@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.devices.transport import LineError
-from pipeline.devices.transport.http_get import MOST_BYTES, PageError, _Page, http_get
+from contactbench.pipeline.devices.transport import LineError
+from contactbench.pipeline.devices.transport.http_get import MOST_BYTES, PageError, _Page, http_get
 
 PAGE = b"<netft/>"
 

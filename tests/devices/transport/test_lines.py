@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from pipeline.devices.transport import (
+from contactbench.pipeline.devices.transport import (
     Line,
     LineLost,
     LineUnavailable,
@@ -25,7 +25,7 @@ from pipeline.devices.transport import (
     line_to,
     list_ports,
 )
-from pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
 
 
 @dataclass

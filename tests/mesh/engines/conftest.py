@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import engines
+from contactbench.pipeline.mesh import engines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -15,10 +15,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.mesh import engines
-from pipeline.mesh.engines import child as child_module
-from pipeline.mesh.engines.child import Child, Watch
-from pipeline.mesh.engines.wire import Message
+from contactbench.pipeline.mesh import engines
+from contactbench.pipeline.mesh.engines import child as child_module
+from contactbench.pipeline.mesh.engines.child import Child, Watch
+from contactbench.pipeline.mesh.engines.wire import Message
 
 Ball = tuple[np.ndarray, np.ndarray]
 
@@ -200,7 +200,7 @@ def test_a_missing_library_is_told_with_the_command_that_installs_it(monkeypatch
         """
         import sys
         sys.modules["pymeshlab"] = None
-        from pipeline.mesh.engines.worker import main
+        from contactbench.pipeline.mesh.engines.worker import main
         main("meshlab")
         """,
     )
@@ -213,7 +213,7 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
         monkeypatch,
         """
         import os, sys
-        from pipeline.mesh.engines import worker
+        from contactbench.pipeline.mesh.engines import worker
         perform = worker.perform
         def noisy(*args):
             os.write(1, b"simplified 1 %\\n" * 1000)
@@ -252,7 +252,7 @@ def test_a_bundled_application_is_its_own_engine(
     app.write_text(
         f"#!{sys.executable}\n"
         "import sys\n"
-        "from pipeline.mesh.engines.worker import serve_if_asked\n"
+        "from contactbench.pipeline.mesh.engines.worker import serve_if_asked\n"
         "serve_if_asked(sys.argv)\n"
         "print('the window opens')\n",
         encoding="utf-8",
@@ -272,7 +272,7 @@ def test_a_bundled_application_is_its_own_engine(
 _PARENT = """
 import sys, time, threading
 import numpy as np
-from pipeline.mesh import engines
+from contactbench.pipeline.mesh import engines
 corners = np.array([[0, 0, 0], [99, 0, 0], [0, 99, 0], [0, 0, 99]])
 faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 engines.orient_facets(corners, faces)
@@ -317,7 +317,7 @@ def test_a_forked_process_starts_its_own_engine_and_leaves_its_parents_alone() -
     code = """
 import os
 import numpy as np
-from pipeline.mesh import engines
+from contactbench.pipeline.mesh import engines
 corners = np.array([[0, 0, 0], [99, 0, 0], [0, 99, 0], [0, 0, 99]])
 faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 engines.orient_facets(corners, faces)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshError, engines
+from contactbench.pipeline.mesh import MeshError, engines
 
 Ball = tuple[np.ndarray, np.ndarray]
 

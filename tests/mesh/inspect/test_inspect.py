@@ -11,11 +11,11 @@ from contact_cases import REAL_PROBES, bundled
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.mesh import MeshError, Probe
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.inspect import Inspection, inspect, inspect_arrays
-from pipeline.mesh.regions import RegionSet
-from pipeline.mesh.sidecar import ProbeFile, save_probe_file
+from contactbench.pipeline.mesh import MeshError, Probe
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.inspect import Inspection, inspect, inspect_arrays
+from contactbench.pipeline.mesh.regions import RegionSet
+from contactbench.pipeline.mesh.sidecar import ProbeFile, save_probe_file
 
 BOX = trimesh.creation.box(extents=(0.06, 0.04, 0.02))
 

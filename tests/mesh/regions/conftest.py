@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import FacetGraph
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import FacetGraph
 
 
 def as_probe(mesh: trimesh.Trimesh) -> Probe:

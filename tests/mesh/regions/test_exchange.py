@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import (
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import (
     FacetGraph,
     Region,
     RegionError,
@@ -20,7 +20,13 @@ from pipeline.mesh.regions import (
     load_regions,
     save_regions,
 )
-from pipeline.mesh.regions.exchange import decode_csv, decode_json, encode_csv, encode_json, mesh_hash
+from contactbench.pipeline.mesh.regions.exchange import (
+    decode_csv,
+    decode_json,
+    encode_csv,
+    encode_json,
+    mesh_hash,
+)
 
 NAMES = st.text(
     st.characters(categories=("L", "N", "P", "S"), include_characters=" "), min_size=1, max_size=20

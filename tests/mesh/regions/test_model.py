@@ -11,7 +11,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, rule
 
-from pipeline.mesh.regions import Region, RegionError, RegionModel, RegionSet
+from contactbench.pipeline.mesh.regions import Region, RegionError, RegionModel, RegionSet
 
 FACETS = 60
 

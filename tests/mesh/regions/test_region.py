@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.mesh import MeshError
-from pipeline.mesh.regions import PALETTE, Region, RegionError, RegionSet
-from pipeline.mesh.regions.region import MOST_REGIONS, free_colour, free_name
+from contactbench.pipeline.mesh import MeshError
+from contactbench.pipeline.mesh.regions import PALETTE, Region, RegionError, RegionSet
+from contactbench.pipeline.mesh.regions.region import MOST_REGIONS, free_colour, free_name
 
 
 def test_names_and_colours_are_normalised() -> None:

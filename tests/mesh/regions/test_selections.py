@@ -10,8 +10,8 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from pipeline.mesh import Probe
-from pipeline.mesh.regions import (
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.regions import (
     FacetGraph,
     RegionError,
     component,

@@ -7,7 +7,14 @@ import math
 import numpy as np
 import pytest
 
-from pipeline.mesh.regions import Brush, FacetGraph, RegionError, RegionModel, RegionSet, component
+from contactbench.pipeline.mesh.regions import (
+    Brush,
+    FacetGraph,
+    RegionError,
+    RegionModel,
+    RegionSet,
+    component,
+)
 
 
 def fresh(graph: FacetGraph, regions: int = 2) -> RegionModel:

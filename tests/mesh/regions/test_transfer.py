@@ -9,8 +9,15 @@ import numpy as np
 import pytest
 import trimesh
 
-from pipeline.mesh import MeshWarning, Probe
-from pipeline.mesh.regions import FacetGraph, Region, RegionError, RegionSet, carry_labels, transfer
+from contactbench.pipeline.mesh import MeshWarning, Probe
+from contactbench.pipeline.mesh.regions import (
+    FacetGraph,
+    Region,
+    RegionError,
+    RegionSet,
+    carry_labels,
+    transfer,
+)
 
 
 def sphere(level: int, turn: float = 0.0) -> Probe:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.mesh import Probe
+from contactbench.pipeline.mesh import Probe
 
 LENGTH, WIDTH, HEIGHT, WALL = 0.06, 0.024, 0.1, 0.002  # m
 MOUTH = (LENGTH - 2 * WALL) * (WIDTH - 2 * WALL)  # m²

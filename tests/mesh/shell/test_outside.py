@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from mesh.shell.housings import box
 
-from pipeline.kernel import crossings
-from pipeline.mesh.health import edge_table, measure_health
-from pipeline.mesh.shell.cut import cut_crossings
-from pipeline.mesh.shell.hull import outer_hull
-from pipeline.mesh.shell.outside import find_outside
-from pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
+from contactbench.pipeline.kernel import crossings
+from contactbench.pipeline.mesh.health import edge_table, measure_health
+from contactbench.pipeline.mesh.shell.cut import cut_crossings
+from contactbench.pipeline.mesh.shell.hull import outer_hull
+from contactbench.pipeline.mesh.shell.outside import find_outside
+from contactbench.pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
 
 pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
 

@@ -9,16 +9,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mesh.shell.housings import box
 
-from pipeline import kernel
-from pipeline.mesh import MeshError
-from pipeline.mesh.shell import wrap
-from pipeline.mesh.shell.exposure import exposure
-from pipeline.mesh.shell.openings import Opening, describe, shoelace
-from pipeline.mesh.shell.patch import Closing, choose, make_patch
-from pipeline.mesh.shell.rim import crossings, resample, without_loops
-from pipeline.mesh.shell.settle import settle
-from pipeline.mesh.soundness import check_soundness
-from pipeline.mesh.triangles import cross_products, directions, join, parts, twins
+from contactbench.pipeline import kernel
+from contactbench.pipeline.mesh import MeshError
+from contactbench.pipeline.mesh.shell import wrap
+from contactbench.pipeline.mesh.shell.exposure import exposure
+from contactbench.pipeline.mesh.shell.openings import Opening, describe, shoelace
+from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
+from contactbench.pipeline.mesh.shell.rim import crossings, resample, without_loops
+from contactbench.pipeline.mesh.shell.settle import settle
+from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.triangles import cross_products, directions, join, parts, twins
 
 
 def opening_of(outline, height=lambda x, _y: 0 * x) -> Opening:

@@ -7,12 +7,12 @@ import pytest
 from contact_cases import bundled
 from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
 
-from pipeline.kernel import SurfaceIndex, crossings
-from pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.shell import Closing, make_shell
-from pipeline.mesh.shell.openings import describe
-from pipeline.mesh.shell.shell import _wanted
+from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.shell import Closing, make_shell
+from contactbench.pipeline.mesh.shell.openings import describe
+from contactbench.pipeline.mesh.shell.shell import _wanted
 
 pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
 

@@ -9,11 +9,11 @@ import pytest
 import trimesh
 from contact_cases import bundled
 
-from pipeline.mesh import MeshError, Probe, engines
-from pipeline.mesh.deviation import measure_deviation
-from pipeline.mesh.simplify import Count, MaxDeviation, MaxError, simplify
-from pipeline.mesh.simplify import job as job_module
-from pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh import MeshError, Probe, engines
+from contactbench.pipeline.mesh.deviation import measure_deviation
+from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, MaxError, simplify
+from contactbench.pipeline.mesh.simplify import job as job_module
+from contactbench.pipeline.mesh.soundness import check_soundness
 
 
 def _moved(probe: Probe, factor: float) -> Probe:

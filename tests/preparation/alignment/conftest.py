@@ -9,11 +9,11 @@ import pytest
 from contact_cases import bundled
 from scipy.spatial.transform import Rotation
 
-import assets
-from pipeline.contact import WrenchNoise
-from pipeline.mesh import Probe
-from pipeline.preparation.alignment import MarkerTouches
-from pipeline.simulation.touches import add_noise, draw_touches
+from contactbench import assets
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.preparation.alignment import MarkerTouches
+from contactbench.pipeline.simulation.touches import add_noise, draw_touches
 
 NOISE = WrenchNoise(0.05, 0.002)
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.preparation.alignment import (
+from contactbench.pipeline.preparation.alignment import (
     Alignment,
     AlignmentError,
     Method,

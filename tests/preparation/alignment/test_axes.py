@@ -5,9 +5,9 @@ import pytest
 import trimesh
 from contact_cases import ball, bundled
 
-import assets
-from pipeline.mesh import Probe
-from pipeline.preparation.alignment import AlignmentError, align_axes
+from contactbench import assets
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.preparation.alignment import AlignmentError, align_axes
 
 SIZES = (0.06, 0.03, 0.12)
 

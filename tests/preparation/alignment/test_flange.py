@@ -5,8 +5,8 @@ import pytest
 import trimesh
 from contact_cases import ball, bundled
 
-from pipeline.mesh import Probe
-from pipeline.preparation.alignment import AlignmentError, align_flange, find_mounting_face
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.preparation.alignment import AlignmentError, align_flange, find_mounting_face
 
 
 def lowest(probe):

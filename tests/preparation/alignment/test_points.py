@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 from scipy.special import chdtri
 
-from pipeline.preparation.alignment import AlignmentError, align_frame, align_points
-from pipeline.preparation.alignment.rigid import difference
+from contactbench.pipeline.preparation.alignment import AlignmentError, align_frame, align_points
+from contactbench.pipeline.preparation.alignment.rigid import difference
 
 SPREAD = np.array([[0, 0, 0], [0.05, 0, 0], [0, 0.02, 0.01], [0.01, 0.0, 0.12]])
 

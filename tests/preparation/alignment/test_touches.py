@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.special import chdtri
 
-from pipeline.contact import WrenchNoise
-from pipeline.preparation.alignment import (
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.preparation.alignment import (
     Advice,
     AlignmentError,
     MarkerTouches,
@@ -14,10 +14,10 @@ from pipeline.preparation.alignment import (
     align_touches,
     from_json,
 )
-from pipeline.preparation.alignment.rigid import difference
-from pipeline.preparation.alignment.touches.fit import fit_mount
-from pipeline.preparation.alignment.touches.marker import put_on_mesh
-from pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.rigid import difference
+from contactbench.pipeline.preparation.alignment.touches.fit import fit_mount
+from contactbench.pipeline.preparation.alignment.touches.marker import put_on_mesh
+from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
 
 NOISE = WrenchNoise(0.05, 0.002)
 

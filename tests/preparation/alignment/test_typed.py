@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.preparation.alignment import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.preparation.alignment import (
     Alignment,
     AlignmentError,
     Method,

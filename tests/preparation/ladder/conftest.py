@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 from contact_cases import bundled
 
-from pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
+from contactbench.pipeline.preparation.ladder import ExpectedTouches, Ladder, measure_ladder
 
 
 @dataclass

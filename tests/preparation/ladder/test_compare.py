@@ -10,12 +10,12 @@ from contact_cases import ball, bundled
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pipeline.contact import Reason, WrenchNoise
-from pipeline.kernel import SurfaceIndex
-from pipeline.mesh import Probe
-from pipeline.preparation.ladder import ContactReference, ExpectedTouches, LadderError
-from pipeline.preparation.ladder.compare import _difference, _growth
-from pipeline.preparation.ladder.touches import draw_parts
+from contactbench.pipeline.contact import Reason, WrenchNoise
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.preparation.ladder import ContactReference, ExpectedTouches, LadderError
+from contactbench.pipeline.preparation.ladder.compare import _difference, _growth
+from contactbench.pipeline.preparation.ladder.touches import draw_parts
 
 SQUARE = ExpectedTouches(friction_angle=(0.0, 0.0), torsion_arm=0.0, count=300)
 

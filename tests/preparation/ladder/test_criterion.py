@@ -7,10 +7,10 @@ import math
 import pytest
 from contact_cases import ball, bundled
 
-from pipeline.mesh import MeshError, Probe
-from pipeline.mesh.engines import Cancelled
-from pipeline.mesh.simplify import Count, simplify
-from pipeline.preparation.ladder import ExpectedTouches, contact_error_criterion, fewest_facets
+from contactbench.pipeline.mesh import MeshError, Probe
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.preparation.ladder import ExpectedTouches, contact_error_criterion, fewest_facets
 
 QUICK = ExpectedTouches(count=500)
 

@@ -13,9 +13,9 @@ import pytest
 from contact_cases import bundled
 from rich.console import Console
 
-from pipeline.mesh import MeshError, load_probe, save_probe
-from pipeline.mesh.engines import Cancelled
-from pipeline.preparation.ladder import (
+from contactbench.pipeline.mesh import MeshError, load_probe, save_probe
+from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.preparation.ladder import (
     ExpectedTouches,
     Goal,
     Ladder,
@@ -23,8 +23,8 @@ from pipeline.preparation.ladder import (
     measure_ladder,
     save_ladder,
 )
-from pipeline.preparation.ladder import measure as measure_module
-from pipeline.preparation.ladder.picture import draw_ladder
+from contactbench.pipeline.preparation.ladder import measure as measure_module
+from contactbench.pipeline.preparation.ladder.picture import draw_ladder
 
 QUICK = ExpectedTouches(count=200)
 

@@ -8,9 +8,16 @@ import numpy as np
 import pytest
 from contact_cases import ball
 
-from pipeline.preparation.ladder import Difference, Goal, LadderError, PartErrors, Rung, recommend
-from pipeline.preparation.ladder.ladder import Speed
-from pipeline.timing import Timing
+from contactbench.pipeline.preparation.ladder import (
+    Difference,
+    Goal,
+    LadderError,
+    PartErrors,
+    Rung,
+    recommend,
+)
+from contactbench.pipeline.preparation.ladder.ladder import Speed
+from contactbench.pipeline.timing import Timing
 
 BOUND = 1e-3
 

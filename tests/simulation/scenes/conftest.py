@@ -2,9 +2,9 @@
 
 import pytest
 
-import assets
-from pipeline.mesh import Probe
-from pipeline.simulation.scenes import Truth
+from contactbench import assets
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.scenes import Truth
 
 
 @pytest.fixture(scope="package")

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.robot import Clearance, ClearanceCheck
-from pipeline.simulation.scenes import (
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Clearance, ClearanceCheck
+from contactbench.pipeline.simulation.scenes import (
     ArmScene,
     Payload,
     PlatformMotion,
@@ -15,7 +15,7 @@ from pipeline.simulation.scenes import (
     Tissue,
     Truth,
 )
-from pipeline.simulation.scenes.platform import DOWN
+from contactbench.pipeline.simulation.scenes.platform import DOWN
 
 _G = np.array([0.0, 0.0, -9.80665])
 _PERIOD = 0.02

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import BenchScene, Payload, PhysicsError, Press, Truth
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import BenchScene, Payload, PhysicsError, Press, Truth
 
 _G = 9.80665
 _MARKER = np.array([0.02, 0.0, 0.13])

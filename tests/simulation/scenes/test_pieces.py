@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation.scenes import Press, TouchScene, Truth
-from pipeline.simulation.scenes.pieces import facets_near, triangle_distances
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.scenes import Press, TouchScene, Truth
+from contactbench.pipeline.simulation.scenes.pieces import facets_near, triangle_distances
 
 _SIZE, _BASE = np.array([0.06, 0.03, 0.06]), 0.06
 

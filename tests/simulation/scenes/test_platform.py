@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import Payload, PlatformMotion, PlatformScene, Tissue, Truth
-from pipeline.simulation.scenes.platform import DOWN
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import Payload, PlatformMotion, PlatformScene, Tissue, Truth
+from contactbench.pipeline.simulation.scenes.platform import DOWN
 
 _G = np.array([0.0, 0.0, -9.80665])
 _PERIOD = 0.02

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import PlatformMotion
-from pipeline.simulation.scenes.platform_motion import AXES
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import PlatformMotion
+from contactbench.pipeline.simulation.scenes.platform_motion import AXES
 
 
 @pytest.mark.parametrize("axis", AXES)

@@ -3,13 +3,21 @@
 import numpy as np
 import pytest
 
-import assets
-from pipeline.contact import Reason, WrenchNoise
-from pipeline.contact.methods import make
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation.scenes import Motion, Payload, PressScene, Tissue, Truth, depth_for, hand_motion
-from pipeline.simulation.scenes.tissue import spread
+from contactbench import assets
+from contactbench.pipeline.contact import Reason, WrenchNoise
+from contactbench.pipeline.contact.methods import make
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.scenes import (
+    Motion,
+    Payload,
+    PressScene,
+    Tissue,
+    Truth,
+    depth_for,
+    hand_motion,
+)
+from contactbench.pipeline.simulation.scenes.tissue import spread
 
 _G = 9.80665
 

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.robot import Robot
-from pipeline.simulation.scenes import ServoSettings
-from pipeline.simulation.scenes.servo import JointServo
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.robot import Robot
+from contactbench.pipeline.simulation.scenes import ServoSettings
+from contactbench.pipeline.simulation.scenes.servo import JointServo
 
 _STEP, _PERIOD = 0.001, 0.02
 ROBOT = Robot.named("elfin3")

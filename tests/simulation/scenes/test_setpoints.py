@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes.setpoints import SetPoints
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes.setpoints import SetPoints
 
 _PERIOD = 0.02
 _FASTEST, _HARDEST = np.array([1.5, 0.25]), np.array([12.0, 5.0])

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import Payload, Press, Tip, TouchScene, Truth
-from pipeline.simulation.scenes.touch import STEP_S
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import Payload, Press, Tip, TouchScene, Truth
+from contactbench.pipeline.simulation.scenes.touch import STEP_S
 
 _G = 9.80665
 

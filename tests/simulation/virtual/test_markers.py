@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from scipy.spatial.distance import pdist
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.simulation.virtual.markers import markers, markers_on
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation.virtual.markers import markers, markers_on
 
 
 @pytest.mark.parametrize(("name", "count"), [("t-shape", 17), ("linear", 15), ("convex", 15)])

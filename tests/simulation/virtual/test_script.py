@@ -2,7 +2,12 @@
 
 import pytest
 
-from pipeline.simulation.virtual.script import ScriptError, parse_script, read_script, script_text
+from contactbench.pipeline.simulation.virtual.script import (
+    ScriptError,
+    parse_script,
+    read_script,
+    script_text,
+)
 
 _HUGE = "1" + "0" * 400  # more than a double holds
 

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.calibration.calibrate import calibrate
-from pipeline.calibration.poses import PoseSample
-from pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
-from pipeline.simulation.virtual.arm import WristArm
-from pipeline.simulation.virtual.bench import VirtualBench
-from pipeline.simulation.virtual.pace import CATCH_UP_S, Pacer
-from pipeline.simulation.virtual.serve import ServedBench
-from pipeline.streams import open_pair
+from contactbench.pipeline.calibration.calibrate import calibrate
+from contactbench.pipeline.calibration.poses import PoseSample
+from contactbench.pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
+from contactbench.pipeline.simulation.virtual.arm import WristArm
+from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+from contactbench.pipeline.simulation.virtual.pace import CATCH_UP_S, Pacer
+from contactbench.pipeline.simulation.virtual.serve import ServedBench
+from contactbench.pipeline.streams import open_pair
 
 REST_S, TURN_S = 0.35, 0.25
 POSES = [(0, 0, 0), (90, 0, 0), (-80, 10, 0), (0, 85, 0), (30, -85, 0), (175, 0, 40)]

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.sample import Status
-from pipeline.errors import InputError
-from pipeline.simulation.scenes import Payload, PhysicsError
-from pipeline.simulation.sensor_model import SensorSettings
-from pipeline.simulation.virtual.bench import VirtualBench
-from pipeline.simulation.virtual.commands import CommandError, End
-from pipeline.simulation.virtual.script import ScriptError, Timed, parse_script, script_text
+from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.scenes import Payload, PhysicsError
+from contactbench.pipeline.simulation.sensor_model import SensorSettings
+from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+from contactbench.pipeline.simulation.virtual.commands import CommandError, End
+from contactbench.pipeline.simulation.virtual.script import ScriptError, Timed, parse_script, script_text
 
 SCRIPT = """
 {"at": 0.1, "do": "turn_to", "rpy": [0, 40, 10], "seconds": 0.4}

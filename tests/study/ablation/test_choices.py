@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from pipeline.study.ablation import effects, locating, reading
-from pipeline.study.ablation.effects import compared, effect
-from pipeline.study.ablation.records import drawn
-from pipeline.study.ablation.scenery import foremost
-from pipeline.study.rivals.plane import _block
+from contactbench.pipeline.study.ablation import effects, locating, reading
+from contactbench.pipeline.study.ablation.effects import compared, effect
+from contactbench.pipeline.study.ablation.records import drawn
+from contactbench.pipeline.study.ablation.scenery import foremost
+from contactbench.pipeline.study.rivals.plane import _block
 
 
 @pytest.fixture(scope="module")

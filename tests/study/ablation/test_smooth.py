@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from pipeline.contact import ContactSolver, WrenchNoise
-from pipeline.study.ablation.records import drawn
-from pipeline.study.ablation.smooth import SmoothNormals, vertex_normals
-from pipeline.study.reproduce.touching import model_of
-from pipeline.study.rivals.plane import FlatFace, _block
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
+from contactbench.pipeline.study.ablation.records import drawn
+from contactbench.pipeline.study.ablation.smooth import SmoothNormals, vertex_normals
+from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.rivals.plane import FlatFace, _block
 
 QUIET = WrenchNoise(1e-6, 1e-8)
 

@@ -5,14 +5,14 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.study.ablation.effects import CHOICES
-from pipeline.study.ablation.run import KIND, Sizes, run
-from pipeline.study.ablation.verdicts import CHOICES as ALL
-from pipeline.study.ablation.verdicts import about_choices
-from pipeline.study.pages import make_page
-from pipeline.study.results import write_results
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.ablation.effects import CHOICES
+from contactbench.pipeline.study.ablation.run import KIND, Sizes, run
+from contactbench.pipeline.study.ablation.verdicts import CHOICES as ALL
+from contactbench.pipeline.study.ablation.verdicts import about_choices
+from contactbench.pipeline.study.pages import make_page
+from contactbench.pipeline.study.results import write_results
 
 SHORT = Sizes(
     probes=("linear",),
@@ -75,7 +75,7 @@ def test_wrong_sizes_are_named(change, said):
 
 def test_the_command_writes_everything(rows, tmp_path, monkeypatch):
     pytest.importorskip("pyarrow")
-    monkeypatch.setattr("pipeline.study.ablation.run.run", lambda *_, **__: rows)
+    monkeypatch.setattr("contactbench.pipeline.study.ablation.run.run", lambda *_, **__: rows)
     call = ["study", "ablation", "--quick", "--seeds", "1", "--out", str(tmp_path / "a"), "--json"]
     done = CliRunner().invoke(app, call)
     assert done.exit_code == 0, done.output

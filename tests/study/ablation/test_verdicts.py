@@ -2,8 +2,16 @@
 
 import pytest
 
-from pipeline.study.ablation import locating, reading, scenery, verdicts
-from pipeline.study.ablation.verdicts import Bought, Cost, Verdict, about_choices, bought, crossing, crossings
+from contactbench.pipeline.study.ablation import locating, reading, scenery, verdicts
+from contactbench.pipeline.study.ablation.verdicts import (
+    Bought,
+    Cost,
+    Verdict,
+    about_choices,
+    bought,
+    crossing,
+    crossings,
+)
 
 
 @pytest.mark.parametrize(

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.contact import ContactSolver, Reason
-from pipeline.study.confidence import cases, study
-from pipeline.study.confidence.page import tables
-from pipeline.study.pages import make_page
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.contact import ContactSolver, Reason
+from contactbench.pipeline.study.confidence import cases, study
+from contactbench.pipeline.study.confidence.page import tables
+from contactbench.pipeline.study.pages import make_page
 
 TINY = study.Sizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.control.settings import ControlSettings, Variant
-from pipeline.errors import InputError
-from pipeline.study.control_rig import make_rig
-from pipeline.study.reproduce import dynamic_runs
-from pipeline.study.reproduce.dynamic import run
-from pipeline.study.reproduce.dynamic_cells import (
+from contactbench.pipeline.control.settings import ControlSettings, Variant
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.control_rig import make_rig
+from contactbench.pipeline.study.reproduce import dynamic_runs
+from contactbench.pipeline.study.reproduce.dynamic import run
+from contactbench.pipeline.study.reproduce.dynamic_cells import (
     IN_PLANE,
     OUT_OF_PLANE,
     START_S,
@@ -20,9 +20,9 @@ from pipeline.study.reproduce.dynamic_cells import (
     outcome_of,
     run_cell,
 )
-from pipeline.study.reproduce.dynamic_paper import TABLE_1, TABLE_2
-from pipeline.study.reproduce.dynamic_store import Store
-from pipeline.study.reproduce.dynamic_tables import order_notes
+from contactbench.pipeline.study.reproduce.dynamic_paper import TABLE_1, TABLE_2
+from contactbench.pipeline.study.reproduce.dynamic_store import Store
+from contactbench.pipeline.study.reproduce.dynamic_tables import order_notes
 
 
 @pytest.fixture(scope="module")

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.study.reproduce import filter as filtering
-from pipeline.study.reproduce import sliding
-from pipeline.study.reproduce.filter import FilterResult
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.study.reproduce import filter as filtering
+from contactbench.pipeline.study.reproduce import sliding
+from contactbench.pipeline.study.reproduce.filter import FilterResult
 
 
 @pytest.fixture(scope="module")

@@ -6,16 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pipeline.contact import Reason
-from pipeline.simulation.virtual.markers import markers
-from pipeline.study.preparation.report import Figure, Report
-from pipeline.study.reproduce import static, static_sheets
-from pipeline.study.reproduce.attribution import FINE, Attributed
-from pipeline.study.reproduce.judging import judged
-from pipeline.study.reproduce.locating import LITERAL, OURS, ProbeResult, locate_all
-from pipeline.study.reproduce.setup import draw_bench
-from pipeline.study.reproduce.statistics import distances_mm
-from pipeline.study.reproduce.touching import ANGLES, IN_PLANE, PERPENDICULAR, press_markers
+from contactbench.pipeline.contact import Reason
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.preparation.report import Figure, Report
+from contactbench.pipeline.study.reproduce import static, static_sheets
+from contactbench.pipeline.study.reproduce.attribution import FINE, Attributed
+from contactbench.pipeline.study.reproduce.judging import judged
+from contactbench.pipeline.study.reproduce.locating import LITERAL, OURS, ProbeResult, locate_all
+from contactbench.pipeline.study.reproduce.setup import draw_bench
+from contactbench.pipeline.study.reproduce.statistics import distances_mm
+from contactbench.pipeline.study.reproduce.touching import ANGLES, IN_PLANE, PERPENDICULAR, press_markers
 
 CAUSES = [
     Attributed(cause, (0.2,) * 3, (0.2,) * 3, (0.2,) * 3, (0.0,) * 3) for cause in ("none", FINE, "all")
@@ -104,7 +104,7 @@ def test_methods_are_compared_on_the_same_touches(
     monkeypatch: pytest.MonkeyPatch, probe: ProbeResult
 ) -> None:
     benches = [draw_bench(0), draw_bench(1)]
-    from pipeline.study.reproduce import locating
+    from contactbench.pipeline.study.reproduce import locating
 
     real = locating.Located.of
     calls = iter(range(1_000))

@@ -9,15 +9,22 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.contact import Reason
-from pipeline.errors import InputError
-from pipeline.simulation.virtual.markers import markers
-from pipeline.study.reproduce import attribution, static
-from pipeline.study.reproduce.locating import OURS
-from pipeline.study.reproduce.setup import draw_bench, read_touches
-from pipeline.study.reproduce.static import StaticResult
-from pipeline.study.reproduce.touching import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, held, press_markers
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.contact import Reason
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.reproduce import attribution, static
+from contactbench.pipeline.study.reproduce.locating import OURS
+from contactbench.pipeline.study.reproduce.setup import draw_bench, read_touches
+from contactbench.pipeline.study.reproduce.static import StaticResult
+from contactbench.pipeline.study.reproduce.touching import (
+    ACROSS,
+    ANGLES,
+    IN_PLANE,
+    PERPENDICULAR,
+    held,
+    press_markers,
+)
 
 
 @pytest.fixture(scope="module")
@@ -125,7 +132,7 @@ def test_the_command_ends_with_1_when_a_target_is_missed(
     result: StaticResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(static, "run", lambda *_args, **_options: result)
-    monkeypatch.setattr("pipeline.study.reproduce.judging.MOST_PERPENDICULAR_MM", 0.001)
+    monkeypatch.setattr("contactbench.pipeline.study.reproduce.judging.MOST_PERPENDICULAR_MM", 0.001)
     arguments = ["reproduce", "static", "--out", str(tmp_path / "out"), "--json"]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 1

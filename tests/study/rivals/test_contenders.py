@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from pipeline.calibration.poses import stack
-from pipeline.contact import ContactSolver, TouchModel
-from pipeline.errors import InputError
-from pipeline.simulation.weighing import draw_weighing
-from pipeline.study.reproduce.touching import model_of
-from pipeline.study.rivals import calibrators, engines, place, plane, rays
-from pipeline.study.rivals.interleave import medians
-from pipeline.study.rivals.rows import OURS, TOLD
+from contactbench.pipeline.calibration.poses import stack
+from contactbench.pipeline.contact import ContactSolver, TouchModel
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.simulation.weighing import draw_weighing
+from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.rivals import calibrators, engines, place, plane, rays
+from contactbench.pipeline.study.rivals.interleave import medians
+from contactbench.pipeline.study.rivals.rows import OURS, TOLD
 
 
 def test_plain_least_squares_find_the_truth_without_noise():

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from pipeline.study.rivals import engines, place
-from pipeline.study.rivals.rows import OURS, SURE, Contender, erred, known, missing, timed
-from pipeline.study.rivals.verdicts import duels
+from contactbench.pipeline.study.rivals import engines, place
+from contactbench.pipeline.study.rivals.rows import OURS, SURE, Contender, erred, known, missing, timed
+from contactbench.pipeline.study.rivals.verdicts import duels
 
 MM = 1e-3
 

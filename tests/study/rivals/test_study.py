@@ -5,13 +5,13 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.study.pages import make_page
-from pipeline.study.results import write_results
-from pipeline.study.rivals import place
-from pipeline.study.rivals.rows import OURS
-from pipeline.study.rivals.run import KIND, Sizes, run
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.pages import make_page
+from contactbench.pipeline.study.results import write_results
+from contactbench.pipeline.study.rivals import place
+from contactbench.pipeline.study.rivals.rows import OURS
+from contactbench.pipeline.study.rivals.run import KIND, Sizes, run
 
 pytest.importorskip("pyarrow")
 
@@ -84,7 +84,7 @@ def test_the_command_ends_with_1_when_a_rival_wins(rows, tmp_path, monkeypatch):
     won = rows + [winner(row) for row in mine if row["family"] == place.FAMILY]
     for found, code in ((rows, 0), (won, 1)):
         kept = [row for row in found if not _faster(row)]
-        monkeypatch.setattr("pipeline.study.rivals.run.run", lambda *_, kept=kept, **__: kept)
+        monkeypatch.setattr("contactbench.pipeline.study.rivals.run.run", lambda *_, kept=kept, **__: kept)
         done = CliRunner().invoke(app, ["study", "rivals", "--quick", "--out", str(tmp_path), "--json"])
         assert done.exit_code == code, done.output
         said = json.loads(done.stdout)["faster_and_more_accurate"]

@@ -8,12 +8,12 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from pipeline.contact import ContactSolver, Gates
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import builds, precision, repeat, rounding, theory
-from pipeline.study.stability.builds import SINGLE, Build, Workshop
+from contactbench.pipeline.contact import ContactSolver, Gates
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import builds, precision, repeat, rounding, theory
+from contactbench.pipeline.study.stability.builds import SINGLE, Build, Workshop
 
 needs_compiler = pytest.mark.skipif(shutil.which("g++") is None, reason="no g++")
 

@@ -9,12 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import amplification, bias, edges, exact, rounding, theory, thin, units
-from pipeline.study.stability.rows import Row, of_part
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import (
+    amplification,
+    bias,
+    edges,
+    exact,
+    rounding,
+    theory,
+    thin,
+    units,
+)
+from contactbench.pipeline.study.stability.rows import Row, of_part
 
 if TYPE_CHECKING:
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
 SAMPLES = 60
 

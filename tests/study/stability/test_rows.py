@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.study.stability.rows import PARTS, Row, of_part
-from pipeline.study.stability.verdicts import number, verdicts
+from contactbench.pipeline.study.stability.rows import PARTS, Row, of_part
+from contactbench.pipeline.study.stability.verdicts import number, verdicts
 
 ROW = Row("bias", "case", "double", "figure", "mm", 3, 1.0, 2.0, x=10.0, axis="ratio", most=2.0)
 

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.mesh.save import save_probe
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import amplification, probes, repeat, study, thin, verdicts
-from pipeline.study.stability.rows import PARTS
-from pipeline.study.stability.study import StabilityReport
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.save import save_probe
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import amplification, probes, repeat, study, thin, verdicts
+from contactbench.pipeline.study.stability.rows import PARTS
+from contactbench.pipeline.study.stability.study import StabilityReport
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +58,7 @@ def test_what_runs_elsewhere_gives_the_same_bits(report: StabilityReport) -> Non
 
 def test_the_page_is_made_from_the_results_alone(report: StabilityReport, tmp_path: Path) -> None:
     pytest.importorskip("pyarrow")
-    from pipeline.study.pages import make_page
+    from contactbench.pipeline.study.pages import make_page
 
     page = study.keep(report, tmp_path / "one")
     pictures = sorted(page.parent.glob("*.png"))

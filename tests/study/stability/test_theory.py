@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from pipeline.study import hard_meshes as hm
-from pipeline.study.stability import theory
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import theory
 
 
 @pytest.fixture

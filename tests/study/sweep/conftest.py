@@ -2,8 +2,8 @@
 
 import pytest
 
-from pipeline.study.sweep.plan import Plan
-from pipeline.study.sweep.run import run
+from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.run import run
 
 SMALL = {
     "name": "small",
@@ -27,6 +27,6 @@ def small(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def rows(small):
-    from pipeline.study.results import read_results
+    from contactbench.pipeline.study.results import read_results
 
     return list(read_results(small).rows)

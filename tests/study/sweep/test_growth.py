@@ -3,10 +3,18 @@
 import numpy as np
 import pytest
 
-from pipeline.study.sweep.compare import compare
-from pipeline.study.sweep.growth import beaten, enough_facets, front, knee, merged, power, settling
-from pipeline.study.sweep.tables import torque_table
-from pipeline.study.sweep.targets import needed_facets, on_front, over_bound, targets
+from contactbench.pipeline.study.sweep.compare import compare
+from contactbench.pipeline.study.sweep.growth import (
+    beaten,
+    enough_facets,
+    front,
+    knee,
+    merged,
+    power,
+    settling,
+)
+from contactbench.pipeline.study.sweep.tables import torque_table
+from contactbench.pipeline.study.sweep.targets import needed_facets, on_front, over_bound, targets
 
 _FACETS = (100, 300, 1_000, 3_000, 20_000)
 

@@ -4,12 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
-from pipeline.study.sweep.bodies import mesh_of, packed_mesh, unpacked_mesh
-from pipeline.study.sweep.cell import gates_for, touches_of
-from pipeline.study.sweep.judging import bound_of, judged
-from pipeline.study.sweep.noise import FILTERS, believed, deviations
-from pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
+from contactbench.pipeline.study.sweep.bodies import mesh_of, packed_mesh, unpacked_mesh
+from contactbench.pipeline.study.sweep.cell import gates_for, touches_of
+from contactbench.pipeline.study.sweep.judging import bound_of, judged
+from contactbench.pipeline.study.sweep.noise import FILTERS, believed, deviations
+from contactbench.pipeline.study.sweep.plan import Plan
 
 
 def test_the_bound_is_what_the_solver_states_on_a_fine_mesh():

@@ -7,13 +7,13 @@ import shutil
 import pytest
 from typer.testing import CliRunner
 
-from pipeline.cli import app
-from pipeline.errors import InputError
-from pipeline.study.pages import PAGE, TOGETHER, gather, make_page
-from pipeline.study.results import RESULTS, environment, read_results, write_results
-from pipeline.study.sweep.pictures import astray, draw
-from pipeline.study.sweep.presets import preset
-from pipeline.study.sweep.tables import tables
+from contactbench.pipeline.cli import app
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.pages import PAGE, TOGETHER, gather, make_page
+from contactbench.pipeline.study.results import RESULTS, environment, read_results, write_results
+from contactbench.pipeline.study.sweep.pictures import astray, draw
+from contactbench.pipeline.study.sweep.presets import preset
+from contactbench.pipeline.study.sweep.tables import tables
 
 
 @pytest.fixture
@@ -134,9 +134,9 @@ def test_the_commands_run_compare_and_page(tmp_path, small):
 @pytest.mark.parametrize(
     ("kind", "place", "name"),
     [
-        ("hard", "pipeline.study.stability_commands", "stability"),
-        ("ablation", "pipeline.study.ablation.commands", "ablation"),
-        ("rivals", "pipeline.study.rivals.commands", "rivals"),
+        ("hard", "contactbench.pipeline.study.stability_commands", "stability"),
+        ("ablation", "contactbench.pipeline.study.ablation.commands", "ablation"),
+        ("rivals", "contactbench.pipeline.study.rivals.commands", "rivals"),
     ],
 )
 def test_presets_that_are_no_sweeps_run_their_study(tmp_path, monkeypatch, kind, place, name):

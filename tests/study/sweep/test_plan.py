@@ -4,12 +4,12 @@ import shutil
 
 import pytest
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.save import save_probe
-from pipeline.study.sweep.plan import Plan, label
-from pipeline.study.sweep.presets import PRESETS, changed, preset
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.save import save_probe
+from contactbench.pipeline.study.sweep.plan import Plan, label
+from contactbench.pipeline.study.sweep.presets import PRESETS, changed, preset
 
 _GOOD = """
 methods = ["contactbench", "algorithm1"]

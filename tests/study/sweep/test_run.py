@@ -10,15 +10,15 @@ import time
 import numpy as np
 import pytest
 
-import assets
-from pipeline.errors import InputError
-from pipeline.mesh import Probe
-from pipeline.mesh.save import save_probe
-from pipeline.study.results import RESULTS, read_results
-from pipeline.study.sweep.cell import TIMES
-from pipeline.study.sweep.plan import Plan
-from pipeline.study.sweep.run import run
-from pipeline.study.sweep.store import DONE, Store
+from contactbench import assets
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.mesh.save import save_probe
+from contactbench.pipeline.study.results import RESULTS, read_results
+from contactbench.pipeline.study.sweep.cell import TIMES
+from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.run import run
+from contactbench.pipeline.study.sweep.store import DONE, Store
 
 _TINY = Plan(
     name="tiny",
@@ -87,7 +87,7 @@ def test_another_seed_gives_other_errors_and_other_noise_the_same_touches(rows):
 
 
 def _cell_error(cell):
-    from pipeline.study.sweep.cell import forget, run_cell
+    from contactbench.pipeline.study.sweep.cell import forget, run_cell
 
     try:
         return run_cell(cell, timed=False)["mean_mm"]
@@ -131,7 +131,14 @@ def test_stopped_in_the_middle_it_goes_on_and_a_torn_line_is_computed_again(tmp_
         encoding="utf-8",
     )
     out = tmp_path / "out"
-    command = [sys.executable, "-c", "from pipeline.cli import main; main()", "study", "run", str(plan)]
+    command = [
+        sys.executable,
+        "-c",
+        "from contactbench.pipeline.cli import main; main()",
+        "study",
+        "run",
+        str(plan),
+    ]
     with subprocess.Popen(
         [*command, "--workers", "1", "--out", str(out)], stderr=subprocess.DEVNULL
     ) as process:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 
-from pipeline.mesh import Probe
-from widgets.scene import Scene
+from contactbench.pipeline.mesh import Probe
+from contactbench.widgets.scene import Scene
 
 
 def box(size=(0.04, 0.03, 0.06)):

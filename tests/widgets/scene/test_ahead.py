@@ -6,8 +6,8 @@ import threading
 
 import numpy as np
 
-from widgets.scene.ahead import MANY, Ahead, crease_ends, prepare
-from widgets.scene.benchmark import ball
+from contactbench.widgets.scene.ahead import MANY, Ahead, crease_ends, prepare
+from contactbench.widgets.scene.benchmark import ball
 
 
 def test_the_creases_of_a_box_are_its_twelve_edges(make_box):
@@ -47,7 +47,9 @@ def test_only_the_newest_probe_is_handed_on(qtbot):
 
 def test_a_probe_that_is_shown_again_is_not_prepared_again(qtbot, monkeypatch):
     taken, made = [], []
-    monkeypatch.setattr("widgets.scene.ahead.prepare", lambda probe: made.append(probe) or prepare(probe))
+    monkeypatch.setattr(
+        "contactbench.widgets.scene.ahead.prepare", lambda probe: made.append(probe) or prepare(probe)
+    )
     ahead, probe = Ahead(taken.append, None), ball(2_000)
     ahead.begin(probe)
     qtbot.waitUntil(lambda: len(taken) == 1, timeout=20_000)
@@ -69,7 +71,7 @@ def test_the_end_waits_for_what_is_under_way_and_drops_the_rest(qapp, monkeypatc
         done.append(probe)
         return prepare(probe)
 
-    monkeypatch.setattr("widgets.scene.ahead.prepare", slow)
+    monkeypatch.setattr("contactbench.widgets.scene.ahead.prepare", slow)
     ahead, probes = Ahead(lambda _: None, None), (ball(500), ball(700))
     ahead.begin(probes[0])
     assert begun.wait(5)

@@ -10,7 +10,7 @@ import pytest
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QApplication
 
-from widgets.scene import Scene
+from contactbench.widgets.scene import Scene
 
 
 def fill(scene, probe):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from widgets.theme import colours
+from contactbench.widgets.theme import colours
 
 RED, GREEN = np.array([[220, 20, 20]], np.uint8), np.array([[20, 200, 20]], np.uint8)
 # The front of the box: facets 4 and 5, y = -0.015.
@@ -265,7 +265,7 @@ def test_the_next_marker_pulses_only_while_there_is_one_and_it_is_seen(bench):
 
 def test_an_overlay_is_seen_through(bench):
     probe = bench.scene.probe_layer.probe
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
     bench.scene.show_overlay(Probe.from_arrays(probe.vertices * 1.2, probe.faces))
     bench.settle()

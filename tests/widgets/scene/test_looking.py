@@ -9,7 +9,7 @@ import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QWheelEvent
 
-from widgets.scene.views import Look, Screen, looking, moved, scaled, turned
+from contactbench.widgets.scene.views import Look, Screen, looking, moved, scaled, turned
 
 FRONT = np.array([0.01, -0.015, 0.02])
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from widgets.scene import Scene
-from widgets.scene.benchmark import ball, measure
-from widgets.scene.fields import cividis, round_length, ticks
-from widgets.scene.hatching import hatch_segments
-from widgets.scene.shapes import thinned
+from contactbench.widgets.scene import Scene
+from contactbench.widgets.scene.benchmark import ball, measure
+from contactbench.widgets.scene.fields import cividis, round_length, ticks
+from contactbench.widgets.scene.hatching import hatch_segments
+from contactbench.widgets.scene.shapes import thinned
 
 
 @pytest.mark.alone

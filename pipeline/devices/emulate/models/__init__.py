@@ -1,12 +1,12 @@
 """The emulated devices, one per protocol, without their lines."""
 
-from pipeline.devices.emulate.models.bota import BotaModel, bota_frame
-from pipeline.devices.emulate.models.elfin import ElfinModel
-from pipeline.devices.emulate.models.model import Model, Quirk
-from pipeline.devices.emulate.models.rdt import RdtModel, rdt_record
-from pipeline.devices.emulate.models.robotiq import RobotiqModel, robotiq_frame
-from pipeline.devices.emulate.models.sri import SriModel, sri_frame
-from pipeline.devices.emulate.models.ur import UrModel, rtde_packet
+from contactbench.pipeline.devices.emulate.models.bota import BotaModel, bota_frame
+from contactbench.pipeline.devices.emulate.models.elfin import ElfinModel
+from contactbench.pipeline.devices.emulate.models.model import Model, Quirk
+from contactbench.pipeline.devices.emulate.models.rdt import RdtModel, rdt_record
+from contactbench.pipeline.devices.emulate.models.robotiq import RobotiqModel, robotiq_frame
+from contactbench.pipeline.devices.emulate.models.sri import SriModel, sri_frame
+from contactbench.pipeline.devices.emulate.models.ur import UrModel, rtde_packet
 
 __all__ = [
     "BotaModel",

@@ -6,14 +6,14 @@ import re
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
-from pipeline.devices.emulate.checksums import crc16_x25
-from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
-from pipeline.devices.emulate.script import Fault
+from contactbench.pipeline.devices.emulate.checksums import crc16_x25
+from contactbench.pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.emulate.script import Fault
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _TRAP = struct.unpack("<f", b"\xaa\x00\x00\xaa")[0]
 _TICK_S = 0.00001953125  # of the sinc filter

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
-from pipeline.devices.emulate.models.model import WIRE_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
+from contactbench.pipeline.devices.emulate.models.model import WIRE_FAULTS, Model, Quirk
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from pipeline.devices.emulate.signals import Moment, Reading
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading
 
 _STATE = (0, 1, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1)  # enabled, still, no error, electrified, board connected
 _POSES = ("ReadActPos", "ReadPcsActualPos", "ReadActACS")

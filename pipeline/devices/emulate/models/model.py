@@ -8,12 +8,12 @@ from collections import deque
 from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar
 
-from pipeline.devices.emulate.script import EmulatorError, Fault
+from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
 
 WIRE_FAULTS = frozenset(
     {

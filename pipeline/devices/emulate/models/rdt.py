@@ -6,14 +6,14 @@ import math
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
-from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
-from pipeline.devices.emulate.script import EmulatorError, Fault
-from pipeline.devices.url import PROFILES
+from contactbench.pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault
+from contactbench.pipeline.devices.url import PROFILES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _MAGIC, _REQUEST = 0x1234, 8
 _STOP, _START, _FILTER, _SPEED = 0x0000, 0x0002, 0x0081, 0x0082

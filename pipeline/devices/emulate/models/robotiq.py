@@ -6,13 +6,13 @@ import math
 import struct
 from typing import TYPE_CHECKING, ClassVar
 
-from pipeline.devices.emulate.checksums import crc16_modbus
-from pipeline.devices.emulate.models.model import Model, Quirk
+from contactbench.pipeline.devices.emulate.checksums import crc16_modbus
+from contactbench.pipeline.devices.emulate.models.model import Model, Quirk
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _SLAVE, _READ, _WRITE = 9, 3, 16
 _START = bytes.fromhex("09 10 01 9A 00 01 02 02 00")

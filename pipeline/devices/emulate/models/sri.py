@@ -7,13 +7,13 @@ import struct
 import zlib
 from typing import TYPE_CHECKING, ClassVar
 
-from pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
-from pipeline.devices.emulate.script import Fault
+from contactbench.pipeline.devices.emulate.models.model import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.emulate.script import Fault
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _TRAP = struct.unpack("<f", b"\xaa\x55\x00\x1b")[0]  # header and length, a float of 1e-22
 _CHANNELS = re.compile(rb"\(A01,A02,A03,A04,A05,A06\);E;1;\(WMA:\d+\)")

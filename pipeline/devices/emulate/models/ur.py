@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from pipeline.devices.emulate.arms import UR5E_TABLE, flange_pose
-from pipeline.devices.emulate.models.model import WIRE_FAULTS, Model, Quirk
-from pipeline.devices.emulate.script import EmulatorError, Fault
+from contactbench.pipeline.devices.emulate.arms import UR5E_TABLE, flange_pose
+from contactbench.pipeline.devices.emulate.models.model import WIRE_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from numpy.typing import NDArray
 
-    from pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
 
 _VERSION, _OUTPUTS, _INPUTS, _START, _PAUSE, _CONTROLLER, _DATA = (b"V", b"O", b"I", b"S", b"P", b"v", b"U")
 _SPOKEN = 2

@@ -19,7 +19,7 @@ struct Health {
     static constexpr std::uint32_t clock = 16;   // the device's clock has just leapt: the sample's time is a guess
 };
 
-// What a sensor says of a reading; the same bits as pipeline.devices.sample.Status.
+// What a sensor says of a reading; the same bits as contactbench.pipeline.devices.sample.Status.
 struct Flag {
     static constexpr std::uint32_t overrange = 1, invalid = 2, raw = 4, late = 8, error = 16, clock_leapt = 32;
 

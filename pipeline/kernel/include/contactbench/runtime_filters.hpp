@@ -1,7 +1,7 @@
 // The two filters of the runtime, sample by sample: of the wrench, and of the contact point.
 //
 // Contract
-//   same as    pipeline.filtering.KalmanFilter (each channel to the last bit) and LowPass (its starting state
+//   same as    contactbench.pipeline.filtering.KalmanFilter (each channel to the last bit) and LowPass (its starting state
 //              is solved for in another order: 1e-12).
 //   cost       no allocation after construction, nothing throws.
 #pragma once

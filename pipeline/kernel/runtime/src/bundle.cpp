@@ -81,7 +81,7 @@ std::vector<double> bonus_of(const ProbeMesh& mesh, const Config& c) {
     return bonus;
 }
 
-// Of each facet, CB_ON_*, as pipeline.contact.facet_marks has it.
+// Of each facet, CB_ON_*, as contactbench.pipeline.contact.facet_marks has it.
 std::vector<std::uint8_t> marks_of(const ProbeMesh& mesh, const Config& c) {
     std::vector<std::uint8_t> marks(mesh.region.size(), CB_ON_MEASURED);
     for (std::size_t f = 0; f < marks.size(); ++f) {

@@ -401,7 +401,7 @@ bool read_provenance(const Json& json, Config& c) {
     return f.array("stale", 0, 100).empty();
 }
 
-// What version 2 left open: as pipeline.config.runtime.migrate has it.
+// What version 2 left open: as contactbench.pipeline.config.runtime.migrate has it.
 constexpr std::string_view touch_of_old =
     R"({"torsion_arm_m":0.001,"model_error":{"force_N":[0.05,0.05,0.05],"torque_Nm":[0.001,0.001,0.001],)"
     R"("measured":false},"mesh_deviation_m":0.0,"mesh_curved":true})";

@@ -100,7 +100,7 @@ private:
         }
     }
 
-    // Half of each for what was made up in a region; as pipeline.mesh.colours has it.
+    // Half of each for what was made up in a region; as contactbench.pipeline.mesh.colours has it.
     unsigned shade(std::size_t region, bool invented, std::size_t i) const {
         if (!invented) return colours_[region][i];
         return region > 0 ? (colours_[region][i] + invented_colour[i]) / 2 : invented_colour[i];

@@ -45,7 +45,7 @@ void append(std::string& line, Vec3 v) {
     for (const double x : {v.x, v.y, v.z}) (line += ',') += repr(x);
 }
 
-// Every operation in the order of pipeline.config.runtime.planes and pipeline.mesh.probe: the same bits.
+// Every operation in the order of contactbench.pipeline.config.runtime.planes and contactbench.pipeline.mesh.probe: the same bits.
 std::string line_of(std::size_t facet, const ProbeMesh& mesh, double scale) {
     Vec3 p[3], q[3];
     for (std::size_t c = 0; c < 3; ++c) {

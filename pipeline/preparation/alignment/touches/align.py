@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.contact import WrenchNoise
-from pipeline.preparation.alignment.alignment import Alignment, Method
-from pipeline.preparation.alignment.errors import AlignmentError
-from pipeline.preparation.alignment.rigid import check_transform
-from pipeline.preparation.alignment.touches.crossval import (
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.preparation.alignment.alignment import Alignment, Method
+from contactbench.pipeline.preparation.alignment.errors import AlignmentError
+from contactbench.pipeline.preparation.alignment.rigid import check_transform
+from contactbench.pipeline.preparation.alignment.touches.crossval import (
     Advice,
     CrossValidation,
     advise,
     cross_validate,
     rms,
 )
-from pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
-from pipeline.preparation.alignment.touches.marker import MarkerTouches, put_on_mesh
-from pipeline.preparation.alignment.touches.model import TouchModel
-from pipeline.preparation.alignment.touches.solve import MountBelief
-from pipeline.preparation.alignment.touches.words import (
+from contactbench.pipeline.preparation.alignment.touches.fit import MountFit, fit_mount
+from contactbench.pipeline.preparation.alignment.touches.marker import MarkerTouches, put_on_mesh
+from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
+from contactbench.pipeline.preparation.alignment.touches.words import (
     bias_effect,
     bias_sentence,
     fit_sentences,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from pipeline.mesh import Probe
+    from contactbench.pipeline.mesh import Probe
 
     Floats = NDArray[np.float64]
 

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline import contact
-from pipeline.preparation.alignment.touches.fit import fit_mount
+from contactbench.pipeline import contact
+from contactbench.pipeline.preparation.alignment.touches.fit import fit_mount
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.mesh import Probe
-    from pipeline.preparation.alignment.touches.fit import MountFit
-    from pipeline.preparation.alignment.touches.model import TouchModel
-    from pipeline.preparation.alignment.touches.solve import MountBelief
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.preparation.alignment.touches.fit import MountFit
+    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
 

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.special import chdtrc, chdtri
 
-from pipeline.preparation.alignment.rigid import apply
-from pipeline.preparation.alignment.touches.solve import Problem, loss, minimise
+from contactbench.pipeline.preparation.alignment.rigid import apply
+from contactbench.pipeline.preparation.alignment.touches.solve import Problem, loss, minimise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
-    from pipeline.preparation.alignment.touches.model import TouchModel
-    from pipeline.preparation.alignment.touches.solve import MountBelief
+    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
 

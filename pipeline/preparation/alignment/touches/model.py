@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pipeline.preparation.alignment.rigid import across, step
+from contactbench.pipeline.preparation.alignment.rigid import across, step
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

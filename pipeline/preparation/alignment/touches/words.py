@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from pipeline.preparation.alignment.touches.fit import MountFit
-    from pipeline.preparation.alignment.touches.model import TouchModel
-    from pipeline.preparation.alignment.touches.solve import MountBelief
+    from contactbench.pipeline.preparation.alignment.touches.fit import MountFit
+    from contactbench.pipeline.preparation.alignment.touches.model import TouchModel
+    from contactbench.pipeline.preparation.alignment.touches.solve import MountBelief
 
     Floats = NDArray[np.float64]
 

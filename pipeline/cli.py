@@ -2,66 +2,156 @@
 
 Wrong input ends with exit code 2 and one red line that says what is wrong, where, and what to do; Ctrl-C
 with 130. With ``--json`` standard output carries exactly one JSON object, also for an error; everything
-meant for people goes to standard error. Whatever takes long to import is imported by the command that
-needs it, so that ``--help`` and ``--version`` answer at once.
+meant for people goes to standard error. A noun is imported when one of its commands is asked for, and whatever
+takes long to import by the command that needs it, so that ``--help`` and ``--version`` answer at once.
 """
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-from typing import Annotated, Any
+from contextlib import contextmanager
+from dataclasses import dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from typer.core import TyperGroup
 
 from contactbench import __version__
-from contactbench.pipeline.commands.bench import bench_app
-from contactbench.pipeline.commands.check import check_app
-from contactbench.pipeline.commands.config import config_app
-from contactbench.pipeline.commands.control import control_app
-from contactbench.pipeline.commands.emulate import emulate_app
-from contactbench.pipeline.commands.gravity import gravity_app
-from contactbench.pipeline.commands.heatmap import heatmap_app
-from contactbench.pipeline.commands.locate import locate_app
-from contactbench.pipeline.commands.poses import poses_app
-from contactbench.pipeline.commands.probe import probe_app
-from contactbench.pipeline.commands.record import record_app
-from contactbench.pipeline.commands.recording import recording_app
-from contactbench.pipeline.commands.region import region_app
-from contactbench.pipeline.commands.report import report_app
-from contactbench.pipeline.commands.reproduce import reproduce_app
-from contactbench.pipeline.commands.run import run_app
-from contactbench.pipeline.commands.session import session_app
-from contactbench.pipeline.commands.verify import markers_app, verify_app
-from contactbench.pipeline.console import JsonOption, print_json, report_error, say, wants_json
+from contactbench.pipeline.console import Nouns, print_json, report_error
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.commands import study_app
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _WRONG_INPUT, _INTERRUPTED = 2, 130
+_UsageError = typer.BadParameter.__bases__[0]
+_COMMANDS = "contactbench.pipeline.commands"
 
 
-class _Commands(TyperGroup):
-    """The commands, with every expected end of one turned into a sentence and an exit code."""
+@dataclass(frozen=True)
+class Entry:
+    """
+    A noun of the command line, not imported yet.
+
+    Attributes
+    ----------
+    section : str
+        Where it stands in the list.
+    place : str
+        ``module:name`` of its `Noun`.
+    text : str
+        One line about it.
+    """
+
+    section: str
+    place: str
+    text: str
+
+
+ENTRIES = {
+    "demo": Entry("Begin", f"{_COMMANDS}.demo:demo_app", "Do the whole job on simulated probes, without files"),
+    "info": Entry("Begin", f"{_COMMANDS}.info:info_app", "Show versions, the kernel in use and optional packages"),
+    "record": Entry("At the bench", f"{_COMMANDS}.record:record_app", "Record a sensor and a robot; convert recordings"),
+    "calibrate": Entry("At the bench", f"{_COMMANDS}.calibrate:calibrate_app", "Bias, weight and centre of mass"),
+    "probe": Entry("At the bench", f"{_COMMANDS}.probe:probe_app", "Make a probe of a mesh; its regions and markers"),
+    "verify": Entry("At the bench", f"{_COMMANDS}.verify:verify_app", "Judge contacts by touches of markers; report"),
+    "session": Entry("At the bench", f"{_COMMANDS}.session:session_app", "Keep everything about a probe in one folder"),
+    "locate": Entry("Use", f"{_COMMANDS}.locate:locate_app", "Locate the contact of each wrench in a file"),
+    "heatmap": Entry("Use", f"{_COMMANDS}.heatmap:heatmap_app", "Show where on the probe it was touched"),
+    "bundle": Entry("Use", f"{_COMMANDS}.bundle:bundle_app", "Export, check and compare what a robot loads"),
+    "run": Entry("Use", f"{_COMMANDS}.run:run_app", "Run a bundle on live streams"),
+    "bench": Entry("Try", f"{_COMMANDS}.bench:bench_app", "Simulated bench, devices and motion control"),
+    "study": Entry("Try", "contactbench.pipeline.study.commands:study_app", "Measure accuracy, speed and robustness"),
+}
+_SECTIONS = ("Begin", "At the bench", "Use", "Try")
+
+# Who needs a package that is not there, by the name that is imported: the extra that brings it.
+_EXTRAS = {
+    **dict.fromkeys(("PySide6", "pyvista", "pyvistaqt", "pyqtgraph", "superqt", "vtkmodules"), "gui"),
+    **dict.fromkeys(("imageio", "imageio_ffmpeg"), "video"),
+    "mujoco": "sim",
+    "weasyprint": "pdf",
+    **dict.fromkeys(("dask", "distributed", "pyarrow", "fast_simplification", "trimesh"), "study"),
+    **dict.fromkeys(("pymeshlab", "igl"), "meshlab"),
+    "embreex": "embree",
+}
+
+
+class _Commands(Nouns):
+    """The nouns, with every expected end of a command turned into a sentence and an exit code."""
+
+    def list_commands(self, ctx: Any) -> list[str]:  # noqa: ARG002
+        return list(ENTRIES)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:  # noqa: ARG002
+        if cmd_name not in ENTRIES:
+            return None
+        module, _, name = ENTRIES[cmd_name].place.partition(":")
+        command = typer.main.get_command(getattr(import_module(module), name))
+        command.name = cmd_name
+        return command
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        self.commands = dict.fromkeys(ENTRIES, self)  # what a misspelt name is compared with
+        return super().resolve_command(ctx, args)
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write a screen of 80 by 24: no blank line that is not needed."""
+        formatter.write(f"Usage: {ctx.command_path} [OPTIONS] COMMAND [ARGS]...\n\n{self.help}\n")
+        widest = max(map(len, ENTRIES))
+        for section in _SECTIONS:
+            formatter.write(f"{section}:\n")
+            for name, entry in ENTRIES.items():
+                if entry.section == section:
+                    formatter.write(f"  {name:<{widest}}  {entry.text}\n")
+        formatter.write(
+            "Options: -h, --help; --version; --install-completion, --show-completion of the shell.\n"
+            "More: contactbench COMMAND -h. A command's own options include --json and --quiet.\n"
+        )
+
+    def make_context(self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any) -> Any:
+        as_json = "--json" in args
+        with _told(as_json=as_json):
+            context = super().make_context(info_name, args, parent, **extra)
+        context.meta["contactbench.asked"] = as_json
+        return context
 
     def invoke(self, ctx: Any) -> Any:
-        try:
+        with _told(as_json=ctx.meta["contactbench.asked"]):
             return super().invoke(ctx)
-        except InputError as error:
-            report_error(str(error), as_json=wants_json(ctx))
-            raise typer.Exit(_WRONG_INPUT) from None
-        except KeyboardInterrupt:
-            report_error("interrupted: the command was stopped before its end.", as_json=wants_json(ctx))
-            raise typer.Exit(_INTERRUPTED) from None
+
+
+@contextmanager
+def _told(*, as_json: bool) -> Iterator[None]:
+    """Say what went wrong, once, in the form that was asked for; whoever prints wrong usage is typer itself."""
+    try:
+        yield
+    except InputError as error:
+        report_error(str(error), as_json=as_json)
+        raise typer.Exit(_WRONG_INPUT) from None
+    except ModuleNotFoundError as error:
+        name = (error.name or "").partition(".")[0]
+        if name not in _EXTRAS:
+            raise
+        report_error(
+            f"this needs {name}, which is not installed: run pip install 'contactbench[{_EXTRAS[name]}]'.",
+            as_json=as_json,
+        )
+        raise typer.Exit(_WRONG_INPUT) from None
+    except KeyboardInterrupt:
+        report_error("interrupted: the command was stopped before its end.", as_json=as_json)
+        raise typer.Exit(_INTERRUPTED) from None
+    except _UsageError as error:
+        if as_json:
+            print_json({"error": error.format_message()})  # type: ignore[attr-defined]
+        raise
 
 
 app = typer.Typer(
     name="contactbench",
     cls=_Commands,
-    help="Find where a medical robot's probe is touched, from one force/torque sensor, and how sure that is.",
-    epilog="Example: contactbench locate --probe probe.stl --units mm wrenches.csv --out contacts.csv",
+    help="Find where a medical robot's probe is touched, from one force/torque sensor.",
     no_args_is_help=True,
-    add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
@@ -85,153 +175,6 @@ def _options(
     ] = False,
 ) -> None:
     pass
-
-
-# ---- info --------------------------------------------------------------------------------------
-
-# Name to import, and the distributions that provide it.
-_OPTIONAL = {
-    "embreex": ("embreex",),
-    "pyvista": ("pyvista",),
-    "PySide6": ("PySide6-Essentials", "PySide6"),
-    "mujoco": ("mujoco",),
-    "pymeshlab": ("pymeshlab",),
-    "igl": ("libigl",),
-}
-
-
-@app.command(
-    help="Show versions, the compiled kernel in use, the processor, and which optional packages are there.",
-    epilog="Example: contactbench info --json",
-)
-def info(as_json: JsonOption = False) -> None:
-    """Show versions and what this machine offers."""
-    facts = _facts()
-    if as_json:
-        print_json(facts)
-        return
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(box=None, show_header=False)
-    for name, value in facts.items():
-        table.add_row(name.replace("_", " "), _plain(value))
-    Console().print(table)
-
-
-def _facts() -> dict[str, Any]:
-    import platform
-    from importlib import import_module
-    from importlib.util import find_spec
-
-    from contactbench.pipeline import kernel
-
-    optional = {
-        name: _version(*distributions) if find_spec(name) else None
-        for name, distributions in _OPTIONAL.items()
-    }
-    return {
-        "contactbench": __version__,
-        "python": platform.python_version(),
-        **{name: _version(name) for name in ("numpy", "scipy", "manifold3d")},
-        "platform": platform.platform(),
-        "cpu": _cpu_model(),
-        "cpu_count": os.cpu_count(),
-        "cpu_features": dict(import_module("contactbench.pipeline.kernel._cpu").features()),
-        "kernel": kernel.variant,
-        "compiler": kernel.compiler,
-        "optional": optional,
-    }
-
-
-def _version(*distributions: str) -> str:
-    from importlib.metadata import PackageNotFoundError, version
-
-    for name in distributions:
-        try:
-            return version(name)
-        except PackageNotFoundError:
-            continue
-    return "unknown version"
-
-
-def _cpu_model() -> str:
-    import platform
-
-    try:
-        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass  # not Linux
-    return platform.processor() or platform.machine() or "unknown"
-
-
-def _plain(value: object) -> str:
-    if isinstance(value, dict):
-        return ", ".join(f"{name} {_plain(item)}" for name, item in value.items()) or "none"
-    return {None: "absent", True: "yes", False: "no"}[value] if value in (None, True, False) else str(value)
-
-
-# ---- demo --------------------------------------------------------------------------------------
-
-
-@app.command(
-    help=(
-        "Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.\n\n"
-        "Needs no hardware and no files. Writes recordings, meshes, contacts, reports, a runtime bundle, a table of"
-        " errors and a picture. Exit code 1: the errors are larger than noise explains, a verification failed, or a"
-        " bundle is refused."
-    ),
-    epilog="Example: contactbench demo --out my-demo",
-)
-def demo(
-    out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-demo"),
-    probe: Annotated[str, typer.Option(metavar="linear|convex|t-shape|all", help="Which probe.")] = "all",
-    touches: Annotated[int, typer.Option(help="Drawn touches per probe, at least 10.")] = 1_000,
-    seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same CSV files.")] = 0,
-    as_json: JsonOption = False,
-) -> None:
-    """Do the main job on the bundled probes."""
-    from rich.console import Console
-
-    from contactbench.pipeline.demo import PROBE_NAMES, run
-
-    report = run(out, PROBE_NAMES if probe == "all" else (probe,), touches, seed, say)
-    Console(stderr=as_json).print(report.table())
-    for sentence in report.sentences():
-        say(sentence, "red" if "FAILED" in sentence else "")
-    if as_json:
-        print_json(report.to_json())
-    if not report.verified:
-        raise typer.Exit(1)
-
-
-# ---- more commands -----------------------------------------------------------------------------
-
-# Their modules take options and output from contactbench.pipeline.console and contactbench.pipeline.commands,
-# never from this one, and
-# import nothing heavy at their top.
-app.add_typer(locate_app)
-app.add_typer(heatmap_app)
-app.add_typer(report_app)
-app.add_typer(gravity_app)
-app.add_typer(poses_app)
-app.add_typer(probe_app, name="probe")
-app.add_typer(region_app, name="region")
-app.add_typer(emulate_app)
-app.add_typer(bench_app, name="bench")
-app.add_typer(record_app)
-app.add_typer(recording_app, name="recording")
-app.add_typer(session_app, name="session")
-app.add_typer(verify_app)
-app.add_typer(markers_app, name="markers")
-app.add_typer(check_app, name="check")
-app.add_typer(config_app, name="config")
-app.add_typer(run_app)
-app.add_typer(control_app, name="control")
-app.add_typer(study_app, name="study")
-app.add_typer(reproduce_app, name="reproduce")
 
 
 if __name__ == "__main__":

@@ -1,17 +1,21 @@
-"""What every command shares: sentences on standard error, one JSON object on standard output, progress."""
+"""What every command shares: how a command is declared, sentences on standard error, one JSON object, progress."""
 
 from __future__ import annotations
 
+import inspect
 import json
 import sys
 import time
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, Annotated, Any
+from dataclasses import MISSING, fields, is_dataclass
+from functools import wraps
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
+from typer.core import TyperCommand, TyperGroup
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterable, Mapping
     from types import TracebackType
 
     from rich.table import Table
@@ -19,14 +23,25 @@ if TYPE_CHECKING:
 _JSON = "contactbench.json"
 _PATIENCE_S = 0.5
 _CONTROLS = {code: "\N{REPLACEMENT CHARACTER}" for code in (*range(0x20), *range(0x7F, 0xA0)) if code != 0x0A}
+_LOUD = ("red", "yellow")  # what --quiet leaves: errors and warnings
 
 
 _running: ContextVar[typer.Context] = ContextVar("running")
+_quiet: set[bool] = (
+    set()
+)  # holds True while a quiet command runs: of the process, for streams speak from threads
 
 
 def _remember(ctx: typer.Context, value: bool) -> bool:
     ctx.meta[_JSON] = value  # shared by all levels of commands
     _running.set(ctx)
+    return value
+
+
+def _hush(ctx: typer.Context, value: bool) -> bool:
+    if value and not ctx.resilient_parsing:
+        _quiet.add(True)
+        ctx.call_on_close(_quiet.clear)
     return value
 
 
@@ -36,6 +51,120 @@ JsonOption = Annotated[
         "--json", help="Print one JSON object on standard output.", callback=_remember, is_eager=True
     ),
 ]
+QuietOption = Annotated[
+    bool,
+    typer.Option("--quiet", "-q", help="Say only warnings and errors.", callback=_hush, is_eager=True),
+]
+
+
+# ---- commands ----------------------------------------------------------------------------------
+
+
+class _Leaf(TyperCommand):
+    """A command whose examples stay on one line each, to be copied."""
+
+    def format_epilog(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002
+        """Write the examples."""
+        for line in (self.epilog or "").splitlines():
+            formatter.write(f"\n  {line}\n")
+
+
+class Nouns(TyperGroup):
+    """Commands, listed with the whole first paragraph of their help."""
+
+    format_epilog = _Leaf.format_epilog
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the list."""
+        commands = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, summary(each)) for name, each in commands if not each.hidden])
+
+
+def summary(command: Any) -> str:
+    """Return the first paragraph of a command's help, uncut."""
+    text = inspect.cleandoc(command.help or "").partition("\n\n")[0]
+    return " ".join(text.split()).removesuffix(".")
+
+
+class Noun(typer.Typer):
+    """
+    Commands about one thing: their help is their docstring, and each has ``--json``, ``--quiet`` and an example.
+
+    A parameter of a command that is a dataclass becomes the options that its fields declare.
+
+    Parameters
+    ----------
+    text : str
+        Help of the group; without it, the noun is its only command.
+    """
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(
+            cls=Nouns, help=text, no_args_is_help=True, add_completion=False, rich_markup_mode=None
+        )
+        if text:
+            self.callback()(_nothing)  # one command alone is still a command of the group
+
+    def command(  # type: ignore[override]
+        self, name: str | None = None, *, example: str | tuple[str, ...], as_json: bool = True
+    ) -> Callable[[Callable[..., None]], Callable[..., None]]:
+        """Add a command; without `as_json` it has no ``--json``."""
+        examples = (example,) if isinstance(example, str) else example
+
+        def add(function: Callable[..., None]) -> Callable[..., None]:
+            epilog = "\n".join(f"Example: contactbench {each}" for each in examples)
+            super(Noun, self).command(name, cls=_Leaf, epilog=epilog)(flat(function, as_json=as_json))
+            return function
+
+        return add
+
+
+def _nothing() -> None:
+    pass
+
+
+def flat(function: Callable[..., None], *, as_json: bool = True) -> Callable[..., None]:
+    """Return a command whose options are its own, those of its dataclasses, and the common ones."""
+    parameters: list[inspect.Parameter] = []
+    models: dict[str, tuple[Any, list[str]]] = {}
+    for parameter in inspect.signature(function, eval_str=True).parameters.values():
+        model = parameter.annotation
+        if not is_dataclass(model):
+            parameters.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
+            continue
+        hints = get_type_hints(model, include_extras=True)
+        given = fields(model)
+        models[parameter.name] = model, [each.name for each in given]
+        for each in given:
+            default = inspect.Parameter.empty if each.default is MISSING else each.default
+            parameters.append(
+                inspect.Parameter(
+                    each.name, parameter.KEYWORD_ONLY, default=default, annotation=hints[each.name]
+                )
+            )
+    common = {"as_json": JsonOption, "quiet": QuietOption} if as_json else {"quiet": QuietOption}
+    own = {parameter.name for parameter in parameters}
+    parameters += [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=False, annotation=option)
+        for name, option in common.items()
+        if name not in own
+    ]
+
+    @wraps(function)
+    def command(**given: Any) -> None:
+        for name in common:
+            if name not in own:
+                given.pop(name)
+        made = {
+            name: model(**{each: given.pop(each) for each in names})
+            for name, (model, names) in models.items()
+        }
+        function(**given, **made)
+
+    command.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    return command
 
 
 def wants_json(ctx: Any) -> bool:
@@ -49,19 +178,41 @@ def running_command() -> tuple[str, Mapping[str, Any]]:
     return context.info_name or "", context.params
 
 
+# ---- output ------------------------------------------------------------------------------------
+
+
 def print_json(value: Mapping[str, Any]) -> None:
     """Write one JSON object on standard output."""
     typer.echo(json.dumps(value, allow_nan=False))
 
 
+def as_json() -> bool:
+    """Tell whether the command that runs was given ``--json``; only for commands that have it."""
+    return wants_json(_running.get())
+
+
+def answer(value: Mapping[str, Any]) -> None:
+    """Write what came of the command that runs, if it was given ``--json``."""
+    if as_json():
+        print_json(value)
+
+
 def say(text: str, style: str = "") -> None:
-    """Write one line on standard error, styled where that is a terminal."""
+    """Write one line on standard error, styled where that is a terminal; ``--quiet`` leaves red and yellow ones."""
+    if _quiet and style not in _LOUD:
+        return
     from rich.console import Console
     from rich.text import Text
 
     # File names need be neither printable nor UTF-8.
     line = " ".join(text.encode("utf-8", "replace").decode().splitlines())
     Console(stderr=True).print(Text(printable(line), style=style), soft_wrap=True)
+
+
+def warn(sentences: Iterable[str]) -> None:
+    """Write warnings."""
+    for sentence in sentences:
+        say(f"warning: {sentence}", "yellow")
 
 
 def printable(text: str) -> str:
@@ -71,6 +222,8 @@ def printable(text: str) -> str:
 
 def show_tables(*tables: Table) -> None:
     """Write tables on standard error, as wide as they are: a number cut short by a narrow terminal is wrong."""
+    if _quiet:
+        return
     from rich.console import Console
 
     console = Console(stderr=True)
@@ -112,7 +265,7 @@ class Bar:
     def __call__(self, done: int, total: int) -> None:
         """Show that `done` of `total` bytes or steps are through; a total of 0 is unknown."""
         late = time.perf_counter() - self._begin > _PATIENCE_S
-        if self._progress is None and late and sys.stderr.isatty():
+        if self._progress is None and late and not _quiet and sys.stderr.isatty():
             self._start(total)
         if self._progress is not None:
             self._progress.update(self._task, completed=done)

@@ -7,11 +7,16 @@ import sys
 import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
-
 import typer
-
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import Noun, answer, as_json, JsonOption, print_json, say
 from contactbench.pipeline.errors import InputError
+import signal
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+import typer
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -19,12 +24,14 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
+    from collections.abc import Iterator
+    from types import FrameType
 
-bench_app = typer.Typer(
-    no_args_is_help=True,
-    rich_markup_mode=None,
-    help="The virtual bench: a probe on a wrist, read by a sensor, without hardware.",
-)
+    from contactbench.pipeline.devices.emulate import Emulator
+    from contactbench.pipeline.devices.emulate.signals import Six
+
+
+bench_app = Noun("The virtual bench: a probe on a wrist, read by a sensor, without hardware.")
 
 _LOOK_S = 0.1
 
@@ -35,16 +42,7 @@ SeedOption = Annotated[int, typer.Option(help="Of the sensor's noise.")]
 RateOption = Annotated[float, typer.Option(help="Wrenches per second, up to 1000.")]
 
 
-@bench_app.command(
-    help=(
-        "Run a script from beginning to end, as fast as it goes, and record wrenches and poses.\n\n"
-        'SCRIPT has a command a line: {"at": 2, "do": "touch", "marker": 3, "force": 9, "seconds": 1}. at is in'
-        " seconds of the bench; after instead: seconds after the command above was over. do is turn_to (rpy or"
-        " R_WS, seconds), touch (marker from 1 or point_S, force, tilt, azimuth, torsion, seconds), release, bump"
-        " (force, seconds, lever), warm (kelvin), rezero, end. The same seed gives the same bytes."
-    ),
-    epilog="Example: contactbench bench run bench.jsonl --out bench.mcap --truth truth.csv",
-)
+@bench_app.command(example="bench run bench.jsonl --out bench.mcap --truth truth.csv")
 def run(
     script: Annotated[Path, typer.Argument(metavar="SCRIPT", help="Timed commands.")],
     out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
@@ -56,9 +54,16 @@ def run(
     sensor: SensorOption = "paper",
     seed: SeedOption = 0,
     rate: RateOption = 200.0,
-    as_json: JsonOption = False,
 ) -> None:
-    """Run a script on the virtual bench."""
+    """Run a script on the virtual bench.
+
+    Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
+
+    SCRIPT has a command a line: {"at": 2, "do": "touch", "marker": 3, "force": 9, "seconds": 1}. at is in
+    seconds of the bench; after instead: seconds after the command above was over. do is turn_to (rpy or
+    R_WS, seconds), touch (marker from 1 or point_S, force, tilt, azimuth, torsion, seconds), release,
+    bump (force, seconds, lever), warm (kelvin), rezero, end. The same seed gives the same bytes.
+    """
     from contactbench.pipeline.simulation.virtual.run import run_script
     from contactbench.pipeline.simulation.virtual.slips import SLIPPED_S
 
@@ -74,29 +79,20 @@ def run(
             " off. Touch elsewhere, or with less tilt.",
             "yellow",
         )
-    if as_json:
-        print_json(
-            {
-                "out": str(out),
-                "truth": None if truth is None else str(truth),
-                "seconds": ran.seconds,
-                "wrenches": ran.wrenches,
-                "flanges": ran.flanges,
-                "commands": ran.commands,
-                "slipped": [slip.touch.time for slip in ran.slips],
-            }
-        )
+    answer(
+        {
+            "out": str(out),
+            "truth": None if truth is None else str(truth),
+            "seconds": ran.seconds,
+            "wrenches": ran.wrenches,
+            "flanges": ran.flanges,
+            "commands": ran.commands,
+            "slipped": [slip.touch.time for slip in ran.slips],
+        }
+    )
 
 
-@bench_app.command(
-    help=(
-        "Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.\n\n"
-        "The first line of standard output is a JSON object with the two addresses. Commands come on standard"
-        ' input, one JSON object a line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};'
-        " each is answered by one line with the bench's time at which it took effect, or with the error."
-    ),
-    epilog="Example: contactbench bench serve --probe t-shape --sensor paper --pty",
-)
+@bench_app.command(example="bench serve --probe t-shape --sensor paper --pty")
 def serve(
     probe: ProbeOption = "t-shape",
     mesh: MeshOption = None,
@@ -110,7 +106,14 @@ def serve(
     ] = None,
     elfin_port: Annotated[int, typer.Option(help="Of the robot; 0 is any free one.")] = 0,
 ) -> None:
-    """Serve the virtual bench on real lines."""
+    """Serve the virtual bench on real lines.
+
+    Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.
+
+    The first line of standard output is a JSON object with the two addresses. Commands come on standard
+    input, one JSON object a line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};
+    each is answered by one line with the bench's time at which it took effect, or with the error.
+    """
     if pty and sri_port is not None:
         raise typer.BadParameter("--pty and --sri-port contradict each other: give one.")
     from contactbench.pipeline.simulation.virtual.serve import ServedBench
@@ -119,7 +122,7 @@ def serve(
     before = signal.signal(signal.SIGTERM, _interrupt)
     try:
         with ServedBench(bench, pty=pty, sensor_port=sri_port or 0, robot_port=elfin_port) as served:
-            _run(served)
+            _serve(served)
     finally:
         signal.signal(signal.SIGTERM, before)
     for sentence in served.findings():
@@ -171,7 +174,7 @@ def _bench(where: DeviceAddress) -> VirtualBench:
     return bench_at(where)
 
 
-def _run(served: ServedBench) -> None:
+def _serve(served: ServedBench) -> None:
     """Say the addresses, and obey until the script, the devices or somebody ends it."""
     try:
         print_json({"sensor": served.sensor.url, "robot": served.robot.url})
@@ -204,6 +207,110 @@ def _obey(served: ServedBench) -> None:
 def _interrupt(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
     raise KeyboardInterrupt
 
+_EMULATED_LOOK_S = 0.1  # how long an end may go unnoticed
+# A closed terminal ends it too: a pseudo-terminal's folder would stay behind. Not all systems have SIGHUP.
+_ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
-if __name__ == "__main__":
-    bench_app()
+
+@bench_app.command(example="emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
+def emulate(
+    device: Annotated[str, typer.Argument(metavar="DEVICE", help="What to emulate.")],
+    pty: Annotated[bool, typer.Option("--pty", help="On a pseudo-terminal.")] = False,
+    port: Annotated[
+        int | None, typer.Option(help="On this port of the loopback interface; 0 is any free one.")
+    ] = None,
+    rate: Annotated[float | None, typer.Option(help="Frames per second until a command changes it.")] = None,
+    fault: Annotated[list[str] | None, typer.Option(metavar="FAULT", help="May be repeated.")] = None,
+    seconds: Annotated[float | None, typer.Option(help="How long to run.")] = None,
+    profile: Annotated[str, typer.Option(help="Of rdt: ati or onrobot.")] = "ati",
+    still: Annotated[bool, typer.Option("--still", help="A constant signal, not one that swings.")] = False,
+    quirk: Annotated[list[str] | None, typer.Option(metavar="QUIRK", help="May be repeated.")] = None,
+    tool: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y,Z,RX,RY,RZ", help="Of ur: the tool in the flange frame, m and rad."),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Of chance in the faults.")] = 0,
+) -> None:
+    """Emulate a device.
+
+    Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur.
+
+    Prints the address to connect to, and runs until Ctrl-C. Faults are NAME@START+DURATION in seconds
+    after the first frame, some with xSIZE: split, merged, garbage, bad-checksum, header, stall,
+    disconnect, reconnect, wrong-rate, clock-jump, saturation, stuck, drift, rezero.
+
+    Quirks are what some devices of a kind do: older (sri, elfin, ur), crc32-only, crc32-silently,
+    answers-start (sri), forgiving (sri, robotiq: no pause is needed between commands).
+    """
+    if pty and port is not None:
+        raise typer.BadParameter("--pty and --port contradict each other: give one.")
+    if seconds is not None and not 0 < seconds < 1e9:
+        raise typer.BadParameter(f"--seconds {seconds}: give a positive number.")
+    from contactbench.pipeline.devices.emulate import FaultEvent, Script, emulator, swinging
+
+    script = Script([FaultEvent.parse(text) for text in fault or ()])
+    carrier = "serial" if pty else ("tcp" if port is not None and device != "rdt" else None)
+    with _ended() as ended:  # before there is anything to clear away, until it is
+        made = emulator(
+            device,
+            carrier,
+            port=port or 0,
+            rate=rate,
+            script=script,
+            seed=seed,
+            profile=profile,
+            signal=None if still else swinging(device),
+            quirks=quirk or (),
+            tool=_six(tool),
+            log=0,
+        )
+        with made:
+            _emulate(made, ended, seconds)
+    taken, refused = made.counts, made.model.refused_count
+    late = f", {taken['skipped']} skipped" if taken["skipped"] else ""
+    say(f"{taken['intact']} frames sent whole, {taken['not intact']} not{late}; {refused} commands refused.")
+
+
+@dataclass
+class _Ended:
+    """Whether somebody has ended it: a flag, since an exception could come in the middle of the clearing away."""
+
+    by_signal: bool = False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:  # noqa: ARG002
+        """Take a signal."""
+        self.by_signal = True
+
+
+@contextmanager
+def _ended() -> Iterator[_Ended]:
+    """Take the signals that end a process, but for those that whoever started it has had ignored, as nohup does."""
+    ended = _Ended()
+    heard = [number for number in _ENDS if signal.getsignal(number) is not signal.SIG_IGN]
+    before = {number: signal.signal(number, ended) for number in heard}
+    try:
+        yield ended
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _emulate(device: Emulator, ended: _Ended, seconds: float | None) -> None:
+    """Say the address, and sleep until the time is up or somebody ends it; both are the expected end."""
+    end = None if seconds is None else time.monotonic() + seconds
+    if as_json():
+        print_json({"url": device.url})
+    else:
+        typer.echo(device.url)
+    while not ended.by_signal and device.failure is None and (end is None or time.monotonic() < end):
+        time.sleep(_EMULATED_LOOK_S if end is None else max(0.0, min(_EMULATED_LOOK_S, end - time.monotonic())))
+
+
+def _six(text: str | None) -> Six | None:
+    if text is None:
+        return None
+    try:
+        x, y, z, rx, ry, rz = map(float, text.split(","))
+    except ValueError as error:
+        raise typer.BadParameter(f"--tool {text}: give six numbers with commas between them.") from error
+    return x, y, z, rx, ry, rz

@@ -18,7 +18,7 @@ from contactbench.pipeline.commands.options import (
     numbers,
     refuse_overwriting,
 )
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,13 +26,7 @@ if TYPE_CHECKING:
 _NOT_PASSED = 1
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
 
-check_app = typer.Typer(
-    help="Check a calibration against a known weight and a known point: what its own residuals cannot show.",
-    epilog="Example: contactbench check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv"
-    " --mass 1.0",
-    no_args_is_help=True,
-    rich_markup_mode=None,
-)
+check_app = Noun("Check a calibration against a known weight and a known point: what its own residuals cannot show.")
 
 CalibrationOption = Annotated[Path, typer.Option(help="What contactbench calibrate wrote.")]
 OutOption = Annotated[
@@ -42,15 +36,10 @@ OutOption = Annotated[
 
 
 @check_app.command(
-    help=(
-        "Hang a known weight on the tool, and compare it with what the sensor reads.\n\n"
-        "UNLOADED and LOADED are still readings without the weight and with it: recordings, or tables of poses as for"
-        " calibrate. Take both in the same orientation; more orientations test more channels. This finds forces in kgf,"
-        " lbf or mN, a wrong scale or sign, swapped channels, and torques in N·mm.\n\n"
-        "Exit code 1: the weight is not what it should be, or the uncertainty is too large to tell."
+    example=(
+        "check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv --mass 1.0 "
+        "--mass-sigma 0.0005 --certificate DKD-1234 --out known_weight.json"
     ),
-    epilog="Example: contactbench check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv"
-    " --mass 1.0 --mass-sigma 0.0005 --certificate DKD-1234 --out known_weight.json",
 )
 def weight(
     calibration: CalibrationOption,
@@ -75,9 +64,17 @@ def weight(
     robot: RobotOption = None,
     mount: MountOption = None,
     out: OutOption = None,
-    as_json: JsonOption = False,
 ) -> None:
-    """Compare a known weight with what the sensor reads."""
+    """Compare a known weight with what the sensor reads.
+
+    Hang a known weight on the tool, and compare it with what the sensor reads.
+
+    UNLOADED and LOADED are still readings without the weight and with it: recordings, or tables of poses
+    as for calibrate. Take both in the same orientation; more orientations test more channels. This finds
+    forces in kgf, lbf or mN, a wrong scale or sign, swapped channels, and torques in N·mm.
+
+    Exit code 1: the weight is not what it should be, or the uncertainty is too large to tell.
+    """
     inputs = {"calibration": calibration, "unloaded": unloaded, "loaded": loaded}
     refuse_overwriting(out, list(inputs.values()))
     convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
@@ -95,20 +92,14 @@ def weight(
             **_orientations(euler, rotation_vector, robot, mount, radians=radians, inverse=inverse),
         }
     )
-    _finish(weight_content(inputs, given, _now()), out, as_json=as_json)
+    _finish(weight_content(inputs, given, _now()), out)
 
 
 @check_app.command(
-    help=(
-        "Press one known point of the probe, and compare it with where the contact is located.\n\n"
-        "RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw"
-        " readings) and orientations; every steady press in it is taken to be of the point. Press with a finger, 5 to"
-        " 15 N, on the side of the probe, 15 mm or more off the sensor's axis. This finds torques of the wrong sign or"
-        " unit, forces in kgf, and a probe that is turned on the sensor.\n\n"
-        "Exit code 1: the contact is elsewhere, or the press cannot tell."
+    example=(
+        "check touch --probe probe.ply --calibration calibration.json --point 20,0,185 press.mcap --out "
+        "known_touch.json"
     ),
-    epilog="Example: contactbench check touch --probe probe.ply --calibration calibration.json --point 20,0,185"
-    " press.mcap --out known_touch.json",
 )
 def touch(
     recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="The press: .mcap or .csv.")],
@@ -130,9 +121,18 @@ def touch(
     inverse: InverseOption = False,
     mount: MountOption = None,
     out: OutOption = None,
-    as_json: JsonOption = False,
 ) -> None:
-    """Compare a known point with where a press on it is located."""
+    """Compare a known point with where a press on it is located.
+
+    Press one known point of the probe, and compare it with where the contact is located.
+
+    RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw
+    readings) and orientations; every steady press in it is taken to be of the point. Press with a finger,
+    5 to 15 N, on the side of the probe, 15 mm or more off the sensor's axis. This finds torques of the
+    wrong sign or unit, forces in kgf, and a probe that is turned on the sensor.
+
+    Exit code 1: the contact is elsewhere, or the press cannot tell.
+    """
     inputs = {"calibration": calibration, "probe": probe, "touch": recording}
     refuse_overwriting(out, list(inputs.values()))
     convention(euler, rotation_vector, None, radians=radians, inverse=inverse)
@@ -147,7 +147,7 @@ def touch(
             **_orientations(euler, rotation_vector, None, mount, radians=radians, inverse=inverse),
         }
     )
-    _finish(touch_content(inputs, given, _now()), out, as_json=as_json)
+    _finish(touch_content(inputs, given, _now()), out)
 
 
 def _point(point: str | None, markers: Path | None, marker: str | None) -> list[float]:
@@ -193,7 +193,7 @@ def _now() -> str:
     return creation_time().strftime("%Y-%m-%dT%H:%M:%SZ")
 
 
-def _finish(content: Mapping[str, Any], out: Path | None, *, as_json: bool) -> None:
+def _finish(content: Mapping[str, Any], out: Path | None) -> None:
     """Write, show, and end with the exit code."""
     from contactbench.pipeline.durable import write_durably
     from contactbench.pipeline.errors import InputError
@@ -207,7 +207,6 @@ def _finish(content: Mapping[str, Any], out: Path | None, *, as_json: bool) -> N
     for sentence in content["warnings"]:
         say(f"warning: {sentence}", "yellow")
     say(f"{content['outcome'].upper()}: {content['sentence']}", _STYLES[content["outcome"]])
-    if as_json:
-        print_json({**content, "out": None if out is None else str(out)})
+    answer({**content, "out": None if out is None else str(out)})
     if not content["passed"]:
         raise typer.Exit(_NOT_PASSED)

@@ -1,17 +1,20 @@
-"""``contactbench control ...``: gains for a probe, and the closed loop of a bundle on a virtual robot."""
+"""Frames of a closed loop on standard output, for who watches it from another process."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+import typer
+from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-
 import typer
-
 from contactbench.pipeline.commands.options import MountOption, numbers
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import Noun, answer, as_json, Bar, JsonOption, print_json, say, show_tables
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
+    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.loop import Loop
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -21,12 +24,43 @@ if TYPE_CHECKING:
     from contactbench.pipeline.control.trace import Trace
     from contactbench.pipeline.simulation.scenes import PlatformMotion
 
-control_app = typer.Typer(
-    help="Motion control by touch, in simulation: tune it for a probe, run a bundle on a virtual robot.",
-    epilog="Example: contactbench control run runtime.zip --robot virtual://arm --motion in-plane --period 5",
-    no_args_is_help=True,
-    rich_markup_mode=None,
-)
+
+
+class Frames:
+    """
+    Writes them, until nobody reads them any more.
+
+    Parameters
+    ----------
+    robot : str
+        Its address.
+    """
+
+    def __init__(self, robot: str) -> None:
+        self._robot = robot
+        self._begun = self._gone = False
+
+    def take(self, command: Command, loop: Loop) -> bool:
+        """Write a period; returns whether somebody still reads."""
+        if not self._begun:
+            self._begun = True
+            self._write(line_of(BEGIN, beginning_of(loop, self._robot)))
+        if not self._gone:
+            self._write(line_of(FRAME, frame_of(command, loop)))
+        return not self._gone
+
+    def end(self, facts: dict[str, Any]) -> None:
+        """Write what came of it."""
+        if not self._gone:
+            self._write(line_of(END, facts))
+
+    def _write(self, line: str) -> None:
+        try:
+            typer.echo(line, nl=False)
+        except OSError:
+            self._gone = True
+
+control_app = Noun("Motion control by touch, in simulation: tune it for a probe, run a bundle on a virtual robot.")
 
 _NOT_GOOD_ENOUGH = 1
 _BEGIN_S = 4.0  # by then it tracks
@@ -59,16 +93,7 @@ def _variant_of(text: str) -> Variant:
     return chosen[0]
 
 
-@control_app.command(
-    help=(
-        "Choose gains for a probe: the highest that leave wanted margins on tissue from five times softer to five times"
-        " stiffer.\n\n"
-        "The loop that is looked at has the averaged readings, the delay of a period, the servo's path, and the"
-        " controller that runs; the gains are then tried in simulation. Writes gains.json for config export"
-        " --settings, tables and a plot of the margins. Exit code 1: a trial in simulation swung, or lost the tissue."
-    ),
-    epilog="Example: contactbench control tune --probe convex --stiffness 2000 --out gains",
-)
+@control_app.command(example="control tune --probe convex --stiffness 2000 --out gains")
 def tune(
     probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
     stiffness: Annotated[
@@ -82,9 +107,17 @@ def tune(
     spread: Annotated[float, typer.Option(help="How many times softer or stiffer tissue may be.")] = 5.0,
     seed: Annotated[int, typer.Option(help="Of load, calibration and noise of the trials.")] = 0,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("control-gains"),
-    as_json: JsonOption = False,
 ) -> None:
-    """Choose gains."""
+    """Choose gains.
+
+    Choose gains for a probe: the highest that leave wanted margins on tissue from five times softer to
+    five times stiffer.
+
+    The loop that is looked at has the averaged readings, the delay of a period, the servo's path, and the
+    controller that runs; the gains are then tried in simulation. Writes gains.json for config export
+    --settings, tables and a plot of the margins. Exit code 1: a trial in simulation swung, or lost the
+    tissue.
+    """
     import math
 
     from contactbench.pipeline.control.tuning import Wanted
@@ -103,7 +136,7 @@ def tune(
             progress=bar,
         )
     result.write(out)
-    if as_json:
+    if as_json():
         print_json(result.to_json())
     else:
         show_tables(*(sheet.table() for sheet in result.sheets), result.report.table())
@@ -113,14 +146,9 @@ def tune(
 
 
 @control_app.command(
-    help=(
-        "Load a bundle and run its controller on a virtual robot over a phantom that moves: approach, contact, track,"
-        " and back at the end.\n\n"
-        "Everything comes from the bundle: probe, calibration, noise, gates, gains, limits. Motion is never sent to a"
-        " real robot. Ctrl-C has it go back and end. Exit code 1: the force passed the limit, it gave up by itself, or"
-        " did not end in a safe state; 2: the bundle or the robot is refused."
+    example=(
+        "control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv"
     ),
-    epilog="Example: contactbench control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv",
 )
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
@@ -153,9 +181,16 @@ def run(
         typer.Option("--frames", help="Each period as a line of JSON on standard output, as it happens."),
     ] = False,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the course.")] = None,
-    as_json: JsonOption = False,
 ) -> None:
-    """Run a bundle's controller on a virtual robot."""
+    """Run a bundle's controller on a virtual robot.
+
+    Load a bundle and run its controller on a virtual robot over a phantom that moves: approach, contact,
+    track, and back at the end.
+
+    Everything comes from the bundle: probe, calibration, noise, gates, gains, limits. Motion is never
+    sent to a real robot. Ctrl-C has it go back and end. Exit code 1: the force passed the limit, it gave
+    up by itself, or did not end in a safe state; 2: the bundle or the robot is refused.
+    """
     from contactbench.pipeline.commands.control_frames import Frames
     from contactbench.pipeline.commands.record import ended_by_signals
     from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -168,7 +203,7 @@ def run(
     check_address(robot)
     if not 1 <= seconds <= 3000:
         raise InputError(f"--seconds {seconds:g}: give 1 to 3000.")
-    if frames and as_json:
+    if frames and as_json():
         raise InputError("--frames --json: the last of the frames is what --json prints: give one of them.")
     chosen = None if variant is None else _variant_of(variant)
     config = RuntimeConfig.load(bundle)
@@ -209,8 +244,7 @@ def run(
     _tell(facts)
     if show is not None:
         show.end(facts)
-    if as_json:
-        print_json(facts)
+    answer(facts)
     if facts["faults"]:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 

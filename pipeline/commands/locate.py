@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import numbers
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.console import Noun, answer, as_json, Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact.stream import LocateSummary, Locator
     from contactbench.pipeline.mesh import Probe
 
-locate_app = typer.Typer(rich_markup_mode=None)
+locate_app = Noun()
 
 
 class Units(StrEnum):
@@ -48,18 +48,8 @@ _UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch:
 
 
 @locate_app.command(
-    help=(
-        "Locate the contact of each wrench in a CSV file.\n\n"
-        "WRENCHES has the columns t,fx,fy,fz,mx,my,mz (s, N, N·m about the sensor origin, sensor frame S) in"
-        " any order, compensated for weight and offset; - is standard input. The output has"
-        " t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on (m, N·m, frame S; misfit in standard"
-        " deviations squared; on: measured, or invented where the mesh file had an opening, or untouchable) and is"
-        " written as a whole or not at all.\n\n"
-        "Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named."
-    ),
-    epilog=(
-        "Example: contactbench locate --probe probe.stl --units mm --mount 0,0,45,0,0,90 wrenches.csv"
-        " --out contacts.csv"
+    example=(
+        "locate --probe probe.stl --units mm --mount 0,0,45,0,0,90 wrenches.csv --out contacts.csv"
     ),
 )
 def locate(
@@ -131,10 +121,18 @@ def locate(
     allow_nan: Annotated[
         bool, typer.Option("--allow-nan", help="Answer NaN, infinity and empty cells with not_finite.")
     ] = False,
-    as_json: JsonOption = False,
 ) -> None:
-    """Locate the contact of each wrench in a CSV file."""
-    _check_usage(out, method, track, as_json)
+    """Locate the contact of each wrench in a CSV file.
+
+    WRENCHES has the columns t,fx,fy,fz,mx,my,mz (s, N, N·m about the sensor origin, sensor frame S) in
+    any order, compensated for weight and offset; - is standard input. The output has
+    t,x,y,z,k,face,reason,candidates,sigma_max_mm,misfit,confidence,on (m, N·m, frame S; misfit in
+    standard deviations squared; on: measured, or invented where the mesh file had an opening, or
+    untouchable) and is written as a whole or not at all.
+
+    Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named.
+    """
+    _check_usage(out, method, track)
     placed = None if mount is None else numbers(mount, 6, "--mount")
     limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
     from contactbench.pipeline.contact import Gates, WrenchNoise
@@ -172,16 +170,15 @@ def locate(
     for sentence in summary.warnings:
         say(f"warning: {sentence}", "yellow")
     _show(summary)
-    if as_json:
-        print_json({"out": str(out), **summary.facts(), "warnings": [*warnings, *summary.warnings]})
+    answer({"out": str(out), **summary.facts(), "warnings": [*warnings, *summary.warnings]})
     if summary.plausibility is not None:
         raise typer.Exit(1)
 
 
-def _check_usage(out: Path, method: MethodName, track: bool, as_json: bool) -> None:
+def _check_usage(out: Path, method: MethodName, track: bool) -> None:
     if track and method is not MethodName.contactbench:
         raise typer.BadParameter(f"--track works with --method contactbench only, not with {method.value}.")
-    if as_json and out == Path("-"):
+    if as_json() and out == Path("-"):
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
 
 

@@ -1,56 +1,483 @@
-"""``contactbench probe``: from whatever mesh file there is to a probe ready for contact sensing."""
+"""What the ``probe`` commands share: their options, and what those mean."""
 
 from __future__ import annotations
 
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+import typer
+from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.console import Noun, answer, Bar, say
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+import typer
+from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 from pathlib import Path
 from typing import Annotated
-
 import typer
-
-from contactbench.pipeline.commands.align import align
 from contactbench.pipeline.commands.options import numbers, refuse_overwriting
-from contactbench.pipeline.commands.probe_options import (
-    AlphaOption,
-    CloseOption,
-    ContactErrorOption,
-    DeviationOption,
-    EngineName,
-    EngineOption,
-    FacetsOption,
-    ForcesOption,
-    GapOption,
-    MeshArgument,
-    OutOption,
-    RatioOption,
-    UnitsOption,
-    UnitsOrAuto,
-    closings,
-    counts,
-    metres,
-    open_mesh,
-    planned,
-    share,
-)
 from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
 from contactbench.pipeline.durable import make_folder
 
-probe_app = typer.Typer(
-    help="Prepare a probe's mesh: inspect, shell, align, simplify, ladder, or all in one go.",
-    no_args_is_help=True,
-    rich_markup_mode=None,
-)
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from contactbench.pipeline.mesh.shell import Closing
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.mesh.simplify import Target
+
+    Plan = Callable[[ProbeFile], tuple[Target, dict[str, Any] | None]]
+    from collections.abc import Mapping, Sequence
+
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
+    from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
 
 
-@probe_app.command(
-    help=(
-        "Say what is wrong with a mesh, in words and numbers.\n\n"
-        "Holes, parts, hidden and double walls, facets turned over or cutting through each other, slivers. Exit code"
-        " 1: something would spoil contacts."
+
+class UnitsOrAuto(StrEnum):
+    """What the numbers in a mesh file are."""
+
+    auto = "auto"
+    mm = "mm"
+    m = "m"
+    cm = "cm"
+    inch = "in"
+
+
+class ClosingName(StrEnum):
+    """How to close an opening."""
+
+    auto = "auto"
+    fair = "fair"
+    ruled = "ruled"
+    hull = "hull"
+    open = "open"
+
+
+class EngineName(StrEnum):
+    """Who simplified in earlier versions; all the same now."""
+
+    auto = "auto"
+    fast = "fast-simplification"
+    meshlab = "meshlab"
+    best = "best"
+
+MeshArgument = Annotated[
+    Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
+]
+UnitsOption = Annotated[
+    UnitsOrAuto, typer.Option(help="Unit of the file's numbers; auto guesses from its size and says why.")
+]
+OutOption = Annotated[Path, typer.Option(help="Probe to write, .ply; its history goes beside it as .json.")]
+CloseOption = Annotated[
+    list[ClosingName] | None,
+    typer.Option(
+        "--close",
+        help="How to close the openings, largest first, once for each; the last one counts for the others."
+        " fair: least bending. ruled: straight lines between the long rims. hull: no dent. open: leave it. [auto]",
     ),
-    epilog="Example: contactbench probe inspect housing.stl",
-)
-def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto, as_json: JsonOption = False) -> None:
-    """Say what is wrong with a mesh."""
+]
+AlphaOption = Annotated[
+    float | None, typer.Option(help="Size of the shell's facets, mm [1/190 of the size].")
+]
+GapOption = Annotated[
+    float | None, typer.Option(help="Gaps narrower than this are bridged, mm [1/65 of the size].")
+]
+FacetsOption = Annotated[int | None, typer.Option(help="Facets to keep.")]
+DeviationOption = Annotated[
+    float | None, typer.Option("--max-deviation", help="Or: as few as stay within this of the shell, mm.")
+]
+ContactErrorOption = Annotated[
+    float | None,
+    typer.Option(
+        "--max-contact-error",
+        help="Or: as few as move 95 % of contacts by less than this, mm [0.1].",
+    ),
+]
+ForcesOption = Annotated[
+    str, typer.Option("--forces", metavar="LOW,HIGH", help="Forces of touches to expect, N.")
+]
+EngineOption = Annotated[EngineName, typer.Option(help="Of earlier versions; without effect.", hidden=True)]
+RatioOption = Annotated[
+    float, typer.Option("--region-ratio", help="Facets per area in regions, over that in the rest.")
+]
+
+
+def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeFile:
+    """Read a mesh and say what was noticed; refuse to write over it, or where nothing can be written."""
+    refuse_overwriting(out, [file])
+    if out is not None:
+        from contactbench.pipeline.mesh.sidecar import check_target
+
+        check_target(out)
+    from contactbench.pipeline.preparation.steps import import_mesh
+
+    content = import_mesh(file, units.value)
+    for note in content.notes:
+        say(f"warning: {note}", "yellow")
+    return content
+
+
+def closings(names: list[ClosingName] | None) -> Closing | list[Closing]:
+    """Return what ``--close`` asks for: one for all, or one after the other."""
+    from contactbench.pipeline.mesh.shell import Closing
+
+    if not names:
+        return Closing.AUTO
+    return Closing(names[0].value) if len(names) == 1 else [Closing(name.value) for name in names]
+
+
+def counts(text: str) -> list[int]:
+    """Return the whole numbers of ``--facets``.
+
+    Raises
+    ------
+    typer.BadParameter
+        It holds something else.
+    """
+    parts = text.split(",")
+    if not all(part.strip().isdecimal() for part in parts):
+        raise typer.BadParameter(f"--facets needs whole numbers separated by commas, not {text!r}.")
+    return [int(part) for part in parts]
+
+
+def metres(millimetres: float | None) -> float | None:
+    """Convert a length, if there is one."""
+    return None if millimetres is None else millimetres / 1000
+
+
+def planned(
+    facets: int | None,
+    max_deviation: float | None,
+    max_contact_error: float | None,
+    forces: str,
+    region_ratio: float,
+) -> Plan:
+    """Return what makes the target of a probe; what makes no sense is refused here, before the work.
+
+    Raises
+    ------
+    typer.BadParameter
+        More than one target was asked for, or --forces are not two numbers.
+    InputError
+        A number is out of its range.
+    """
+    from contactbench.pipeline.mesh.simplify import Count, MaxDeviation, check_ratio
+
+    if sum(each is not None for each in (facets, max_deviation, max_contact_error)) > 1:
+        raise typer.BadParameter("--facets, --max-deviation and --max-contact-error: give one of them.")
+    check_ratio(region_ratio)
+    target: Target
+    if facets is not None or max_deviation is not None:
+        target = Count(facets) if facets is not None else MaxDeviation((max_deviation or 0.0) / 1000)
+        return lambda _: (target, None)
+    from contactbench.pipeline.preparation.ladder import ExpectedTouches
+    from contactbench.pipeline.preparation.targets import DEFAULT_LIMIT, ContactTarget
+
+    low, high = numbers(forces, 2, "--forces")
+    limit = DEFAULT_LIMIT if max_contact_error is None else max_contact_error / 1000
+    wanted = ContactTarget(limit, ExpectedTouches(force=(low, high)))
+    return lambda content: wanted.of(content.probe)
+
+
+def share(bar: Bar) -> Callable[[float], None]:
+    """Let a bar show a share from 0 to 1."""
+    return lambda share: bar(round(1000 * share), 1000)
+
+
+def align(
+    file: MeshArgument,
+    out: OutOption,
+    units: UnitsOption = UnitsOrAuto.auto,
+    mount: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z,RX,RY,RZ",
+            help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With --touches:"
+            " where the mount is now.",
+        ),
+    ] = None,
+    alignment: Annotated[Path | None, typer.Option(help="Or: what --save wrote, .json.")] = None,
+    points: Annotated[
+        Path | None,
+        typer.Option(help="CSV of matching points: px,py,pz in the mesh, sx,sy,sz in S, mm; three or more."),
+    ] = None,
+    frame: Annotated[
+        str | None,
+        typer.Option(
+            metavar="OX,OY,OZ,ZX,ZY,ZZ,PX,PY,PZ",
+            help="Three points of the mesh, mm: the origin of S, one on its +z axis, one in its x-z plane towards +x.",
+        ),
+    ] = None,
+    flange_face: Annotated[
+        int | None, typer.Option(help="Facet on the plane face that sits on the sensor, counted from 0.")
+    ] = None,
+    toward: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y,Z", help="With --flange-face: point of the mesh that lies towards +x, mm."),
+    ] = None,
+    clock: Annotated[
+        float | None, typer.Option(help="With --toward: turn it by this about z, degrees.")
+    ] = None,
+    axes: Annotated[
+        bool, typer.Option("--axes", help="By the principal axes: longest along z, widest along x.")
+    ] = False,
+    tip: Annotated[
+        str | None, typer.Option(metavar="X,Y,Z", help="With --axes: a point of the mesh near the tip, mm.")
+    ] = None,
+    offset: Annotated[
+        float | None,
+        typer.Option(help="With --flange-face or --axes: height of the mounting plane in S, mm [0]."),
+    ] = None,
+    touches: Annotated[
+        Path | None,
+        typer.Option(
+            help="CSV of touched markers: px,py,pz (mm, in the mesh) and fx..mz (N, N·m, in S, compensated)."
+        ),
+    ] = None,
+    noise_force: Annotated[
+        float | None, typer.Option(help="With --touches: standard deviation of a force, N [0.05].")
+    ] = None,
+    noise_torque: Annotated[float | None, typer.Option(help="The same of a torque, N·m [0.002].")] = None,
+    placement: Annotated[
+        float | None,
+        typer.Option(help="With --touches: how well a marker is hit, mm, one standard deviation [0.3]."),
+    ] = None,
+    again: Annotated[
+        bool, typer.Option("--again", help="The probe is in S already: correct it there.")
+    ] = False,
+    save: Annotated[Path | None, typer.Option(help="Write the alignment itself, .json.")] = None,
+) -> None:
+    """Move a mesh from its own frame P into the sensor frame S."""
+    from contactbench.pipeline.mesh.sidecar import save_probe_file
+    from contactbench.pipeline.preparation.alignment import Advice
+    from contactbench.pipeline.preparation.steps import align_step, refuse_aligned
+
+    _check_files(file, out, save, (alignment, points, touches))
+    way = _one_way(mount, alignment, points, frame, flange_face, axes, touches)
+    _refuse_strangers(
+        way,
+        {
+            "--toward": (toward, ("--flange-face",)),
+            "--clock": (clock, ("--flange-face",)),
+            "--tip": (tip, ("--axes",)),
+            "--offset": (offset, ("--flange-face", "--axes")),
+            "--noise-force": (noise_force, ("--touches",)),
+            "--noise-torque": (noise_torque, ("--touches",)),
+            "--placement": (placement, ("--touches",)),
+        },
+    )
+    content = open_mesh(file, units, out)
+    refuse_aligned(content, again=again)
+    by_touch: TouchAlignment | None = None
+    found: Alignment | None
+    if touches is not None:
+        noise = (
+            0.05 if noise_force is None else noise_force,
+            0.002 if noise_torque is None else noise_torque,
+        )
+        hit = 0.3 if placement is None else placement
+        by_touch = _by_touches(content, touches, mount, alignment, noise, hit)
+        found = by_touch.fitted
+    elif way == "--mount":
+        found = chosen_mount(mount, alignment)
+    else:
+        found = _by_shape(content, points, frame, flange_face, toward, clock or 0.0, tip, offset or 0.0)
+    assert found is not None  # noqa: S101  (one way was given)
+    adopted = by_touch is None or by_touch.advice is Advice.ADOPT
+    _tell(found, by_touch)
+    if adopted:
+        save_probe_file(align_step(content, found, again=again), out)
+        if save is not None:
+            _write(save, found)
+        say(f"Wrote {out}.")
+    else:
+        say("Nothing was written: the present mount stays.", "yellow")
+    answer(_facts(found, by_touch, out if adopted else None))
+    if not adopted:
+        raise typer.Exit(1)
+
+
+def _one_way(
+    mount: str | None,
+    alignment: Path | None,
+    points: Path | None,
+    frame: str | None,
+    flange_face: int | None,
+    axes: bool,
+    touches: Path | None,
+) -> str:
+    """Return the option that says how to align; typer.BadParameter unless there is one."""
+    given = {
+        "--points": points is not None,
+        "--frame": frame is not None,
+        "--flange-face": flange_face is not None,
+        "--axes": axes,
+        "--touches": touches is not None,
+    }
+    ways = [option for option, there in given.items() if there]
+    if touches is None and (mount is not None or alignment is not None):
+        ways.append("--mount")
+    if len(ways) != 1:
+        raise typer.BadParameter(
+            "give one way to align: --mount, --alignment, --points, --frame, --flange-face, --axes, or --touches"
+            " with --mount."
+        )
+    return ways[0]
+
+
+def _refuse_strangers(way: str, options: Mapping[str, tuple[object, Sequence[str]]]) -> None:
+    """Refuse options of another way than the chosen one; typer.BadParameter."""
+    for option, (value, belongs) in options.items():
+        if value is not None and way not in belongs:
+            raise typer.BadParameter(f"{option} goes with {' or '.join(belongs)}, not with {way}.")
+
+
+def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path | None]) -> None:
+    """Refuse to write over what is read or written; typer.BadParameter."""
+    inputs = [path for path in (file, *read) if path is not None]
+    refuse_overwriting(out, inputs)
+    if save is not None:
+        refuse_overwriting(save, inputs)
+        if save.resolve() in (out.resolve(), out.with_suffix(".json").resolve()):
+            raise typer.BadParameter(f"--save {save} is where the probe goes: choose another name.")
+
+
+def chosen_mount(mount: str | None, alignment: Path | None) -> Alignment | None:
+    """Return the alignment that ``--mount`` or ``--alignment`` gives, if one was given.
+
+    Raises
+    ------
+    typer.BadParameter
+        Both were.
+    """
+    from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
+
+    if mount is not None and alignment is not None:
+        raise typer.BadParameter("--mount and --alignment contradict each other: give one.")
+    if mount is not None:
+        values = numbers(mount, 6, "--mount")
+        return from_angles(values[:3], values[3:])
+    if alignment is None:
+        return None
+    try:
+        data = alignment.read_bytes()
+    except OSError as error:
+        raise AlignmentError(f"{alignment}: the file cannot be read ({error}): check the path.") from error
+    return from_json(data, str(alignment))
+
+
+def _by_touches(
+    content: ProbeFile,
+    touches: Path,
+    mount: str | None,
+    alignment: Path | None,
+    noise: tuple[float, float],
+    placement: float,
+) -> TouchAlignment:
+    from contactbench.pipeline.contact import WrenchNoise
+    from contactbench.pipeline.preparation.alignment import align_touches, read_touches
+
+    start = chosen_mount(mount, alignment)
+    if start is None:
+        raise typer.BadParameter("--touches starts from where the mount is now: give --mount or --alignment.")
+    with Bar("cross-validating", counted=True) as bar:
+        return align_touches(
+            content.probe,
+            read_touches(touches),
+            start.T_SP,
+            WrenchNoise(*noise),
+            placement=placement / 1000,
+            progress=share(bar),
+        )
+
+
+def _by_shape(
+    content: ProbeFile,
+    points: Path | None,
+    frame: str | None,
+    flange_face: int | None,
+    toward: str | None,
+    clock: float,
+    tip: str | None,
+    offset: float,
+) -> Alignment:
+    import numpy as np
+
+    from contactbench.pipeline.preparation.alignment import (
+        align_axes,
+        align_flange,
+        align_frame,
+        align_points,
+        find_mounting_face,
+    )
+    from contactbench.pipeline.preparation.alignment.point_csv import read_points
+
+    if points is not None:
+        return align_points(*read_points(points))
+    if frame is not None:
+        return align_frame(*(np.array(numbers(frame, 9, "--frame")) / 1000).reshape(3, 3))
+    if flange_face is not None:
+        picked = None if toward is None else np.array(numbers(toward, 3, "--toward")) / 1000
+        face = find_mounting_face(content.probe, flange_face)
+        return align_flange(face, offset=offset / 1000, toward_P=picked, clock_deg=clock)
+    near = None if tip is None else np.array(numbers(tip, 3, "--tip")) / 1000
+    return align_axes(content.probe, tip_P=near, offset=offset / 1000).alignment
+
+
+def _tell(found: Alignment, by_touch: TouchAlignment | None) -> None:
+    for sentence in found.how:
+        say(sentence)
+    for sentence in found.warnings:
+        say(f"warning: {sentence}", "yellow")
+    for reason in () if by_touch is None else by_touch.reasons:
+        say(reason)
+
+
+def _write(file: Path, found: Alignment) -> None:
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.preparation.alignment import AlignmentError
+
+    try:
+        write_durably(file, found.to_json().encode())
+    except (OSError, ValueError) as error:
+        raise AlignmentError(
+            f"{file}: the alignment cannot be written ({error}): check the folder."
+        ) from error
+
+
+def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) -> dict[str, Any]:
+    facts = {
+        "out": None if out is None else str(out),
+        "method": found.method.value,
+        "T_SP_m": found.T_SP.tolist(),
+        "sigmas_mm": None if found.sigmas_mm is None else found.sigmas_mm.tolist(),
+        "sigmas_deg": None if found.sigmas_deg is None else found.sigmas_deg.tolist(),
+        "residual_mm": None if found.residual_m is None else 1e3 * found.residual_m,
+        "how": list(found.how),
+        "warnings": list(found.warnings),
+    }
+    if by_touch is not None:
+        facts |= {
+            "advice": by_touch.advice.value,
+            "reasons": list(by_touch.reasons),
+            "rank": by_touch.rank,
+            "unseen": list(by_touch.unseen),
+            "left_out": [name for name, kept in zip(by_touch.names, by_touch.kept, strict=True) if not kept],
+        }
+    return facts
+
+probe_app = Noun("Prepare a probe's mesh: inspect, shell, align, simplify, ladder, or all in one go.")
+
+
+@probe_app.command(example="probe inspect housing.stl")
+def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto) -> None:
+    """Say what is wrong with a mesh, in words and numbers.
+
+    Holes, parts, hidden and double walls, facets turned over or cutting through each other, slivers. Exit
+    code 1: something would spoil contacts.
+    """
     from contactbench.pipeline.mesh.inspect import inspect as look
 
     with Bar("inspecting", counted=True) as bar:
@@ -61,20 +488,12 @@ def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto, as_json: 
         say(f"{finding.level}: {finding.text}", {"fault": "red", "doubt": "yellow"}.get(finding.level, ""))
     if found.clear:
         say("Nothing was found that would spoil contacts.")
-    if as_json:
-        print_json(found.to_json())
+    answer(found.to_json())
     if not found.sound:
         raise typer.Exit(1)
 
 
-@probe_app.command(
-    help=(
-        "Make the closed surface that a finger could touch.\n\n"
-        "Inner walls and parts go; openings are closed by invented facets, which are marked. A mesh that needs"
-        " nothing is left as it is. Exit code 1: what could be made is not sound."
-    ),
-    epilog="Example: contactbench probe shell housing.stl --close ruled --close fair --out shell.ply",
-)
+@probe_app.command(example="probe shell housing.stl --close ruled --close fair --out shell.ply")
 def shell(
     file: MeshArgument,
     out: OutOption,
@@ -82,9 +501,12 @@ def shell(
     close: CloseOption = None,
     alpha: AlphaOption = None,
     gap: GapOption = None,
-    as_json: JsonOption = False,
 ) -> None:
-    """Make the closed surface that a finger could touch."""
+    """Make the closed surface that a finger could touch.
+
+    Inner walls and parts go; openings are closed by invented facets, which are marked. A mesh that needs
+    nothing is left as it is. Exit code 1: what could be made is not sound.
+    """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.steps import shell_step
 
@@ -96,11 +518,9 @@ def shell(
     save_probe_file(done, out)
     for sentence in made.sentences:
         say(sentence, "red" if sentence in made.faults else "")
-    if as_json:
-        print_json({"out": str(out), **made.to_json(), "sentences": list(made.sentences)})
+    answer({"out": str(out), **made.to_json(), "sentences": list(made.sentences)})
     if made.faults:
         raise typer.Exit(1)
-
 
 probe_app.command(
     "align",
@@ -113,13 +533,7 @@ probe_app.command(
 )(align)
 
 
-@probe_app.command(
-    help=(
-        "Give a probe fewer facets, and say what that costs.\n\n"
-        "Distances and angles are measured against the mesh as it came, both ways."
-    ),
-    epilog="Example: contactbench probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply",
-)
+@probe_app.command(example="probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply")
 def simplify(
     file: MeshArgument,
     out: OutOption,
@@ -130,9 +544,11 @@ def simplify(
     forces: ForcesOption = "8,10",
     engine: EngineOption = EngineName.auto,
     region_ratio: RatioOption = 1.0,
-    as_json: JsonOption = False,
 ) -> None:
-    """Give a probe fewer facets, and say what that costs."""
+    """Give a probe fewer facets, and say what that costs.
+
+    Distances and angles are measured against the mesh as it came, both ways.
+    """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.steps import simplify_step
 
@@ -153,18 +569,10 @@ def simplify(
     sentences = [*made.sentences, *(report.sentence for report in carried)]
     for sentence in sentences:
         say(sentence)
-    if as_json:
-        print_json({"out": str(out), **result, "sentences": sentences})
+    answer({"out": str(out), **result, "sentences": sentences})
 
 
-@probe_app.command(
-    help=(
-        "Weigh accuracy against speed over a range of facet counts, and recommend one.\n\n"
-        "The same touches, with the sensor's noise, are located on the full mesh and on each simplified one. Writes"
-        " ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh keeps the goal."
-    ),
-    epilog="Example: contactbench probe ladder aligned.ply --out ladder",
-)
+@probe_app.command(example="probe ladder aligned.ply --out ladder")
 def ladder(
     file: MeshArgument,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("contactbench-ladder"),
@@ -179,9 +587,15 @@ def ladder(
     touches: Annotated[int, typer.Option(help="Touches to locate.")] = 4_000,
     engine: EngineOption = EngineName.auto,
     region_ratio: RatioOption = 1.0,
-    as_json: JsonOption = False,
 ) -> None:
-    """Weigh accuracy against speed over a range of facet counts."""
+    """Weigh accuracy against speed over a range of facet counts.
+
+    Weigh accuracy against speed over a range of facet counts, and recommend one.
+
+    The same touches, with the sensor's noise, are located on the full mesh and on each simplified one.
+    Writes ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh keeps the
+    goal.
+    """
     from contactbench.pipeline.contact import WrenchNoise
     from contactbench.pipeline.preparation.ladder import (
         DEFAULT_FACETS,
@@ -213,20 +627,12 @@ def ladder(
         say(note, "yellow")
     say(measured.recommendation.reason)
     say(f"Wrote {', '.join(map(str, files))}.")
-    if as_json:
-        print_json({"out": str(out), **measured.to_json()})
+    answer({"out": str(out), **measured.to_json()})
     if measured.recommendation.facets is None:
         raise typer.Exit(1)
 
 
-@probe_app.command(
-    help=(
-        "All in one go: read, close, align, simplify, and write the probe with its history.\n\n"
-        "Regions that the file holds are kept. Exit code 1: the result is not sound (open, crossing, folded or"
-        " inside out); nothing is written then."
-    ),
-    epilog="Example: contactbench probe prepare housing.stl --mount 0,0,45,0,0,90 --out probe.ply",
-)
+@probe_app.command(example="probe prepare housing.stl --mount 0,0,45,0,0,90 --out probe.ply")
 def prepare(
     file: MeshArgument,
     out: OutOption,
@@ -251,9 +657,14 @@ def prepare(
     forces: ForcesOption = "8,10",
     engine: EngineOption = EngineName.auto,
     region_ratio: RatioOption = 1.0,
-    as_json: JsonOption = False,
 ) -> None:
-    """Read, close, align, simplify, and write the probe."""
+    """Read, close, align, simplify, and write the probe.
+
+    All in one go: read, close, align, simplify, and write the probe with its history.
+
+    Regions that the file holds are kept. Exit code 1: the result is not sound (open, crossing, folded or
+    inside out); nothing is written then.
+    """
     from contactbench.pipeline.commands.align import chosen_mount
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
     from contactbench.pipeline.preparation.prepare import prepare as prepare_file
@@ -281,7 +692,6 @@ def prepare(
         noted = sentence in done.content.notes
         say(f"warning: {sentence}" if noted else sentence, "yellow" if noted else "")
     say(f"Wrote {out} and {out.with_suffix('.json')}." if done.ready else "Nothing was written.")
-    if as_json:
-        print_json({"out": str(out) if done.ready else None, "ready": done.ready, **done.to_json()})
+    answer({"out": str(out) if done.ready else None, "ready": done.ready, **done.to_json()})
     if not done.ready:
         raise typer.Exit(1)

@@ -11,10 +11,13 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-
 import typer
-
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+import typer
+from contactbench.pipeline.commands.options import RobotOption, refuse_overwriting
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -22,8 +25,10 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.drive import Health
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import Pair
+    from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
 
-record_app = typer.Typer(rich_markup_mode=None)
+
+record_app = Noun()
 
 _LOOK_S = 0.05  # how soon the end of a replay is noticed
 _STEPS = 500  # samples between looks at Ctrl-C
@@ -32,17 +37,7 @@ _MOST_KINDS = 50
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 
-@record_app.command(
-    help=(
-        "Record a force/torque sensor until Ctrl-C, or for some seconds.\n\n"
-        "ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and where it is; or"
-        " replay:///recording.mcap?speed=4 (or speed=step: as fast as it can be read), which ends by itself and"
-        " keeps its times. Nothing but what it takes to stream is sent: no sensor is zeroed. A lost line is opened"
-        " again; a gap stays a gap. Exit code 1: one of them gave not one sample, a stream failed, or a replay"
-        " could not be read to its end; without a sample no file is kept."
-    ),
-    epilog="Example: contactbench record sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60",
-)
+@record_app.command(example="record sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60")
 def record(
     address: Annotated[str, typer.Argument(metavar="ADDRESS", help="Of the sensor.")],
     out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
@@ -56,9 +51,15 @@ def record(
     ] = None,
     seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
     note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
-    as_json: JsonOption = False,
 ) -> None:
-    """Record a force/torque sensor."""
+    """Record a force/torque sensor until Ctrl-C, or for some seconds.
+
+    ADDRESS is sri+serial, sri+tcp, bota+serial, robotiq+serial or rdt+udp, then :// and where it is; or
+    replay:///recording.mcap?speed=4 (or speed=step: as fast as it can be read), which ends by itself and
+    keeps its times. Nothing but what it takes to stream is sent: no sensor is zeroed. A lost line is
+    opened again; a gap stays a gap. Exit code 1: one of them gave not one sample, a stream failed, or a
+    replay could not be read to its end; without a sample no file is kept.
+    """
     from contactbench.pipeline.recording import RecordingWriter
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import open_pair
@@ -86,12 +87,12 @@ def record(
             pair.stop()  # a replay has its file open before it begins
             changes.end()
     given = dict(zip(("sensor", "robot"), (stream.health for stream in pair.streams), strict=False))
-    _end(out, given, recorder, as_json)
+    _end(out, given, recorder)
     if broken(pair) or not all(health.samples for health in given.values()):
         raise typer.Exit(1)
 
 
-def _end(out: Path, given: Mapping[str, Health], recorder: Recorder, as_json: bool) -> None:
+def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:
     """Say what was written; nothing is kept where nothing came: an empty file would stand in the next one's way."""
     kept = any(health.samples for health in given.values())
     if not kept:
@@ -112,12 +113,12 @@ def _end(out: Path, given: Mapping[str, Health], recorder: Recorder, as_json: bo
         )
 
 
-@record_app.command(
-    help="List the serial ports of this machine, with a guess at what hangs on each.",
-    epilog="Example: contactbench ports",
-)
-def ports(as_json: JsonOption = False) -> None:
-    """List the serial ports of this machine."""
+@record_app.command(example="ports")
+def ports() -> None:
+    """List the serial ports of this machine.
+
+    List the serial ports of this machine, with a guess at what hangs on each.
+    """
     from contactbench.pipeline.devices.transport import list_ports
 
     found = list_ports()
@@ -270,3 +271,258 @@ def _facts(health: Health) -> dict[str, Any]:
 
     usual, worst = health.lateness or (None, None)
     return {**health_facts(health), "lateness_p99_s": usual, "lateness_max_s": worst}
+
+recording_app = Noun("Look into recordings of sensors and robots, and convert them.")
+
+_LATE_S = 0.1
+_FLAGS = {
+    "overrange": "overrange",
+    "invalid": "invalid",
+    "raw": "raw",
+    "late": "slower than the rate",
+    "error": "with a sensor error",
+    "clock": "with a guessed time",
+}
+
+FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, an MCAP file.")]
+
+
+@record_app.command(example="recording info touches.mcap")
+def info(file: FileArgument) -> None:
+    """Say what is in a recording.
+
+    Say what is in a recording: devices, topics, samples, rates, and whether the file is whole.
+
+    Counts lost and unusable samples, those that the sensor flagged, those whose time is a guess because
+    the device's count or clock had just leapt, and those that arrived more than 0.1 s after they were
+    measured.
+
+    Exit code 1: it is cut off or damaged, or holds no samples.
+    """
+    found = _read(file)
+    topics = [
+        *(_wrench_facts(topic, track) for topic, track in found.wrenches.items()),
+        *(_flange_facts(topic, track) for topic, track in found.flanges.items()),
+    ]
+    for facts in topics:
+        say(_sentence(facts))
+    say(f"{len(found.events):,} events; written by {found.info.tool}.")
+    for device in found.info.devices:
+        say(" ".join(part for part in (device.topic, device.address, device.model, device.serial) if part))
+    _warn(found.warnings)
+    whole = found.complete and not found.warnings and bool(topics)
+    if not topics:
+        say("There are no samples in it.", "red")
+    answer(
+        {
+            "complete": found.complete,
+            "tool": found.info.tool,
+            "note": found.info.note,
+            "started_ns": found.info.started_ns,
+            "devices": [
+                {name: getattr(device, name) for name in device.__slots__}
+                for device in found.info.devices
+            ],
+            "topics": topics,
+            "events": len(found.events),
+            "warnings": list(found.warnings),
+        }
+    )
+    if not whole:
+        raise typer.Exit(1)
+
+
+@record_app.command(example="recording convert touches.mcap --out touches.csv")
+def convert(
+    file: FileArgument,
+    out: Annotated[Path, typer.Option(help="File to write: .csv or .npz.")],
+    topic: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Only that topic [the one sensor, else the one robot].")
+    ] = None,
+) -> None:
+    """Write a recording as .csv or .npz.
+
+    CSV: one topic, as locate and captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
+    was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same moments; readings that the device
+    says are no good, or without a pose beside them, are left out. NPZ: everything, as it is.
+
+    Exit code 1: the recording is cut off or damaged; what can be read is written.
+    """
+    ending = out.suffix.lower()
+    if ending not in (".csv", ".npz"):
+        raise typer.BadParameter(f"--out {out}: end its name with .csv or .npz.")
+    refuse_overwriting(out, [file])
+    from contactbench.pipeline.recording.convert import write_csv, write_npz
+
+    found = _read(file)
+    left_out: tuple[str, ...] = ()
+    if ending == ".csv":
+        left_out = write_csv(out, found, topic)
+    else:
+        write_npz(out, found, topic)
+    warnings = (*found.warnings, *left_out)
+    _warn(warnings)
+    say(f"written: {out}")
+    answer({"out": str(out), "complete": found.complete, "warnings": list(warnings)})
+    if found.warnings:
+        raise typer.Exit(1)
+
+
+@record_app.command(example="recording delay poses.mcap")
+def delay(file: FileArgument) -> None:
+    """Estimate how much later the sensor is heard than the robot.
+
+    Estimate how much later the sensor is heard than the robot, from a stretch in which it was turned.
+
+    Needs no mount and no calibration: the weight must turn with the flange, touching nothing. Exit code
+    1: the motion does not show it, or shows it doubtfully.
+    """
+    from contactbench.pipeline.recording import RecordingError
+    from contactbench.pipeline.recording.delay import estimate_delay
+
+    found = _read(file)
+    if len(found.wrenches) != 1 or len(found.flanges) != 1:
+        raise RecordingError(
+            f"{file}: one sensor and one robot are needed, and it holds {len(found.wrenches)} and"
+            f" {len(found.flanges)}: record one of each."
+        )
+    (wrenches,), (poses,) = found.wrenches.values(), found.flanges.values()
+    estimate = estimate_delay(wrenches, poses)
+    say(estimate.sentence, "yellow" if estimate.doubt else "")
+    answer(
+        {
+            "seconds": estimate.seconds,
+            "sigma": estimate.sigma,
+            "sentence": estimate.sentence,
+            "doubt": estimate.doubt,
+        }
+    )
+    if estimate.seconds is None or estimate.doubt:
+        raise typer.Exit(1)
+
+
+@record_app.command("import-ros2", example="recording import-ros2 bag_0.mcap --out touches.mcap")
+def import_bag(
+    bag: Annotated[Path, typer.Argument(metavar="BAG", help="ROS 2 bag, an MCAP file.")],
+    out: Annotated[Path, typer.Option(help="Recording to write; must not exist.")],
+    wrench_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the sensor.")] = None,
+    pose_topic: Annotated[str | None, typer.Option(metavar="NAME", help="Topic of the robot.")] = None,
+    robot: RobotOption = None,
+    base: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of the robot's base.")] = None,
+    flange: Annotated[str | None, typer.Option(metavar="NAME", help="Frame of its flange.")] = None,
+    header_stamps: Annotated[
+        bool,
+        typer.Option("--header-stamps", help="Times are those in the headers, not when the bag got them."),
+    ] = False,
+) -> None:
+    """Make a recording of a ROS 2 bag in MCAP format; ROS is not needed.
+
+    Takes a topic of geometry_msgs/WrenchStamped, and the flange's pose from tf2_msgs/TFMessage,
+    geometry_msgs/PoseStamped, or sensor_msgs/JointState with --robot. Where there is one of a kind it is
+    taken; otherwise the message lists them.
+
+    Exit code 1: something in the bag is damaged or missing; what can be read is written.
+    """
+    from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
+    from contactbench.pipeline.robot import Robot
+
+    arm = None if robot is None else Robot.named(robot)
+    wanted = Wanted(wrench_topic, pose_topic, arm, base, flange, header_stamps)
+    with Bar("importing") as bar:
+        done = import_ros2(bag, out, wanted, bar)
+    _warn(done.warnings)
+    where = "" if done.pose_topic is None else f", {done.poses:,} poses from {done.pose_topic}"
+    say(f"{done.wrenches:,} wrenches from {done.wrench_topic}{where}.")
+    answer(
+        {
+            "out": str(out),
+            "wrench_topic": done.wrench_topic,
+            "pose_topic": done.pose_topic,
+            "wrenches": done.wrenches,
+            "poses": done.poses,
+            "warnings": list(done.warnings),
+        }
+    )
+    if done.warnings:
+        raise typer.Exit(1)
+
+
+def _read(file: Path) -> Recording:
+    from contactbench.pipeline.recording import read_recording
+
+    with Bar("reading") as bar:
+        return read_recording(file, bar)
+
+
+def _warn(warnings: tuple[str, ...]) -> None:
+    for sentence in warnings:
+        say(f"warning: {sentence}", "yellow")
+
+
+def _topic_facts(topic: str, kind: str, track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
+    times = track.times
+    duration = float(times.max() - times.min())
+    rate = (len(times) - 1) / duration if duration > 1e-9 else None
+    return {
+        "topic": topic,
+        "kind": kind,
+        "samples": len(times),
+        "seconds": duration,
+        "rate": rate,
+        **_latency(track),
+    }
+
+
+def _latency(track: WrenchTrack | FlangeTrack) -> dict[str, Any]:
+    """Return how long samples took to arrive, s, beyond the shortest time; None where it is not known."""
+    import numpy as np
+
+    delays = (track.arrivals - track.times)[np.isfinite(track.arrivals)]
+    if not len(delays):
+        return {"latency_median": None, "latency_p99": None, "late": 0}
+    median, p99 = np.percentile(delays, (50, 99)).tolist()
+    return {
+        "latency_median": median,
+        "latency_p99": p99,
+        "late": int(np.count_nonzero(delays > _LATE_S)),
+    }
+
+
+def _wrench_facts(topic: str, track: WrenchTrack) -> dict[str, Any]:
+    import numpy as np
+
+    from contactbench.pipeline.devices.sample import Status
+
+    steps = np.diff(track.sequence[track.sequence >= 0])
+    return {
+        **_topic_facts(topic, "wrench", track),
+        "lost": sum(step - 1 for step in steps.tolist() if step > 1),
+        "unusable": int(np.count_nonzero(~track.usable)),
+        "frozen": int(np.count_nonzero(track.frozen)),
+        "flags": {
+            str(flag.name).lower(): count
+            for flag in Status
+            if (count := int(np.count_nonzero(track.status & flag)))
+        },
+    }
+
+
+def _flange_facts(topic: str, track: FlangeTrack) -> dict[str, Any]:
+    return {**_topic_facts(topic, "flange", track), "joints": track.joints.shape[1]}
+
+
+def _sentence(facts: dict[str, Any]) -> str:
+    rate = "" if facts["rate"] is None else f" ({facts['rate']:.1f} Hz)"
+    what = {"wrench": "wrenches", "flange": "poses of the flange"}[facts["kind"]]
+    sentence = f"{facts['topic']}: {facts['samples']:,} {what} in {facts['seconds']:.2f} s{rate}"
+    if facts["kind"] == "wrench":
+        sentence += f", {facts['lost']:,} lost, {facts['unusable']:,} unusable"
+        if facts["frozen"]:
+            sentence += f", {facts['frozen']:,} frozen"
+        sentence += "".join(f", {count:,} {_FLAGS[name]}" for name, count in facts["flags"].items())
+    if facts["late"]:
+        sentence += f", {facts['late']:,} late by more than {_LATE_S:g} s"
+    if facts["latency_median"] is not None:
+        median, p99 = 1e3 * facts["latency_median"], 1e3 * facts["latency_p99"]
+        sentence += f"; latency {median:.1f} ms (median), {p99:.1f} ms (99th percentile)"
+    return sentence + "."

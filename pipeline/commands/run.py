@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from contactbench.pipeline.commands.record import Changes, broken, ended_by_signals
-from contactbench.pipeline.console import say
+from contactbench.pipeline.console import Noun, answer, say
 
 if TYPE_CHECKING:
     import threading
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.runtime.outlet import Target
     from contactbench.pipeline.streams import Pair
 
-run_app = typer.Typer(rich_markup_mode=None)
+run_app = Noun()
 
 _LOOK_S = 0.05
 _STEPS = 500  # samples between looks at Ctrl-C
@@ -33,22 +33,10 @@ _SETTLED_S = 2.0  # a rate is known after that
 
 
 @run_app.command(
-    help=(
-        "Load a bundle and say at every sample where the probe is touched, until Ctrl-C, for some seconds, or to the"
-        " end of a replay.\n\n"
-        "Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on those whose"
-        " accepted is true. A sample takes the orientation at its own time, between two poses or carried on from the"
-        " last one as far as the bundle allows; without one its reason is stale. A typed pose (still://) never gets"
-        " old. Each contact says how old it is (latency_s) and what is wrong with the sensor or the poses (health);"
-        " while nothing comes, ten lines a second say silent. While nothing touches the probe, the sensor's zero is"
-        " watched; each contact says what is known of it (zero): confirmed, with its age; off, which is an alarm;"
-        " doubtful, where something may touch the probe; or unknown. Contacts are never corrected by it. An output that"
-        " is too slow loses contacts, and says how many; it never delays the sensor. Exit code 1: not one sample came,"
-        " more than 5 % of them could not be used,"
-        " a stream failed, or a replay could not be read to its end; 2: the bundle is refused, or an output failed."
+    example=(
+        "run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2 --udp "
+        "127.0.0.1:9000"
     ),
-    epilog="Example: contactbench run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2"
-    " --udp 127.0.0.1:9000",
 )
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
@@ -79,7 +67,23 @@ def run(
         bool, typer.Option("--allow-remote", help="Datagrams may go to another machine, unprotected.")
     ] = False,
 ) -> None:
-    """Run a runtime config on live streams."""
+    """Run a runtime config on live streams.
+
+    Load a bundle and say at every sample where the probe is touched, until Ctrl-C, for some seconds, or
+    to the end of a replay.
+
+    Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on
+    those whose accepted is true. A sample takes the orientation at its own time, between two poses or
+    carried on from the last one as far as the bundle allows; without one its reason is stale. A typed
+    pose (still://) never gets old. Each contact says how old it is (latency_s) and what is wrong with the
+    sensor or the poses (health); while nothing comes, ten lines a second say silent. While nothing
+    touches the probe, the sensor's zero is watched; each contact says what is known of it (zero):
+    confirmed, with its age; off, which is an alarm; doubtful, where something may touch the probe; or
+    unknown. Contacts are never corrected by it. An output that is too slow loses contacts, and says how
+    many; it never delays the sensor. Exit code 1: not one sample came, more than 5 % of them could not be
+    used, a stream failed, or a replay could not be read to its end; 2: the bundle is refused, or an
+    output failed.
+    """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.runtime import Outlet, OutputError, Run

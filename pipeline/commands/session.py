@@ -1,46 +1,297 @@
-"""``contactbench session ...``: a folder that keeps every action, sample and result."""
+"""``contactbench session record``: a sensor's raw stream, straight into a session."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+import typer
+from contactbench.pipeline.commands.record import Changes, ended_by_signals, wait
+from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say
+from pathlib import Path
+from typing import Annotated
+import typer
+from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-
 import typer
-
-from contactbench.pipeline.commands.session_keep import add_keeping_commands
-from contactbench.pipeline.commands.session_record import FolderArgument, add_record_command
 from contactbench.pipeline.console import Bar, JsonOption, print_json, say
 
 if TYPE_CHECKING:
+    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.recording import RecordingInfo
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.live import LiveRecording
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.session.state import Result
 
-session_app = typer.Typer(
-    help="Keep every action, sample and result of a bench session in one folder.",
-    epilog="Example: contactbench session new bench-1",
-    no_args_is_help=True,
-    rich_markup_mode=None,
+
+FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the session.")]
+
+_HELP = (
+    "Record a force/torque sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.\n\n"
+    "The raw streams are on the disk half a second later; when it ends, the recording becomes an input of the kind"
+    " recording, with the counters of its streams. Should this process or the power die, `contactbench session repair`"
+    " adopts what was recorded. Nothing but what it takes to stream is sent: no sensor is zeroed.\n\n"
+    "Exit code 1: not one sample came from one of them."
 )
+
+
+def add_record_command(app: typer.Typer) -> None:
+    """Add ``record`` to the commands of a session."""
+    epilog = "Example: contactbench session record bench-1 --sensor sri+tcp://192.168.0.108:4008 --seconds 60"
+    app.command(help=_HELP, epilog=epilog)(record)
+
+
+def record(
+    folder: FolderArgument,
+    sensor: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the sensor, as for record.")],
+    pose: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Of a robot: also record its flange.")
+    ] = None,
+    seconds: Annotated[float | None, typer.Option(help="How long [until Ctrl-C].")] = None,
+    serial: Annotated[
+        str | None, typer.Option(metavar="SN", help="Serial number of the sensor: say it, if it is known.")
+    ] = None,
+    name: Annotated[
+        str | None,
+        typer.Option(metavar="NAME.mcap", help="Name of the recording [with the time of its start]."),
+    ] = None,
+    note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
+) -> None:
+    """Record a sensor into a session."""
+    if seconds is not None and not 0 < seconds < 1e6:
+        raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
+    from contactbench.pipeline.session import Session
+
+    with Session.open(folder) as session:
+        for words in session.notes:
+            say(f"warning: {words}", "yellow")
+        live, streams = _record(session, sensor, pose, seconds, serial, name, note)
+        error = live.recorder.error
+        came = all(health.samples and health.failure is None for health in streams.values())
+        path = _keep(live, streams)
+    answer({"name": live.name, "file": path, **_stream_facts(live, streams)})
+    if error is not None:
+        raise error
+    if not came:
+        raise typer.Exit(1)
+
+
+def _record(
+    session: Session,
+    sensor: str,
+    pose: str | None,
+    seconds: float | None,
+    serial: str | None,
+    name: str | None,
+    note: str,
+) -> tuple[LiveRecording, dict[str, Health]]:
+    """Record until the time or a replay is over; return the recording, not yet kept, and how its streams were."""
+    from contactbench.pipeline.session.live import LiveRecording
+    from contactbench.pipeline.streams import open_pair
+
+    changes = Changes()
+    live: LiveRecording
+    pair = open_pair(
+        sensor,
+        pose,
+        lambda samples: live.recorder.samples(samples),
+        lambda samples: live.recorder.poses(samples),
+        lambda health: live.recorder.health("sensor", health),
+        lambda health: live.recorder.health("robot", health),
+    )
+    try:
+        about = _with_serial(pair.about(note), serial)
+        live = LiveRecording(
+            session,
+            about,
+            sensor=serial,
+            name=name,
+            on_change=changes.tell,
+            clock=pair.now,
+            patient=pair.stepwise,
+        )
+        with ended_by_signals() as ended, live, pair:
+            wait(pair, seconds, ended, live.recorder.failed, changes=changes)
+    finally:
+        pair.stop()  # a replay has its file open before it begins
+        changes.end()
+    healths = (stream.health for stream in pair.streams)
+    return live, dict(zip(("sensor", "robot"), healths, strict=False))
+
+
+def _with_serial(about: RecordingInfo, serial: str | None) -> RecordingInfo:
+    if serial is None:
+        return about
+    first, *others = about.devices
+    return replace(about, devices=(replace(first, serial=serial), *others))
+
+
+def _keep(live: LiveRecording, streams: dict[str, Health]) -> str | None:
+    """Put the recording into the journal; return its place, if there was anything."""
+    from contactbench.pipeline.recording.recorder import health_facts
+    from contactbench.pipeline.session.actions import files_of
+
+    if not any(health.samples for health in streams.values()):
+        live.discard()
+        say("Not one sample came: nothing is kept.", "red")
+        return None
+    record = live.keep({device: health_facts(health) for device, health in streams.items()})
+    path = files_of(record.action)[0].path
+    say(f"{live.name} is kept as {path}.")
+    if live.recorder.dropped:
+        say(
+            f"{live.recorder.dropped:,} samples are missing, for the disk was too slow: events `dropped` say when.",
+            "yellow",
+        )
+    if live.recorder.suspicions:
+        say(
+            "If the sensor was re-zeroed, say so with `contactbench session rezero`, and record again.",
+            "yellow",
+        )
+    return path
+
+
+def _stream_facts(live: LiveRecording, streams: dict[str, Health]) -> dict[str, object]:
+    from contactbench.pipeline.recording.recorder import health_facts
+
+    return {
+        **{device: health_facts(health) for device, health in streams.items()},
+        "suspicions": [what for _, what in live.recorder.suspicions],
+        "skipped": live.recorder.skipped,
+        "dropped": live.recorder.dropped,
+    }
 
 _WRONG = 1
 
 
-@session_app.command(epilog="Example: contactbench session new bench-1")
-def new(folder: FolderArgument, as_json: JsonOption = False) -> None:
+def add_keeping_commands(app: typer.Typer) -> None:
+    """Add them to the commands of a session."""
+    app.command("verify", epilog="Example: contactbench session verify bench-1")(verify)
+    app.command("repair", epilog="Example: contactbench session repair bench-1")(repair)
+    app.command("salvage", epilog="Example: contactbench session salvage bench-1 --out bench-1-new")(salvage)
+    app.command(
+        "export-archive", epilog="Example: contactbench session export-archive bench-1 --out bench-1.zip"
+    )(export)
+    app.command(
+        "import-archive", epilog="Example: contactbench session import-archive bench-1.zip --out bench-1"
+    )(unpack)
+
+
+def verify(folder: FolderArgument) -> None:
+    """Check the hash chain, every record, and size and content of every file. Exit code 1: something is wrong."""
+    from contactbench.pipeline.session.check import check
+
+    with Bar("checking files", counted=True) as bar:
+        found = check(folder, bar)
+    for note in found.notes:
+        say(f"note: {note}")
+    for problem in found.problems:
+        say(f"wrong: {problem}", "red")
+    if found.sound:
+        say(f"{folder}: {found.records} records and {found.files} files are what they were.", "green")
+    answer({**vars(found), "sound": found.sound})
+    if not found.sound:
+        raise typer.Exit(_WRONG)
+
+
+def repair(folder: FolderArgument) -> None:
+    """Cut an unfinished or damaged record off the journal's end, and adopt recordings that ended abruptly.
+
+    Never a whole record; the journal as it was is kept. Exit code 1: a recording could not be adopted.
+    """
+    from contactbench.pipeline.session.check import repair as run
+
+    done = run(folder)
+    for sentence in (done.sentence, *done.adopted):
+        say(sentence)
+    for sentence in done.left:
+        say(sentence, "yellow")
+    answer(vars(done))
+    if done.left:
+        raise typer.Exit(_WRONG)
+
+
+def salvage(
+    folder: FolderArgument,
+    out: Annotated[
+        Path | None, typer.Option(metavar="NEW", help="Folder to make [DIR-salvaged, beside DIR].")
+    ] = None,
+) -> None:
+    """Copy all that is whole in a damaged session into a new one, and mark what rests on the rest as stale.
+
+    The damaged session is not changed. Exit code 1: a record or a file is lost.
+    """
+    from contactbench.pipeline.session.salvage import salvage as run
+
+    with Bar("copying files", counted=True) as bar:
+        done = run(folder, out, bar)
+    for sentence in done.found:
+        say(sentence, "yellow")
+    for title, reasons in done.stale.items():
+        say(f"{title} is stale: {reasons[0]}", "yellow")
+    for place in done.unclaimed:
+        say(
+            f"{done.out / place} belongs to no record: if it is needed, `contactbench session add` it.",
+            "yellow",
+        )
+    lost = "nothing is lost" if done.whole else "not everything could be saved"
+    say(
+        f"{done.out}: a new session with {done.records} records; {lost}.", "green" if done.whole else "yellow"
+    )
+    answer({**vars(done), "out": str(done.out)})
+    if not done.whole:
+        raise typer.Exit(_WRONG)
+
+
+def export(
+    folder: FolderArgument,
+    out: Annotated[Path, typer.Option(help="Zip file to write.")],
+) -> None:
+    """Pack a session into one zip file, after checking it. Exit code 1: a recording that is being made is not in it."""
+    from contactbench.pipeline.session.archive import export_archive
+
+    done = export_archive(folder, out)
+    for note in done.notes:
+        say(f"note: {note}", "yellow")
+    for place in done.left_out:
+        say(f"{place} is not in it: this recording is being made.", "yellow")
+    say(f"{out}: {done.files} files.")
+    answer({"out": str(out), **vars(done)})
+    if done.left_out:
+        raise typer.Exit(_WRONG)
+
+
+def unpack(
+    archive: Annotated[Path, typer.Argument(metavar="ZIP", help="What export-archive wrote.")],
+    out: Annotated[Path, typer.Option(help="Folder to make.")],
+) -> None:
+    """Unpack a session into a new folder, checking every byte of it first."""
+    from contactbench.pipeline.session.archive import import_archive
+
+    import_archive(archive, out)
+    say(f"{out}: a whole session.")
+    answer({"out": str(out)})
+
+session_app = Noun("Keep every action, sample and result of a bench session in one folder.")
+
+_WRONG = 1
+
+
+@session_app.command(example="session new bench-1")
+def new(folder: FolderArgument) -> None:
     """Make a session in a folder that is new or empty."""
     from contactbench.pipeline.session import Session
 
     with Session.create(folder) as session:
         identity = session.state.id
     say(f"{folder}: a new session.")
-    if as_json:
-        print_json({"session": str(folder), "id": identity})
+    answer({"session": str(folder), "id": identity})
 
 
-@session_app.command(
-    epilog="Example: contactbench session add bench-1 poses.csv --kind poses --sensor M8128-0042"
-)
+@session_app.command(example="session add bench-1 poses.csv --kind poses --sensor M8128-0042")
 def add(
     folder: FolderArgument,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="File to copy into the session.")],
@@ -60,7 +311,6 @@ def add(
     name: Annotated[
         str | None, typer.Option(metavar="NAME", help="What it is called in the session [as the file].")
     ] = None,
-    as_json: JsonOption = False,
 ) -> None:
     """Copy a raw input into a session; what was computed from one that it replaces becomes stale."""
     from contactbench.pipeline.session.actions import files_of
@@ -77,22 +327,19 @@ def add(
         say(f"{name}, which belongs to it, is kept as {other.path}.")
     for title in sorted(newly):
         say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
-    if as_json:
-        print_json(
-            {
-                "record": record.number,
-                "file": ref.path,
-                "sha256": ref.sha256,
-                "size": ref.size,
-                "companions": {name: other.path for name, other in zip(beside, others, strict=True)},
-                "stale": sorted(newly),
-            }
-        )
+    answer(
+        {
+            "record": record.number,
+            "file": ref.path,
+            "sha256": ref.sha256,
+            "size": ref.size,
+            "companions": {name: other.path for name, other in zip(beside, others, strict=True)},
+            "stale": sorted(newly),
+        }
+    )
 
 
-@session_app.command(
-    epilog="Example: contactbench session compute bench-1 calibration calibration.json --set euler=xyz"
-)
+@session_app.command(example="session compute bench-1 calibration calibration.json --set euler=xyz")
 def compute(
     folder: FolderArgument,
     kind: Annotated[
@@ -124,7 +371,6 @@ def compute(
             help="Not the newest recording, poses or alignment, but this one; without a name: none.",
         ),
     ] = None,
-    as_json: JsonOption = False,
 ) -> None:
     """Compute a result from the newest inputs of its kind, raw or computed, and record it with all it follows from."""
     from contactbench.pipeline.session.actions import files_of
@@ -147,8 +393,7 @@ def compute(
     say(f"{kind} {name} is kept as {', '.join(files)}.")
     for reason in stale:
         say(f"it is stale already: {reason}", "yellow")
-    if as_json:
-        print_json({"record": record.number, "files": files, "stale": list(stale)})
+    answer({"record": record.number, "files": files, "stale": list(stale)})
 
 
 def _choice(text: str) -> tuple[str, str]:
@@ -168,8 +413,8 @@ def _setting(text: str) -> tuple[str, Any]:
         return name, value
 
 
-@session_app.command(epilog="Example: contactbench session info bench-1 --json")
-def info(folder: FolderArgument, as_json: JsonOption = False) -> None:
+@session_app.command(example="session info bench-1 --json")
+def info(folder: FolderArgument) -> None:
     """Say what a session holds, and which results are stale and why; also while it is being written, or read-only.
 
     Of a damaged session, what is whole. Nothing is written. Exit code 1: it is damaged.
@@ -189,8 +434,7 @@ def info(folder: FolderArgument, as_json: JsonOption = False) -> None:
         say(f"{result.title}: {_word(result, stale[slot])}, {result.at}.", "yellow" if stale[slot] else "")
         for reason in stale[slot]:
             say(f"  {reason}")
-    if as_json:
-        print_json(_facts(state, stale, notes) | {"damage": damage})
+    answer(_facts(state, stale, notes) | {"damage": damage})
     if damage:
         raise typer.Exit(_WRONG)
 
@@ -241,23 +485,23 @@ def _result(result: Result, reasons: tuple[str, ...]) -> dict[str, Any]:
     }
 
 
-@session_app.command(epilog="Example: contactbench session note bench-1 'new cable'")
+@session_app.command(example="session note bench-1 'new cable'")
 def note(
     folder: FolderArgument,
     text: Annotated[str, typer.Argument(metavar="TEXT", help="A few words.")],
-    as_json: JsonOption = False,
 ) -> None:
     """Write words into a session's journal, with who and when."""
     with _writing(folder) as session:
         record = session.note(text)
     say(f"Noted by {record.entry.by or '-'} at {record.entry.at}.")
-    if as_json:
-        print_json({"record": record.number, "by": record.entry.by, "at": record.entry.at})
+    answer({"record": record.number, "by": record.entry.by, "at": record.entry.at})
 
 
 @session_app.command(
     "set",
-    epilog="Example: contactbench session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]",
+    example=(
+        "session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]"
+    ),
 )
 def set_parameters(
     folder: FolderArgument,
@@ -265,7 +509,6 @@ def set_parameters(
         list[str],
         typer.Argument(metavar="KIND.NAME=VALUE...", help="Parameters, as JSON or text; null: the default."),
     ],
-    as_json: JsonOption = False,
 ) -> None:
     """Set parameters that results are computed with, devices are opened with and bundles are exported with.
 
@@ -279,18 +522,14 @@ def set_parameters(
     say(f"Set {', '.join(given)}.")
     for title in newly:
         say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
-    if as_json:
-        print_json({"records": [record.number for record in records], "stale": newly})
+    answer({"records": [record.number for record in records], "stale": newly})
 
 
-@session_app.command(
-    epilog="Example: contactbench session rezero bench-1 --sensor M8128-0042 --reason 'new cable'"
-)
+@session_app.command(example="session rezero bench-1 --sensor M8128-0042 --reason 'new cable'")
 def rezero(
     folder: FolderArgument,
     sensor: Annotated[str, typer.Option(help="Serial number of the sensor.")],
     reason: Annotated[str, typer.Option(help="Why, in a few words.")],
-    as_json: JsonOption = False,
 ) -> None:
     """Record that a sensor's zero was moved, by hand or by its box; what rests on older recordings becomes stale.
 
@@ -303,12 +542,11 @@ def rezero(
     say(f"Noted by {record.entry.by or '-'} at {record.entry.at}: {sensor} was re-zeroed.")
     for title in newly:
         say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
-    if as_json:
-        print_json({"record": record.number, "by": record.entry.by, "at": record.entry.at, "stale": newly})
+    answer({"record": record.number, "by": record.entry.by, "at": record.entry.at, "stale": newly})
 
 
-@session_app.command(epilog="Example: contactbench session replay bench-1")
-def replay(folder: FolderArgument, as_json: JsonOption = False) -> None:
+@session_app.command(example="session replay bench-1")
+def replay(folder: FolderArgument) -> None:
     """Compute every result again from raw inputs and compare the bytes. Exit code 1: one differs or cannot be."""
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.replay import Outcome
@@ -321,8 +559,7 @@ def replay(folder: FolderArgument, as_json: JsonOption = False) -> None:
         say(each.sentence, "red" if each in wrong else "")
     same = sum(each.outcome is Outcome.SAME for each in found)
     say(f"{same} of {len(found)} results are the same to the byte.")
-    if as_json:
-        print_json({"same": same, "results": [vars(each) for each in found]})
+    answer({"same": same, "results": [vars(each) for each in found]})
     if wrong:
         raise typer.Exit(_WRONG)
 
@@ -338,7 +575,6 @@ def _writing(folder: Path) -> Session:
 
 def _stale_titles(session: Session) -> set[str]:
     return {" ".join(slot) for slot, reasons in session.stale().items() if reasons}
-
 
 add_record_command(session_app)
 add_keeping_commands(session_app)

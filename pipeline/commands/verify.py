@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
-
 import typer
-
 from contactbench.pipeline.commands.options import (
     EulerOption,
     InverseOption,
@@ -17,7 +15,12 @@ from contactbench.pipeline.commands.options import (
     numbers,
     refuse_overwriting,
 )
-from contactbench.pipeline.console import JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say, show_tables
+from pathlib import Path
+from typing import Annotated
+import typer
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -27,31 +30,20 @@ if TYPE_CHECKING:
     from contactbench.pipeline.verification import Verification
     from contactbench.pipeline.verification.figures import Summary
 
+
 _FAILED = 1
 
-verify_app = typer.Typer(rich_markup_mode=None)
-markers_app = typer.Typer(
-    help="Make markers for a probe, and move them onto its surface.",
-    epilog="Example: contactbench markers generate probe.ply --region 1 --count 17 --out markers.csv",
-    no_args_is_help=True,
-    rich_markup_mode=None,
-)
+verify_app = Noun()
+markers_app = Noun("Make markers for a probe, and move them onto its surface.")
 
 ProbeArgument = Annotated[Path, typer.Argument(metavar="PROBE", help="The probe, aligned with the sensor.")]
 MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z_mm, sensor frame.")]
 
 
 @verify_app.command(
-    help=(
-        "Find the touches of markers in a recording, and judge how far the contact points are off.\n\n"
-        "RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw"
-        " readings) and orientations, as for compensate. Every press is accepted or rejected, with the reason. The file"
-        " of --out is the same for the same input, but for the times of solves (times, and what the verdict says of"
-        " them).\n\n"
-        "Exit code 1: a limit is not kept, or markers are missing. Needs no hardware."
+    example=(
+        "verify --probe probe.ply --calibration calibration.json --markers markers.csv touches.mcap"
     ),
-    epilog="Example: contactbench verify --probe probe.ply --calibration calibration.json --markers markers.csv"
-    " touches.mcap",
 )
 def verify(
     recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="Touches: .mcap or .csv.")],
@@ -98,9 +90,18 @@ def verify(
     mount: MountOption = None,
     seed: Annotated[int, typer.Option(help="Seed of the bootstrap.")] = 0,
     out: Annotated[Path | None, typer.Option(help="Also write everything to this file, JSON.")] = None,
-    as_json: JsonOption = False,
 ) -> None:
-    """Judge contact points by touches of markers."""
+    """Judge contact points by touches of markers.
+
+    Find the touches of markers in a recording, and judge how far the contact points are off.
+
+    RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw
+    readings) and orientations, as for compensate. Every press is accepted or rejected, with the reason.
+    The file of --out is the same for the same input, but for the times of solves (times, and what the
+    verdict says of them).
+
+    Exit code 1: a limit is not kept, or markers are missing. Needs no hardware.
+    """
     inputs = {"probe": probe, "calibration": calibration, "markers": markers, "recording": recording}
     if reference is not None:
         inputs["reference"] = reference
@@ -138,15 +139,12 @@ def verify(
     if out is not None:
         _write(out, found.to_bytes())
     _show(found)
-    if as_json:
-        print_json(found.to_json())
+    answer(found.to_json())
     if not found.verdict.passed:
         raise typer.Exit(_FAILED)
 
 
-@markers_app.command(
-    epilog="Example: contactbench markers generate probe.ply --all --count 17 --out markers.csv"
-)
+@markers_app.command(example="markers generate probe.ply --all --count 17 --out markers.csv")
 def generate(
     probe: ProbeArgument,
     out: MarkersOut,
@@ -154,7 +152,6 @@ def generate(
     everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
     count: Annotated[int, typer.Option(help="How many, spread evenly.")] = 17,
     grid: Annotated[float | None, typer.Option(help="Instead: on a grid of this pitch, mm.")] = None,
-    as_json: JsonOption = False,
 ) -> None:
     """Place markers on a probe, spread evenly or on a grid; the same ones on every call."""
     if (region is None) != everywhere:
@@ -169,19 +166,15 @@ def generate(
     )
     made.save(out)
     say(f"{len(made)} markers written to {out}.", "green")
-    if as_json:
-        print_json({"markers": len(made), "file": str(out)})
+    answer({"markers": len(made), "file": str(out)})
 
 
-@markers_app.command(
-    epilog="Example: contactbench markers snap measured.csv --probe probe.ply --out markers.csv"
-)
+@markers_app.command(example="markers snap measured.csv --probe probe.ply --out markers.csv")
 def snap(
     markers: Annotated[Path, typer.Argument(metavar="MARKERS", help="CSV file: name,x_mm,y_mm,z_mm.")],
     probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
     out: MarkersOut,
     limit: Annotated[float, typer.Option(help="Refuse markers further from the surface, mm.")] = 5.0,
-    as_json: JsonOption = False,
 ) -> None:
     """Move markers to the nearest points of a probe's surface, and tell how far each was from it."""
     refuse_overwriting(out, [markers, probe])
@@ -194,11 +187,7 @@ def snap(
     moved = dict(zip(found.markers.names, (1e3 * found.distances).tolist(), strict=True))
     for name, distance in moved.items():
         say(f"{name}: moved by {distance:.3f} mm")
-    if as_json:
-        print_json({"markers": len(moved), "file": str(out), "moved_mm": moved})
-
-
-# ---- helpers -----------------------------------------------------------------------------------
+    answer({"markers": len(moved), "file": str(out), "moved_mm": moved})
 
 
 def _left_out(text: str) -> tuple[str, str]:
@@ -283,3 +272,59 @@ def _table(title: str, rows: Sequence[Summary]) -> Table:
 
 def _size(value: float | None) -> str:
     return "–" if value is None else f"{value:.2f}"
+
+
+
+@verify_app.command(
+    example=(
+        "report --verification v.json --calibration c.json --probe p.ply --out report.html"
+    ),
+)
+def report(
+    verification: Annotated[Path, typer.Option(help="What contactbench verify --out wrote.")],
+    probe: Annotated[Path, typer.Option(help="The probe that was verified, .ply.")],
+    out: Annotated[Path, typer.Option(help="File to write: .html or .pdf.")],
+    calibration: Annotated[Path | None, typer.Option(help="What contactbench calibrate wrote.")] = None,
+    known_weight: Annotated[
+        Path | None, typer.Option(help="What contactbench check weight --out wrote.")
+    ] = None,
+    known_touch: Annotated[
+        Path | None, typer.Option(help="What contactbench check touch --out wrote.")
+    ] = None,
+    operator: Annotated[str, typer.Option(help="Who verified.")] = "",
+    serial: Annotated[
+        list[str] | None, typer.Option(metavar="DEVICE=NUMBER", help="A serial number; may be repeated.")
+    ] = None,
+) -> None:
+    """Write what a verification found as a page.
+
+    Write what a verification found as one page that anybody can read: HTML, or PDF on A4.
+
+    The HTML file needs nothing beside itself. A PDF needs WeasyPrint: pip install 'contactbench[pdf]'.
+    """
+    if out.suffix.lower() not in (".html", ".pdf"):
+        raise typer.BadParameter(f"--out {out}: name a file that ends in .html or .pdf.")
+    optional = {"calibration": calibration, "known_weight": known_weight, "known_touch": known_touch}
+    inputs = {"verification": verification, "probe": probe}
+    inputs |= {role: file for role, file in optional.items() if file is not None}
+    refuse_overwriting(out, list(inputs.values()))
+    pairs = [pair.partition("=") for pair in serial or []]
+    if not all(device and number for device, _, number in pairs):
+        raise typer.BadParameter('--serial needs DEVICE=NUMBER, such as "M8128=SN 7".')
+    from contactbench.pipeline.calibration.files.calibration_file import creation_time
+    from contactbench.pipeline.durable import write_durably
+    from contactbench.pipeline.errors import InputError
+    from contactbench.pipeline.report.making import report as make
+
+    serials = {device: number for device, _, number in pairs}
+    name = f"report{out.suffix.lower()}"
+    parameters = {"name": name, "operator": operator, "serials": serials}
+    data = make(inputs, parameters, creation_time().isoformat())[name]
+    try:
+        write_durably(out, data)
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{out}: the report cannot be written ({error}): choose a folder that exists and is writable."
+        ) from error
+    say(f"{out}: {len(data):,} bytes")
+    answer({"out": str(out), "bytes": len(data)})

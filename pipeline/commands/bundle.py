@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import MountOption, numbers
-from contactbench.pipeline.console import JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,12 +17,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.config.runtime.bench import ExportSettings
     from contactbench.pipeline.config.runtime.differ import Differences
 
-config_app = typer.Typer(
-    help="Export, check and compare the bundle that a robot's runtime loads.",
-    epilog="Example: contactbench config export bench-1 --out runtime.zip",
-    no_args_is_help=True,
-    rich_markup_mode=None,
-)
+bundle_app = Noun("Export, check and compare the bundle that a robot's runtime loads.")
 
 _NOT_GOOD_ENOUGH = 1
 _SHOWN = 48
@@ -31,17 +26,7 @@ _SECONDS_AN_HOUR = 3600
 BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file.")]
 
 
-@config_app.command(
-    help=(
-        "Write a bundle: from a session's newest calibration and probe, or from files.\n\n"
-        "What is not given for a session is what its settings config.* say, such as config.serial, as in the desktop"
-        " application; the same session then gives the same bytes.\n\n"
-        "Refused, with exit code 1, unless contacts were verified on markers with this calibration and probe, and"
-        " nothing that this rests on is stale; also where a known weight or a known touch failed. What was at --out"
-        " stays until the new bundle is complete."
-    ),
-    epilog="Example: contactbench config export bench-1 --sensor M8128 --rate 1000 --out runtime.zip",
-)
+@bundle_app.command(example="config export bench-1 --sensor M8128 --rate 1000 --out runtime.zip")
 def export(
     out: Annotated[Path, typer.Option(help="Folder to write, or a zip file if it ends in .zip.")],
     session: Annotated[Path | None, typer.Argument(metavar="[SESSION]", help="Folder of a session.")] = None,
@@ -109,9 +94,18 @@ def export(
     unverified: Annotated[
         bool, typer.Option("--unverified", help="Write it all the same, and mark it: for trials only.")
     ] = False,
-    as_json: JsonOption = False,
 ) -> None:
-    """Write a bundle."""
+    """Write a bundle.
+
+    Write a bundle: from a session's newest calibration and probe, or from files.
+
+    What is not given for a session is what its settings config.* say, such as config.serial, as in the
+    desktop application; the same session then gives the same bytes.
+
+    Refused, with exit code 1, unless contacts were verified on markers with this calibration and probe,
+    and nothing that this rests on is stale; also where a known weight or a known touch failed. What was
+    at --out stays until the new bundle is complete.
+    """
     files = _inputs(session, calibration, probe, verification, report, known_weight, known_touch)
     from contactbench.pipeline.calibration.files.calibration_file import creation_time
     from contactbench.pipeline.config.runtime import UnverifiedError
@@ -145,25 +139,21 @@ def export(
             )
     except UnverifiedError as error:
         say(f"error: {error}", "red")
-        if as_json:
-            print_json({"error": str(error), "reasons": list(error.reasons)})
+        answer({"error": str(error), "reasons": list(error.reasons)})
         raise typer.Exit(_NOT_GOOD_ENOUGH) from None
     made.write(out)
     say(f"{out}: {len(made.probe.faces):,} facets, {_standing(made)}.")
     _say_doubts(made)
-    if as_json:
-        print_json({"out": str(out), **_facts(made)})
+    answer({"out": str(out), **_facts(made)})
 
 
-@config_app.command(
-    help=(
-        "Load a bundle as a runtime does, and replay its test vectors. Exit code 1: it is sound but not verified; 2: it"
-        " is refused."
-    ),
-    epilog="Example: contactbench config check runtime.zip --json",
-)
-def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
-    """Load a bundle and say what it is."""
+@bundle_app.command(example="config check runtime.zip --json")
+def check(bundle: BundleArgument) -> None:
+    """Load a bundle and say what it is.
+
+    Load a bundle as a runtime does, and replay its test vectors. Exit code 1: it is sound but not
+    verified; 2: it is refused.
+    """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.self_test import replay
 
@@ -184,37 +174,31 @@ def check(bundle: BundleArgument, as_json: JsonOption = False) -> None:
     else:
         say(f"Test vectors: {replayed} samples, all answered as at the export.")
     _say_doubts(found)
-    if as_json:
-        print_json({"bundle": str(bundle), "replayed": replayed, **_facts(found)})
+    answer({"bundle": str(bundle), "replayed": replayed, **_facts(found)})
     if not model.verified:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-@config_app.command(
-    help="Compare two bundles: the fields that differ, what that means, and how far the surfaces are apart.",
-    epilog="Example: contactbench config diff old.zip new.zip",
-)
+@bundle_app.command(example="config diff old.zip new.zip")
 def diff(
     one: Annotated[Path, typer.Argument(metavar="A", help="Folder or zip file.")],
     other: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
-    as_json: JsonOption = False,
 ) -> None:
-    """Compare two bundles."""
+    """Compare two bundles.
+
+    Compare two bundles: the fields that differ, what that means, and how far the surfaces are apart.
+    """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.differ import differences
 
     found = differences(RuntimeConfig.load(one), RuntimeConfig.load(other))
     _show_differences(found)
-    if as_json:
-        print_json(found.to_json())
+    answer(found.to_json())
 
 
-@config_app.command(
-    help="Print the JSON Schema of contactbench.json on standard output.",
-    epilog="Example: contactbench config schema > runtime-config.schema.json",
-)
+@bundle_app.command(example="config schema > runtime-config.schema.json")
 def schema() -> None:
-    """Print the JSON Schema."""
+    """Print the JSON Schema of contactbench.json on standard output."""
     from contactbench.pipeline.config.runtime.canonical import json_schema
 
     typer.echo(json_schema().decode(), nl=False)

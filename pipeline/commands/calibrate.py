@@ -6,9 +6,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-
 import typer
-
 from contactbench.pipeline.commands.options import (
     DelayOption,
     DownOption,
@@ -34,7 +32,41 @@ from contactbench.pipeline.commands.options import (
     pose_noise,
     refuse_overwriting,
 )
+from contactbench.pipeline.console import Noun, answer, as_json, Bar, JsonOption, print_json, say
+import io
+import sys
+from csv import writer
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+import typer
+from contactbench.pipeline.commands.options import (
+    AllJointsOption,
+    DelayOption,
+    DownOption,
+    EulerOption,
+    FloorOption,
+    ForceOption,
+    InverseOption,
+    JointsOption,
+    MountOption,
+    RadiansOption,
+    RobotOption,
+    RobotPosesOption,
+    TiltOption,
+    TipOption,
+    ToolOption,
+    VectorOption,
+    contact_task,
+    convention,
+    delay_seconds,
+    down_direction,
+    mount_rotation,
+    reachable,
+    refuse_overwriting,
+)
 from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -46,6 +78,11 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
     from contactbench.pipeline.calibration.mounting import MountCalibration
     from contactbench.pipeline.calibration.orientation import Convention
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.calibration.suggest import Plan
+
 
 _NOT_GOOD_ENOUGH = 1
 _HOUR = 3600.0  # s
@@ -53,7 +90,7 @@ _UNKNOWN_SHARE = 0.1  # of what a parameter could be if no pose said anything of
 _WORTH_A_WORD = 0.2  # probability from which a cause is told
 _STYLES = {"good": "green", "usable": "yellow", "refuse": "red"}
 
-gravity_app = typer.Typer(rich_markup_mode=None)
+
 
 PosesArgument = Annotated[
     Path,
@@ -66,23 +103,10 @@ CalibrationArgument = Annotated[
 ]
 
 
-@gravity_app.command(
-    help=(
-        "Calibrate bias, weight and centre of mass from still, contact-free poses.\n\n"
-        "POSES has a row for each pose: fx,fy,fz,mx,my,mz, the mean raw reading (N, N·m about the sensor"
-        " origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or"
-        " otherwise as the options say. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard"
-        " deviations of single samples), temperature. Three poses with different tilts are the least; eight"
-        " let bumped ones be named. With t (s), a drift of the sensor during the session is found.\n\n"
-        "POSES may be a recording instead, MCAP or CSV with the column t: the still poses in it are found as by"
-        " contactbench captures. A sensor and a robot that were recorded into two CSV files are put together with"
-        " --robot-poses.\n\n"
-        "Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all"
-        " the same, so that next-pose can tell which pose to take."
-    ),
-    epilog=(
-        "Example: contactbench calibrate poses.csv --euler xyz --out calibration.json --report calibration.html\n\n"
-        "Example: contactbench calibrate wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json"
+@calibrate_app.command(
+    example=(
+        "calibrate poses.csv --euler xyz --out calibration.json --report calibration.html",
+        "calibrate wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json",
     ),
 )
 def calibrate(
@@ -110,9 +134,24 @@ def calibrate(
     down: DownOption = "0,0,-1",
     tip: TipOption = None,
     contact_force: ForceOption = 10.0,
-    as_json: JsonOption = False,
 ) -> None:
-    """Calibrate bias, weight and centre of mass from still, contact-free poses."""
+    """Calibrate bias, weight and centre of mass from still, contact-free poses.
+
+    Calibrate bias, weight and centre of mass from still, contact-free poses.
+
+    POSES has a row for each pose: fx,fy,fz,mx,my,mz, the mean raw reading (N, N·m about the sensor
+    origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or otherwise
+    as the options say. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard deviations of
+    single samples), temperature. Three poses with different tilts are the least; eight let bumped ones be
+    named. With t (s), a drift of the sensor during the session is found.
+
+    POSES may be a recording instead, MCAP or CSV with the column t: the still poses in it are found as by
+    contactbench captures. A sensor and a robot that were recorded into two CSV files are put together
+    with --robot-poses.
+
+    Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all
+    the same, so that next-pose can tell which pose to take.
+    """
     if mount is not None and estimate_mount:
         raise typer.BadParameter("--mount and --estimate-mount contradict each other: give one.")
     for written in (out, report):
@@ -150,8 +189,7 @@ def calibrate(
 
         write_report(calibration, report, source=source, created=created)
     _show(calibration, mounted)
-    if as_json:
-        print_json(_facts(calibration, mounted, out, report, table))
+    answer(_facts(calibration, mounted, out, report, table))
     if calibration.verdict.level == "refuse":
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
@@ -303,19 +341,10 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
     return "unknown" if sigma > _UNKNOWN_SHARE * unknown else " ± ".join(with_sigma(value, sigma))
 
 
-# ---- diagnose ----------------------------------------------------------------------------------
-
-
-@gravity_app.command(
-    help=(
-        "Tell whether poses are written in the conventions that the options say, or which mistake explains them.\n\n"
-        "Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, pounds, reversed signs,"
-        " swapped channels, shifted rows, another frame, a turned sensor and a re-zero half way; says how probable"
-        " each is, and whether none of them explains the poses; changes nothing. The noise, if you know it, and the"
-        " load's mass from a balance make it much surer.\n\n"
-        "Exit code 1: something is not as it was said to be."
+@calibrate_app.command(
+    example=(
+        "diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002"
     ),
-    epilog="Example: contactbench diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002",
 )
 def diagnose(
     poses: PosesArgument,
@@ -335,9 +364,19 @@ def diagnose(
     tool_length: Annotated[
         float, typer.Option("--tool-length", help="From the sensor to the tip, mm.")
     ] = 300.0,
-    as_json: JsonOption = False,
 ) -> None:
-    """Tell whether poses are in the conventions that were said."""
+    """Tell whether poses are in the conventions that were said.
+
+    Tell whether poses are written in the conventions that the options say, or which mistake explains
+    them.
+
+    Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, pounds, reversed
+    signs, swapped channels, shifted rows, another frame, a turned sensor and a re-zero half way; says how
+    probable each is, and whether none of them explains the poses; changes nothing. The noise, if you know
+    it, and the load's mass from a balance make it much surer.
+
+    Exit code 1: something is not as it was said to be.
+    """
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose as run
@@ -357,8 +396,7 @@ def diagnose(
     with Bar("comparing conventions", counted=True) as bar:
         found = run(table.poses, noise, prior=prior, raw=raw, progress=bar)
     _show_diagnosis(found)
-    if as_json:
-        print_json({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
+    answer({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
     if not found.consistent:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
@@ -380,18 +418,7 @@ def _show_diagnosis(found: Diagnosis) -> None:
         say(sentence)
 
 
-# ---- verify ------------------------------------------------------------------------------------
-
-
-@gravity_app.command(
-    "verify-still",
-    help=(
-        "Check a calibration on still, contact-free poses that it has not seen.\n\n"
-        "POSES is written as for calibrate. Exit code 1: the residuals are too large for contact sensing, or"
-        " larger than the calibration's uncertainty and the noise explain."
-    ),
-    epilog="Example: contactbench verify-still calibration.json held-out.csv --euler xyz",
-)
+@calibrate_app.command("verify-still", example="verify-still calibration.json held-out.csv --euler xyz")
 def verify_still(
     calibration: CalibrationArgument,
     poses: PosesArgument,
@@ -403,9 +430,12 @@ def verify_still(
     mount: MountOption = None,
     robot_poses: RobotPosesOption = None,
     delay: DelayOption = None,
-    as_json: JsonOption = False,
 ) -> None:
-    """Check a calibration on poses that it has not seen."""
+    """Check a calibration on still, contact-free poses that it has not seen.
+
+    POSES is written as for calibrate. Exit code 1: the residuals are too large for contact sensing, or
+    larger than the calibration's uncertainty and the noise explain.
+    """
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from contactbench.pipeline.calibration.verify import verify_still as check
 
@@ -414,25 +444,12 @@ def verify_still(
     found = check(fitted, table.poses)
     for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")
-    if as_json:
-        print_json({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
+    answer({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
     if not found.passed:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-# ---- compensate --------------------------------------------------------------------------------
-
-
-@gravity_app.command(
-    help=(
-        "Take bias and weight off every reading of a recording.\n\n"
-        "RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the"
-        " orientation at the same time, written as for calibrate; - is standard input. The output has"
-        " t,fx,fy,fz,mx,my,mz, what the tissue does to the probe, ready for contactbench locate. It is"
-        " written as a whole or not at all."
-    ),
-    epilog="Example: contactbench compensate calibration.json recording.csv --euler xyz --out wrenches.csv",
-)
+@calibrate_app.command(example="compensate calibration.json recording.csv --euler xyz --out wrenches.csv")
 def compensate(
     calibration: CalibrationArgument,
     recording: Annotated[
@@ -448,11 +465,16 @@ def compensate(
     allow_nan: Annotated[
         bool, typer.Option("--allow-nan", help="Pass on NaN, infinity and empty cells.")
     ] = False,
-    as_json: JsonOption = False,
 ) -> None:
-    """Take bias and weight off every reading of a recording."""
+    """Take bias and weight off every reading of a recording.
+
+    RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the
+    orientation at the same time, written as for calibrate; - is standard input. The output has
+    t,fx,fy,fz,mx,my,mz, what the tissue does to the probe, ready for contactbench locate. It is written
+    as a whole or not at all.
+    """
     dash = Path("-")
-    if as_json and out == dash:
+    if as_json() and out == dash:
         raise typer.BadParameter("--json and --out - both want standard output: name a file.")
     refuse_overwriting(out, [calibration])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
@@ -475,8 +497,7 @@ def compensate(
         f"{summary.rows:,} readings compensated, {summary.rows_per_second:,.0f} a second. The calibration leaves up"
         f" to {summary.sigma_force_N:.2g} N and {1e3 * summary.sigma_torque_Nm:.2g} mN·m (1 sigma) in them."
     )
-    if as_json:
-        print_json({"out": str(out), **summary.facts()})
+    answer({"out": str(out), **summary.facts()})
 
 
 def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
@@ -488,3 +509,240 @@ def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
         numbers(mount, 3, "--mount")
         return record.calibration, mount_rotation(mount)
     return record.calibration, None if record.mount is None else record.mount.R_SE.T
+
+_FEWEST_POSES = 3
+
+
+
+
+@calibrate_app.command(
+    "next-pose",
+    example=(
+        "next-pose calibration.json --robot elfin3 --joints 0,-17,69,0,52,0"
+    ),
+)
+def next_pose(
+    calibration: CalibrationArgument,
+    robot: RobotOption = None,
+    joints: JointsOption = None,
+    mount: MountOption = None,
+    all_joints: AllJointsOption = False,
+    tool_length: ToolOption = 200.0,
+    floor: FloorOption = 0.0,
+    max_tilt: TiltOption = 180.0,
+) -> None:
+    """Say which pose would improve a calibration most.
+
+    Say which pose would improve a calibration most, and by how much, before it is taken.
+
+    Judged by the error at the contact, not by the parameters. With --robot and --joints only poses within
+    its joint limits, clear of itself and the floor; nearer ones of those that are nearly as good.
+    """
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration.suggest import suggest_pose
+
+    fitted = load_calibration(calibration)
+    choice = reachable(
+        robot,
+        joints,
+        mount,
+        max_tilt=max_tilt,
+        all_joints=all_joints,
+        tool_length=tool_length,
+        floor=floor,
+        down_W=fitted.down_W,
+    )
+    suggestion = suggest_pose(fitted, choice)
+    say(suggestion.sentence)
+    answer(
+        {
+            "sentence": suggestion.sentence,
+            "quaternion_WS": _quaternions(suggestion.R_WS[None])[0].tolist(),
+            "joints_deg": _degrees(suggestion.joints),
+            "contact_error_before_mm": 1e3 * suggestion.error_before,
+            "contact_error_after_mm": 1e3 * suggestion.error_after,
+        }
+    )
+
+
+@calibrate_app.command(
+    "plan-poses",
+    example=(
+        "plan-poses 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"
+    ),
+)
+def plan_poses(
+    count: Annotated[int, typer.Argument(metavar="COUNT", help="How many, at least 3.")],
+    out: Annotated[Path, typer.Option(help="CSV file to write.")],
+    robot: RobotOption = None,
+    joints: JointsOption = None,
+    mount: MountOption = None,
+    all_joints: AllJointsOption = False,
+    tool_length: ToolOption = 200.0,
+    floor: FloorOption = 0.0,
+    max_tilt: TiltOption = 180.0,
+    tip: TipOption = None,
+    contact_force: ForceOption = 10.0,
+    mass: Annotated[float, typer.Option(help="About what hangs on the sensor, kg.")] = 0.5,
+    noise_force: Annotated[float, typer.Option(help="Standard deviation of a pose's mean force, N.")] = 0.05,
+    noise_torque: Annotated[float, typer.Option(help="The same of its torque, N·m.")] = 0.002,
+    down: DownOption = "0,0,-1",
+) -> None:
+    """Plan COUNT poses that together leave the least error at the contact.
+
+    Writes a CSV file with the orientation of the sensor, the joints in degrees if there is a robot, and
+    the predicted share of the calibration in the contact error after each pose.
+    """
+    import numpy as np
+
+    from contactbench.pipeline.calibration import PoseNoise
+    from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+    from contactbench.pipeline.calibration.suggest import USUAL_LOAD
+    from contactbench.pipeline.calibration.suggest import plan_poses as plan
+
+    if not 0 < mass < 1000:
+        raise InputError(f"--mass: {mass} kg is no mass of a tool; give what hangs on the sensor, about")
+    down_W = down_direction(down)
+    choice = reachable(
+        robot,
+        joints,
+        mount,
+        max_tilt=max_tilt,
+        all_joints=all_joints,
+        tool_length=tool_length,
+        floor=floor,
+        down_W=down_W,
+    )
+    load = replace(USUAL_LOAD, gravity_W=mass * STANDARD_GRAVITY * np.array(down_W))
+    task = replace(contact_task(tip, contact_force), down_W=np.array(down_W))
+    noise = PoseNoise(noise_force, noise_torque)
+    with Bar("planning", counted=True) as bar:
+        planned = plan(count, choice, load=load, noise=noise, task=task, progress=bar)
+    _write(out, planned)
+    for sentence in planned.warnings:
+        say(f"warning: {sentence}", "yellow")
+    say(
+        f"{count} poses: the calibration will add about {1e3 * planned.error:.2g} mm (1 sigma) to a contact point."
+    )
+    answer(
+        {
+            "out": str(out),
+            "quaternions_WS": _quaternions(planned.R_WS).tolist(),
+            "joints_deg": _degrees(planned.joints),
+            "contact_error_mm": (1e3 * planned.errors).tolist(),
+            "warnings": list(planned.warnings),
+        }
+    )
+
+
+@calibrate_app.command(
+    example=(
+        "captures recording.mcap --delay auto --out poses.csv",
+        "captures wrenches.csv --robot-poses robot.csv --delay auto --out poses.csv",
+    ),
+)
+def captures(
+    recording: Annotated[
+        Path, typer.Argument(metavar="RECORDING", help="MCAP or CSV file, or - for standard input.")
+    ],
+    out: Annotated[Path, typer.Option(help="CSV file of poses to write.")],
+    calibration: Annotated[
+        Path | None, typer.Option(help="Preliminary calibration, to see steady touches.")
+    ] = None,
+    euler: EulerOption = None,
+    rotation_vector: VectorOption = False,
+    radians: RadiansOption = False,
+    inverse: InverseOption = False,
+    robot: RobotOption = None,
+    mount: MountOption = None,
+    robot_poses: RobotPosesOption = None,
+    delay: DelayOption = None,
+) -> None:
+    """Find in a recording where the sensor stood still.
+
+    Find in a recording where the sensor stood still, and write the poses for calibrate.
+
+    RECORDING is what contactbench record wrote of a sensor and a robot, or a table with the columns
+    t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the orientation at the same time,
+    written as for calibrate; - is a table on standard input. With --robot-poses the orientation is in a
+    second table, with times of its own on the same clock. Poses are then interpolated to the wrenches,
+    never across more than 0.25 s. Captures that were bumped or did not settle are left out, with the
+    reason. A preliminary calibration also shows steady touches.
+
+    calibrate, diagnose and verify-still take all of these as well, and do this by themselves.
+
+    Exit code 1: fewer than three poses were found.
+    """
+    refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
+    written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
+    from contactbench.pipeline.calibration.files.calibration_file import load_calibration
+    from contactbench.pipeline.calibration.files.capture_recording import capture_any
+    from contactbench.pipeline.calibration.files.pose_csv import write_poses
+
+    model = None if calibration is None else load_calibration(calibration).model
+    with Bar("looking for still poses") as bar:
+        found = capture_any(
+            sys.stdin.buffer if recording == Path("-") else recording,
+            written_as,
+            R_ES=mount_rotation(mount),
+            robot_poses=robot_poses,
+            model=model,
+            delay=delay_seconds(delay),
+            progress=bar,
+        )
+    for sentence in found.warnings:
+        say(f"warning: {sentence}", "yellow")
+    enough = len(found.poses) >= _FEWEST_POSES
+    if enough:
+        write_poses(out, found.poses)
+    for sentence in found.left_out:
+        say(sentence, "yellow")
+    say(f"{len(found.poses)} still poses in {found.rows:,} readings.", "" if enough else "red")
+    answer(
+        {
+            "out": str(out) if enough else None,
+            "delay_s": found.delay,
+            "warnings": list(found.warnings),
+            "poses": [
+                {"name": pose.name, "start": capture.start, "stop": capture.stop, "count": capture.count}
+                for pose, capture in zip(found.poses, found.report.captures, strict=True)
+            ],
+            "rejected": [
+                {"start": refused.start, "stop": refused.stop, "reason": refused.reason}
+                for refused in found.report.rejected
+            ],
+        }
+    )
+    if not enough:
+        raise typer.Exit(1)
+
+
+def _write(out: Path, planned: Plan) -> None:
+    from contactbench.pipeline.durable import write_durably
+
+    text = io.StringIO()
+    rows = writer(text, lineterminator="\n")
+    names = [f"j{number}" for number in range(1, 7)] if planned.joints is not None else []
+    rows.writerow(["name", "qw", "qx", "qy", "qz", *names, "contact_error_mm"])
+    joints: Any = _degrees(planned.joints) or [[]] * len(planned.R_WS)
+    for number, (quaternion, angles, error) in enumerate(
+        zip(_quaternions(planned.R_WS).tolist(), joints, planned.errors.tolist(), strict=True), 1
+    ):
+        rows.writerow([f"pose {number}", *map(repr, quaternion), *map(repr, angles), repr(1e3 * error)])
+    try:
+        write_durably(out, text.getvalue().encode())
+    except (OSError, ValueError) as error:
+        raise InputError(f"{out}: the plan cannot be written ({error}): choose another --out") from error
+
+
+def _quaternions(R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return unit quaternions (n, 4), scalar first and not negative."""
+    from scipy.spatial.transform import Rotation
+
+    return Rotation.from_matrix(R_WS).as_quat(canonical=True)[:, [3, 0, 1, 2]]
+
+
+def _degrees(joints: NDArray[np.float64] | None) -> Any:
+    import numpy as np
+
+    return None if joints is None else np.degrees(joints).tolist()

@@ -1,0 +1,92 @@
+"""``contactbench info``: what is installed, and what this machine offers."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from contactbench import __version__
+from contactbench.pipeline.console import Noun, answer, as_json
+
+info_app = Noun()
+
+# Name to import, and the distributions that provide it.
+_OPTIONAL = {
+    "embreex": ("embreex",),
+    "pyvista": ("pyvista",),
+    "PySide6": ("PySide6-Essentials", "PySide6"),
+    "mujoco": ("mujoco",),
+    "pymeshlab": ("pymeshlab",),
+    "igl": ("libigl",),
+}
+
+
+@info_app.command(example="info --json")
+def info() -> None:
+    """Show versions, the compiled kernel in use, the processor, and which optional packages are there."""
+    facts = _facts()
+    answer(facts)
+    if as_json():
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None, show_header=False)
+    for name, value in facts.items():
+        table.add_row(name.replace("_", " "), _plain(value))
+    Console().print(table)
+
+
+def _facts() -> dict[str, Any]:
+    import platform
+    from importlib import import_module
+    from importlib.util import find_spec
+
+    from contactbench.pipeline import kernel
+
+    optional = {
+        name: _version(*distributions) if find_spec(name) else None
+        for name, distributions in _OPTIONAL.items()
+    }
+    return {
+        "contactbench": __version__,
+        "python": platform.python_version(),
+        **{name: _version(name) for name in ("numpy", "scipy", "manifold3d")},
+        "platform": platform.platform(),
+        "cpu": _cpu_model(),
+        "cpu_count": os.cpu_count(),
+        "cpu_features": dict(import_module("contactbench.pipeline.kernel._cpu").features()),
+        "kernel": kernel.variant,
+        "compiler": kernel.compiler,
+        "optional": optional,
+    }
+
+
+def _version(*distributions: str) -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    for name in distributions:
+        try:
+            return version(name)
+        except PackageNotFoundError:
+            continue
+    return "unknown version"
+
+
+def _cpu_model() -> str:
+    import platform
+
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
+            if line.startswith("model name"):
+                return line.partition(":")[2].strip()
+    except OSError:
+        pass  # not Linux
+    return platform.processor() or platform.machine() or "unknown"
+
+
+def _plain(value: object) -> str:
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {_plain(item)}" for name, item in value.items()) or "none"
+    return {None: "absent", True: "yes", False: "no"}[value] if value in (None, True, False) else str(value)

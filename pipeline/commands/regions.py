@@ -1,0 +1,685 @@
+"""What the ``region`` commands share: their arguments, loading, saving, and saying what became of the regions."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+import typer
+from contactbench.pipeline.commands.options import numbers
+from contactbench.pipeline.console import Noun, answer, as_json, print_json, running_command, say
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+import typer
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.console import JsonOption, print_json, say
+import math
+from typing import TYPE_CHECKING, Annotated
+import typer
+from contactbench.pipeline.commands.options import numbers
+from contactbench.pipeline.console import JsonOption, say
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel
+    from contactbench.pipeline.mesh.regions.undo_file import KeptSteps
+    from contactbench.pipeline.mesh.regions import Transferred
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+MeshArgument = Annotated[
+    Path, typer.Argument(metavar="MESH", help="Probe, .ply in metres in S; names are in the .json beside it.")
+]
+RegionArgument = Annotated[str, typer.Argument(metavar="REGION", help="Name of a region, or its priority.")]
+
+
+class Session:
+    """
+    The regions of one probe on disk, while a command edits them.
+
+    Attributes
+    ----------
+    mesh : Path
+    probe : Probe
+    model : RegionModel
+    """
+
+    def __init__(self, mesh: Path) -> None:
+        from contactbench.pipeline.mesh.regions import RegionModel
+        from contactbench.pipeline.mesh.sidecar import load_probe_file
+
+        self.mesh = mesh
+        self._content = load_probe_file(mesh)
+        for note in self._content.notes:
+            say(f"warning: {note}", "yellow")
+        self.probe = self._content.probe
+        self.model: RegionModel = RegionModel(self._content.regions)
+        self._graph: FacetGraph | None = None
+
+    @property
+    def graph(self) -> FacetGraph:
+        """The probe's facets and their neighbours."""
+        from contactbench.pipeline.mesh.regions import FacetGraph
+
+        if self._graph is None:
+            self._graph = FacetGraph(self.probe)
+        return self._graph
+
+    def rank(self, region: str) -> int:
+        """Return the rank of a region given by name or, where none has that name, by rank; InputError if neither."""
+        names = [known.name for known in self.model.regions]
+        if (
+            region not in names
+            and region.isascii()
+            and region.isdigit()
+            and 0 < int(region[:9]) <= len(names)
+        ):
+            return int(region[:9])
+        return self.model.rank_of(region)
+
+    def name(self, rank: int) -> str:
+        """Return the name of the region of a rank."""
+        return self.model.regions[rank - 1].name
+
+    def mask(self, rank: int) -> NDArray[np.bool_]:
+        """Return the facets of one rank, (m,)."""
+        mask: NDArray[np.bool_] = self.model.labels == rank
+        return mask
+
+    def finish(self, changed: int | None, **facts: Any) -> None:
+        """Save, and say how many facets changed and what there is now."""
+        self.save({} if changed is None else {"changed": changed})
+        if changed is not None:
+            say(f"{changed:,} of {len(self.probe.faces):,} facets changed.")
+            facts = {"changed": changed, **facts}
+        show(self.mesh, self.probe, self.model, **facts)
+
+    def finish_selection(self, changed: int, why_not: str, **facts: Any) -> None:
+        """Finish what had facets chosen; where none changed, that is wrong: say why, write nothing, exit code 1."""
+        if changed:
+            return self.finish(changed, **facts)
+        say(f"Nothing changed: {why_not}.", "yellow")
+        show(self.mesh, self.probe, self.model, changed=0, **facts)
+        raise typer.Exit(1)
+
+    def save(self, result: dict[str, Any]) -> None:
+        """Write the probe with the model's regions, and the command that made them into its history, if it did."""
+        from contactbench.pipeline.mesh.regions.undo_file import KeptStep
+        from contactbench.pipeline.mesh.sidecar import save_probe_file
+
+        text = self.model.undo_text
+        if text is None:
+            say("The regions are like that already: nothing was written.")
+            return
+        regions = self.model.snapshot()
+        areas = (1e6 * regions.areas(self.probe.areas)).round(3).tolist()
+        content = self._content.after(
+            "region",
+            self.probe.with_region(regions.labels),
+            _command(),
+            {**result, "areas_mm2": areas},
+            regions=regions,
+        )
+        steps = self._steps()  # before anything is written: it may refuse
+        save_probe_file(content, self.mesh)
+        steps.done.append(KeptStep.of(text, content.history[-1], self._content.regions, self.probe))
+        steps.undone.clear()
+        self._keep(steps)
+
+    def turn(self, way: Literal["undo", "redo"]) -> None:
+        """Undo or redo a step, with what it left in the history, and say which; exit code 1: there is none."""
+        from contactbench.pipeline.mesh.regions.undo_file import KeptStep
+        from contactbench.pipeline.mesh.sidecar import save_probe_file
+
+        steps, history = self._steps(), self._content.history
+        taken, given = (steps.done, steps.undone) if way == "undo" else (steps.undone, steps.done)
+        if not taken:
+            why = ": something else has changed the probe since" if steps.changed else ""
+            say(f"There is nothing to {way}{why}.", "yellow")
+            raise typer.Exit(1)
+        step = taken.pop()
+        given.append(KeptStep.of(step.text, step.entry, self._content.regions, self.probe))
+        regions = step.regions(self.probe)
+        changed = int((regions.labels != self.model.labels).sum())
+        content = replace(
+            self._content,
+            probe=self.probe.with_region(regions.labels, regions.untouchable),
+            regions=regions,
+            history=history[:-1] if way == "undo" else (*history, step.entry),
+        )
+        save_probe_file(content, self.mesh)
+        self._keep(steps)
+        self.model.replace_all(regions)
+        word = "undone" if way == "undo" else "redone"
+        say(f"{word}: {step.text}. {changed:,} of {len(self.probe.faces):,} facets changed.")
+        show(self.mesh, self.probe, self.model, **{word: step.text}, changed=changed)
+
+    def _steps(self) -> KeptSteps:
+        from contactbench.pipeline.mesh.regions.undo_file import load_steps
+        from contactbench.pipeline.mesh.sidecar import sidecar_of
+
+        return load_steps((self.mesh, sidecar_of(self.mesh)))
+
+    def _keep(self, steps: KeptSteps) -> None:
+        from contactbench.pipeline.mesh.regions.undo_file import save_steps
+        from contactbench.pipeline.mesh.sidecar import sidecar_of
+
+        save_steps(steps, (self.mesh, sidecar_of(self.mesh)))
+
+
+def _command() -> dict[str, Any]:
+    """Return the command that runs and its parameters, as JSON values; of files the name only."""
+    command, parameters = running_command()
+    given = {
+        name: value.name if isinstance(value, Path) else value
+        for name, value in parameters.items()
+        if name not in ("mesh", "old", "new", "as_json", "quiet") and value not in (None, False, [], ())
+    }
+    return {"command": command, **given}
+
+
+def show(mesh: Path, probe: Probe, model: RegionModel, **facts: Any) -> None:
+    """Print the regions: as a table for people, or as one JSON object."""
+    snapshot = model.snapshot()
+    areas = 1e6 * snapshot.areas(probe.areas)
+    counts = [len(snapshot.faces_of(rank)) for rank in range(1, len(snapshot.regions) + 1)]
+    if as_json():
+        rows = [
+            {
+                "priority": rank,
+                "name": region.name,
+                "colour": region.colour,
+                "untouchable": region.untouchable,
+                "facets": count,
+                "area_mm2": float(area),
+            }
+            for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1)
+        ]
+        print_json({"mesh": str(mesh), "facets": len(probe.faces), **facts, "regions": rows})
+        return
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(box=None)
+    for title, justify in (("", "right"), ("region", "left"), ("colour", "left")):
+        table.add_column(title, justify="right" if justify == "right" else "left")
+    table.add_column("facets", justify="right")
+    table.add_column("mm²", justify="right")
+    table.add_column("%", justify="right")
+    table.add_column("")
+    whole = 1e6 * float(probe.areas.sum())
+    for rank, (region, count, area) in enumerate(zip(snapshot.regions, counts, areas, strict=True), 1):
+        share = f"{100 * area / whole:.1f}"
+        mark = "untouchable" if region.untouchable else ""
+        table.add_row(str(rank), region.name, region.colour, f"{count:,}", f"{area:.1f}", share, mark)
+    Console(markup=False).print(table)
+
+
+def metres(text: str, option: str) -> NDArray[np.float64]:
+    """Return x,y,z (3,) in metres from millimetres on the command line; typer.BadParameter if it is not that."""
+    import numpy as np
+
+    return np.array(numbers(text, 3, option)) / 1000
+
+regions_app = Noun(
+    "Mark the parts of a probe that are meant to be touched, in order of priority.\n\n"
+        "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names, colours, and which of"
+        " them nothing can touch). Each command changes both in one step, which `probe regions undo` takes back. Lengths are in"
+        " mm, in the sensor frame S."
+        " Exit code 1: facets were chosen, but none changed."
+    )
+
+ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the next of a palette]")]
+
+
+@regions_app.command("list", example="probe regions list probe.ply")
+def list_regions(mesh: MeshArgument) -> None:
+    """Show the regions of a probe.
+
+    Show the regions of a probe: priority, name, colour, facets, area, and whether nothing can touch it.
+    """
+    session = Session(mesh)
+    show(mesh, session.probe, session.model)
+
+
+@regions_app.command(example="probe regions add probe.ply Lens --colour '#e69f00'")
+def add(
+    mesh: MeshArgument,
+    name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
+    colour: ColourOption = None,
+) -> None:
+    """Add an empty region, with the last priority."""
+    session = Session(mesh)
+    session.model.add(name, colour)
+    session.finish(None)
+
+
+@regions_app.command(example="probe regions remove probe.ply Lens")
+def remove(mesh: MeshArgument, region: RegionArgument) -> None:
+    """Remove a region.
+
+    Remove a region; its facets belong to none, and the priorities behind it move up.
+    """
+    session = Session(mesh)
+    rank = session.rank(region)
+    count = int(session.mask(rank).sum())
+    session.model.remove(rank)
+    session.finish(count)
+
+
+@regions_app.command(example="probe regions rename probe.ply Lens 'Acoustic window'")
+def rename(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    name: Annotated[str, typer.Argument(metavar="NAME", help="At most 64 characters.")],
+) -> None:
+    """Give a region another name."""
+    session = Session(mesh)
+    session.model.rename(session.rank(region), name)
+    session.finish(None)
+
+
+@regions_app.command(example="probe regions colour probe.ply Lens '#0072b2'")
+def colour(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    value: Annotated[str, typer.Argument(metavar="#RRGGBB")],
+) -> None:
+    """Give a region another colour."""
+    session = Session(mesh)
+    session.model.recolour(session.rank(region), value)
+    session.finish(None)
+
+
+@regions_app.command(example="probe regions mark probe.ply Clamp --untouchable")
+def mark(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    untouchable: Annotated[
+        bool, typer.Option("--untouchable/--touchable", help="Whether nothing can touch it.")
+    ],
+) -> None:
+    """Say whether nothing can touch a region.
+
+    Say whether nothing can touch a region, such as one that a clamp or a drape hides.
+
+    A contact there counts as 1000 times less likely, and the places that remain are told apart better.
+    """
+    session = Session(mesh)
+    session.model.set_untouchable(session.rank(region), untouchable)
+    session.finish(None)
+
+
+@regions_app.command(example="probe regions reorder probe.ply Lens Neck Handle")
+def reorder(
+    mesh: MeshArgument,
+    order: Annotated[list[str], typer.Argument(metavar="REGION...", help="Every region once.")],
+) -> None:
+    """Change the priorities: name all regions, the first priority first."""
+    session = Session(mesh)
+    session.model.reorder([session.rank(region) for region in order])
+    session.finish(None)
+
+
+@regions_app.command(example="probe regions undo probe.ply")
+def undo(mesh: MeshArgument) -> None:
+    """Take back the last region command on a probe.
+
+    Take back the last region command on a probe; up to 100, one after the other.
+
+    Both files are byte for byte what they were before it. The steps are kept beside the probe, in its
+    .undo file; they end where something else changes the probe. Exit code 1: there is nothing to undo.
+    """
+    Session(mesh).turn("undo")
+
+
+@regions_app.command(example="probe regions redo probe.ply")
+def redo(mesh: MeshArgument) -> None:
+    """Do again what was undone last.
+
+    Do again what undo took back last. Exit code 1: there is nothing to redo.
+    """
+    Session(mesh).turn("redo")
+
+
+@regions_app.command(example="probe regions export probe.ply --out regions.json")
+def export(
+    mesh: MeshArgument,
+    out: Annotated[Path, typer.Option(help="File to write, .json or .csv.")],
+) -> None:
+    """Write the regions to a file of their own.
+
+    Write the regions to a file of their own: .json (names, colours, marks, facets; fits this mesh only)
+    or .csv (face,region).
+    """
+    from contactbench.pipeline.mesh.regions import RegionError, save_regions
+    from contactbench.pipeline.mesh.sidecar import sidecar_of
+
+    session = Session(mesh)
+    if out.resolve() == sidecar_of(mesh).resolve():
+        raise RegionError(f"{out} holds the names of the regions: choose another --out.")
+    save_regions(session.model.snapshot(), session.probe, out)
+    say(f"{len(session.model.regions)} regions written to {out}.")
+    show(mesh, session.probe, session.model, out=str(out))
+
+
+@regions_app.command("import", example="probe regions import probe.ply regions.json")
+def import_regions(
+    mesh: MeshArgument,
+    file: Annotated[Path, typer.Argument(metavar="FILE", help=".json or .csv.")],
+) -> None:
+    """Replace all regions of a probe by those of a file, .json or .csv.
+
+    A .json file fits the mesh that it was made for; for another one use transfer. From .csv names,
+    colours and marks stay, as far as there are any.
+    """
+    from contactbench.pipeline.mesh.regions import RegionSet, load_regions
+
+    session = Session(mesh)
+    before = session.model.labels.copy()
+    imported = load_regions(file, session.probe)
+    if file.suffix.lower() == ".csv":
+        imported = RegionSet.from_labels(imported.labels, session.model.regions)
+    session.model.replace_all(imported)
+    session.finish(int((before != session.model.labels).sum()))
+
+
+@regions_app.command(example="probe regions transfer probe.ply probe-1000.ply")
+def transfer(
+    old: Annotated[Path, typer.Argument(metavar="OLD", help="Probe with regions, .ply.")],
+    new: Annotated[Path, typer.Argument(metavar="NEW", help="Probe to give them to, .ply; is overwritten.")],
+    reach: Annotated[
+        float | None, typer.Option(help="Facets further than this from OLD get none, mm [2 % of the size].")
+    ] = None,
+) -> None:
+    """Carry the regions of one mesh over to another.
+
+    Carry the regions of one mesh over to another of the same surface: simplified, made a shell, or
+    exported again.
+
+    Both are in S. Each facet of NEW takes the region of the nearest facet of OLD that faces the same way.
+    NEW's own regions are replaced. Exit code 1: a region vanished.
+    """
+    import warnings
+
+    from contactbench.pipeline.mesh import MeshWarning
+    from contactbench.pipeline.mesh.regions import transfer as carry
+    from contactbench.pipeline.mesh.regions.exchange import mesh_hash
+
+    refuse_overwriting(new, [old])
+    source, target = Session(old), Session(new)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", MeshWarning)  # said below
+        result = carry(
+            source.model.snapshot(), source.probe, target.probe, reach=None if reach is None else reach / 1000
+        )
+    target.model.replace_all(result.regions, text=f"transfer from {old.name}")
+    target.save({"from": mesh_hash(source.probe)})
+    _say_transferred(result)
+    if as_json():
+        print_json(
+            {
+                "mesh": str(new),
+                "facets": len(target.probe.faces),
+                "unmatched": result.unmatched,
+                "regions": [part.to_json() for part in result.report],
+                "warnings": list(result.warnings),
+            }
+        )
+    else:
+        show(new, target.probe, target.model)
+    if any(part.vanished for part in result.report):
+        raise typer.Exit(1)
+
+
+def _say_transferred(result: Transferred) -> None:
+    for part in result.report:
+        say(part.sentence, "red" if part.vanished else "")
+    for sentence in result.warnings:
+        say(f"warning: {sentence}", "yellow")
+
+
+
+_NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it
+_EMPTY = "the region has no facets"
+
+EraseOption = Annotated[bool, typer.Option("--erase", help="Take the facets out of REGION instead.")]
+ProtectOption = Annotated[bool, typer.Option("--protect", help="Facets of other regions stay theirs.")]
+RingsOption = Annotated[int | None, typer.Option(help="Rings of facets that share a vertex.")]
+DistanceOption = Annotated[float | None, typer.Option(help="Or so far along the surface, mm.")]
+PointOption = Annotated[str, typer.Option(metavar="X,Y,Z", help="A point on the plane, mm.")]
+NormalOption = Annotated[str, typer.Option(metavar="X,Y,Z", help="Normal of the plane, of any length.")]
+
+
+@regions_app.command(example="probe regions box probe.ply Lens --low=-30,-10,120 --high=30,10,150")
+def box(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    low: Annotated[str, typer.Option(metavar="X,Y,Z", help="Lowest corner, mm.")],
+    high: Annotated[str, typer.Option(metavar="X,Y,Z", help="Highest corner, mm.")],
+    frame: Annotated[
+        str | None,
+        typer.Option(
+            metavar="X,Y,Z,RX,RY,RZ",
+            help="Pose of the box's axes in S: mm, then degrees about the fixed axes x, y, z [those of S].",
+        ),
+    ] = None,
+    erase: EraseOption = False,
+    protect: ProtectOption = False,
+) -> None:
+    """Give REGION the facets whose centroid lies in a box."""
+    from contactbench.pipeline.mesh.regions import in_box
+
+    corners = metres(low, "--low"), metres(high, "--high")
+    session = Session(mesh)
+    if frame is None:
+        chosen = in_box(session.graph, *corners)
+    else:
+        from scipy.spatial.transform import Rotation
+
+        values = numbers(frame, 6, "--frame")
+        R_SB = Rotation.from_euler("xyz", values[3:], degrees=True).as_matrix()
+        chosen = in_box(session.graph, *corners, R_SB=R_SB, p_SB_S=[value / 1000 for value in values[:3]])
+    _assign(session, region, chosen, "box into", erase, protect)
+
+
+@regions_app.command(example="probe regions plane probe.ply Lens --point 0,0,120 --normal 0,0,1")
+def plane(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    point: PointOption,
+    normal: NormalOption,
+    erase: EraseOption = False,
+    protect: ProtectOption = False,
+) -> None:
+    """Give REGION the facets on the side of a plane that its normal points to."""
+    from contactbench.pipeline.mesh.regions import half_space
+
+    where, direction = metres(point, "--point"), numbers(normal, 3, "--normal")
+    session = Session(mesh)
+    chosen = half_space(session.graph, where, direction)
+    _assign(session, region, chosen, "half into", erase, protect)
+
+
+@regions_app.command(example="probe regions flood probe.ply Lens --at 0,0,140 --crease 20")
+def flood(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    at: Annotated[str, typer.Option(metavar="X,Y,Z", help="Where to begin: the facet nearest to this, mm.")],
+    crease: Annotated[float, typer.Option(help="Sharpest edge that is crossed, degrees.")] = 30.0,
+    erase: EraseOption = False,
+    protect: ProtectOption = False,
+) -> None:
+    """Give a region the facets around a point, up to creases.
+
+    Give REGION the facets around a point, as far as no edge is sharper than --crease.
+    """
+    from contactbench.pipeline.mesh.regions import flood as fill
+
+    where = metres(at, "--at")
+    session = Session(mesh)
+    faces, _ = session.graph.pick(where)
+    chosen = fill(session.graph, int(faces[0]), math.radians(crease))
+    _assign(session, region, chosen, "fill", erase, protect)
+
+
+@regions_app.command(example="probe regions brush probe.ply Lens --at=-20,0,140 --at=20,0,140 --radius 5")
+def brush(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    at: Annotated[list[str], typer.Option(metavar="X,Y,Z", help="A point of the stroke, mm.")],
+    radius: Annotated[float, typer.Option(help="Of the brush, mm.")],
+    straight: Annotated[
+        bool,
+        typer.Option("--straight", help="Measure through space, not along the surface."),
+    ] = False,
+    erase: EraseOption = False,
+    protect: ProtectOption = False,
+) -> None:
+    """Paint a region with a round brush.
+
+    Paint REGION with a round brush, along the surface through the points nearest to --at.
+
+    --at is given once for a dab, several times for a stroke. A point further from the surface than the
+    radius, or 2 % of the size if that is more, is refused.
+    """
+    from contactbench.pipeline.mesh.regions import Brush
+
+    tool = Brush(radius / 1000, geodesic=not straight, erase=erase, protect=protect or erase)
+    where = [metres(text, "--at") for text in at]
+    session = Session(mesh)
+    faces, points = session.graph.pick(where, within=max(tool.radius, _NEAR * session.probe.size))
+    rank = session.rank(region)
+    with session.model.stroke(session.graph, tool, rank) as stroke:
+        changed = sum(
+            len(stroke.extend(face, point)) for face, point in zip(faces.tolist(), points, strict=True)
+        )
+    session.finish_selection(changed, _kept_as(erase=erase, protect=protect))
+
+
+@regions_app.command(example="probe regions grow probe.ply Lens --distance 2")
+def grow(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    rings: RingsOption = None,
+    distance: DistanceOption = None,
+) -> None:
+    """Let a region grow at its border.
+
+    Let REGION grow at its border, by rings of facets or a distance. Other regions stay as they are.
+    """
+    from contactbench.pipeline.mesh.regions import grow as extend
+
+    session = Session(mesh)
+    rank = session.rank(region)
+    chosen = extend(session.graph, session.mask(rank), rings=rings or 0, distance=(distance or 0.0) / 1000)
+    _reshape(session, rank, chosen, "grow")
+
+
+@regions_app.command(example="probe regions shrink probe.ply Lens --rings 2")
+def shrink(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    rings: RingsOption = None,
+    distance: DistanceOption = None,
+) -> None:
+    """Let REGION shrink at its border, by rings of facets or a distance."""
+    from contactbench.pipeline.mesh.regions import shrink as reduce
+
+    session = Session(mesh)
+    rank = session.rank(region)
+    chosen = reduce(session.graph, session.mask(rank), rings=rings or 0, distance=(distance or 0.0) / 1000)
+    _reshape(session, rank, chosen, "shrink")
+
+
+@regions_app.command(example="probe regions smooth probe.ply Lens --rings 3")
+def smooth(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    rings: Annotated[int, typer.Option(help="What is narrower than about this many facets goes.")] = 2,
+) -> None:
+    """Straighten the border of a region.
+
+    Straighten the border of REGION, fill its holes and remove its specks; its area stays. Other regions
+    stay as they are.
+    """
+    from contactbench.pipeline.mesh.regions import smooth as straighten
+
+    session = Session(mesh)
+    rank = session.rank(region)
+    chosen = straighten(session.graph, session.mask(rank), rings, allowed=session.mask(0))
+    _reshape(session, rank, chosen, "smooth")
+
+
+@regions_app.command(example="probe regions mirror probe.ply Side --normal 1,0,0")
+def mirror(
+    mesh: MeshArgument,
+    region: RegionArgument,
+    normal: NormalOption,
+    point: PointOption = "0,0,0",
+    tolerance: Annotated[
+        float | None, typer.Option(help="How far a centroid may be off, mm [the mean edge].")
+    ] = None,
+    protect: ProtectOption = False,
+) -> None:
+    """Give REGION also the facets that lie where its own are after mirroring.
+
+    Exit code 1: some facets have no counterpart, because the surface is not symmetric there.
+    """
+    from contactbench.pipeline.mesh.regions import mirror as reflect
+
+    direction, where = numbers(normal, 3, "--normal"), metres(point, "--point")
+    session = Session(mesh)
+    rank = session.rank(region)
+    reach = None if tolerance is None else tolerance / 1000
+    result = reflect(session.graph, session.mask(rank), direction, where, tolerance=reach)
+    changed = session.model.assign(result.mask, rank, protect=protect, text=f"mirror {session.name(rank)}")
+    say(result.sentence, "yellow" if len(result.unmatched) else "")
+    why_not = _kept_as(erase=False, protect=protect) if session.mask(rank).any() else _EMPTY
+    session.finish_selection(len(changed), why_not, unmatched=len(result.unmatched))
+    if len(result.unmatched):
+        raise typer.Exit(1)
+
+
+@regions_app.command(example="probe regions clear probe.ply Lens")
+def clear(mesh: MeshArgument, region: RegionArgument) -> None:
+    """Take all facets out of REGION; its name, colour and priority stay."""
+    session = Session(mesh)
+    rank = session.rank(region)
+    changed = session.model.assign(session.mask(rank), 0, text=f"clear {session.name(rank)}")
+    session.finish_selection(len(changed), _EMPTY)
+
+
+def _assign(
+    session: Session,
+    region: str,
+    chosen: NDArray[np.bool_],
+    what: str,
+    erase: bool,
+    protect: bool,
+) -> None:
+    rank = session.rank(region)
+    text = f"{what} {session.name(rank)}"
+    if erase:
+        changed = session.model.assign(chosen & session.mask(rank), 0, text=f"{text}, erasing")
+    else:
+        changed = session.model.assign(chosen, rank, protect=protect, text=text)
+    why_not = _kept_as(erase=erase, protect=protect) if chosen.any() else "no facet lies there"
+    session.finish_selection(len(changed), why_not)
+
+
+def _kept_as(*, erase: bool, protect: bool) -> str:
+    """Say why facets that were chosen stayed where they are."""
+    if erase:
+        return "none of them is in it"
+    return "they are in it already" + (", or in others, where --protect leaves them" if protect else "")
+
+
+def _reshape(session: Session, rank: int, chosen: NDArray[np.bool_], text: str) -> None:
+    why_not = "the region has that shape already" if session.mask(rank).any() else _EMPTY
+    changed = session.model.set_region(rank, chosen, text=f"{text} {session.name(rank)}")
+    session.finish_selection(len(changed), why_not)

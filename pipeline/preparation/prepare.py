@@ -272,7 +272,7 @@ def finish(
         cancelled=cancelled,
     )
     made, whole = content.probe, placed.probe
-    soundness = check_soundness(
+    soundness = simplified.soundness or check_soundness(
         made.vertices, made.faces, (whole.vertices, whole.faces), invented=made.invented
     )
     return Preparation(content, dense.shell, simplified, soundness, carried)

@@ -127,6 +127,17 @@ def test_prepare_leaves_a_mesh_in_its_own_frame_and_says_so(tmp_path):
     assert done.to_json()["facets"] == 500
 
 
+def test_the_result_is_checked_once(tmp_path, monkeypatch):
+    """The simplification has checked what it gives, compared with the same shell."""
+    file = write_stl(tmp_path / "t.stl", bundled("t-shape", 2000))
+    monkeypatch.setattr(
+        "contactbench.pipeline.preparation.prepare.check_soundness", lambda *_, **__: pytest.fail("again")
+    )
+    done = prepare(file, target=count(500))
+    assert done.ready
+    assert done.soundness.largest_deviation_deg is not None
+
+
 def test_prepare_can_be_stopped(hollow):
     with pytest.raises(Cancelled):
         prepare(hollow, target=count(500), cancelled=lambda: True)

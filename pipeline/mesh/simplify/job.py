@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -43,11 +43,14 @@ class Attempt:
         With the original.
     deviation : Deviation
         Over the whole surface.
+    soundness : Soundness or None
+        Compared with the original; None for the original itself.
     """
 
     probe: Probe
     comparison: Comparison
     deviation: Deviation
+    soundness: Soundness | None = None
 
 
 class Job:
@@ -159,9 +162,11 @@ class Job:
         vertices, faces = self._collapsed(count)
         made = Probe.from_arrays(self._mesh.back(vertices), faces, name=self.probe.name, check_size=False)
         attempt = self._compared(made)
-        if faults := find_faults(attempt.probe, self.probe, lambda: self._soundness):
+        made, whole = attempt.probe, (self.probe.vertices, self.probe.faces)
+        found = check_soundness(made.vertices, made.faces, whole, invented=made.invented)
+        if faults := find_faults(found, lambda: self._soundness):
             raise MeshError(" ".join(faults))
-        return attempt
+        return replace(attempt, soundness=found)
 
     def _collapsed(self, count: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
         mesh = self._mesh

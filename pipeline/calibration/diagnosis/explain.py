@@ -48,22 +48,12 @@ _BOTH = np.arange(2)
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """One hypothesis and all that speaks for it.
-
-    Attributes
-    ----------
-    hypothesis : Hypothesis
-    evidence : Evidence
-    priors : dict
-        Logarithms of what each piece of knowledge about loads says.
-    preference : float
-        Logarithm of how rarely such a mistake is made; 0 for what was declared.
-    """
+    """One hypothesis and all that speaks for it."""
 
     hypothesis: Hypothesis
     evidence: Evidence
-    priors: dict[str, float]
-    preference: float
+    priors: dict[str, float]  # Logarithms of what each piece of knowledge about loads says
+    preference: float  # Logarithm of how rarely such a mistake is made; 0 for what was declared
 
     @property
     def key(self) -> str:
@@ -128,18 +118,10 @@ def decided_by(best: Case, rivals: Sequence[Case]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Context:
-    """What all cases share.
-
-    Attributes
-    ----------
-    poses : tuple of PoseSample
-    sigmas : (6,)
-        Noise, N and N·m, or the unit that residuals are counted in when it is not known.
-    known : bool
-    prior : Prior
-    """
+    """What all cases share."""
 
     poses: tuple[PoseSample, ...]
+    # (6,) noise, N and N·m, or the unit that residuals are counted in when it is not known
     sigmas: NDArray[np.float64]
     known: bool
     prior: Prior

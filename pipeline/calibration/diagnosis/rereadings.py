@@ -37,21 +37,15 @@ _OFTEN, _SOMETIMES = 20.0, 5.0
 class RawOrientations:
     """Orientations as they were written, and how they were read.
 
-    Parameters
-    ----------
-    values : (n, k)
-        One row a pose, columns as `convention.columns`.
-    convention : Convention
-        How the poses' R_WS were made from them; a constant rotation of the sensor in the flange may have
-        followed.
-
     Raises
     ------
     InputError
         The shape does not fit the convention, or a value is not finite.
     """
 
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # (n, k) one row a pose, columns as `convention.columns`
+    # How the poses' R_WS were made from them; a constant rotation of the sensor in the flange may have
+    # followed
     convention: Convention
 
     def __post_init__(self) -> None:

@@ -61,19 +61,10 @@ SIZE_LIMIT = 32 * 2**20  # bytes; ten thousand poses take half of it
 
 @dataclass(frozen=True)
 class Source:
-    """
-    The file that the poses came from.
+    """The file that the poses came from."""
 
-    Attributes
-    ----------
-    name : str
-        Its name, without folders.
-    sha256 : str
-        Of its content, 64 hexadecimal digits.
-    """
-
-    name: str
-    sha256: str
+    name: str  # Its name, without folders
+    sha256: str  # Of its content, 64 hexadecimal digits
 
     @classmethod
     def of(cls, file: Path) -> Source:
@@ -89,18 +80,11 @@ class Source:
 
 @dataclass(frozen=True, eq=False)
 class Mount:
-    """
-    How the flange E sits on the sensor S.
+    """How the flange E sits on the sensor S."""
 
-    Attributes
-    ----------
-    quaternion_SE : (4,)
-        Orientation of E in S, scalar first, of length 1.
-    covariance : (3, 3)
-        Of the rotation vector d in ``R_true = exp([d]x) @ R_SE``, in S, rad²; zero for a mounting that was given.
-    """
-
-    quaternion_SE: NDArray[np.float64]
+    quaternion_SE: NDArray[np.float64]  # (4,) orientation of E in S, scalar first, of length 1
+    # (3, 3) of the rotation vector d in ``R_true = exp([d]x) @ R_SE``, in S, rad²; zero for a mounting that
+    # was given
     covariance: NDArray[np.float64]
 
     @classmethod
@@ -118,25 +102,12 @@ class Mount:
 
 @dataclass(frozen=True, eq=False)
 class CalibrationRecord:
-    """
-    All that a calibration file holds.
-
-    Attributes
-    ----------
-    calibration : Calibration
-    created : datetime or None
-        When, UTC; None if nobody said.
-    tool : str
-        What wrote the file.
-    source : Source or None
-        What the poses came from.
-    mount : Mount or None
-    """
+    """All that a calibration file holds."""
 
     calibration: Calibration
-    created: datetime | None
-    tool: str
-    source: Source | None
+    created: datetime | None  # When, UTC; None if nobody said
+    tool: str  # What wrote the file
+    source: Source | None  # What the poses came from
     mount: Mount | None
 
 

@@ -38,27 +38,13 @@ _HEADER = "t,fx,fy,fz,mx,my,mz and the orientation"
 
 @dataclass(frozen=True, eq=False)
 class Captured:
-    """The still poses of a recording.
+    """The still poses of a recording."""
 
-    Attributes
-    ----------
-    poses : tuple of PoseSample
-        For `calibrate`; their names say when they were taken.
-    report : CaptureReport
-        With what was refused, and why.
-    rows : int
-        Of the recording.
-    warnings : tuple of str
-        What was noticed, in sentences.
-    delay : float or None
-        That was asked for or estimated, s; see `capture_recording`.
-    """
-
-    poses: tuple[PoseSample, ...]
-    report: CaptureReport
-    rows: int
-    warnings: tuple[str, ...] = ()
-    delay: float | None = None
+    poses: tuple[PoseSample, ...]  # For `calibrate`; their names say when they were taken
+    report: CaptureReport  # With what was refused, and why
+    rows: int  # Of the recording
+    warnings: tuple[str, ...] = ()  # What was noticed, in sentences
+    delay: float | None = None  # That was asked for or estimated, s; see `capture_recording`
 
     @property
     def left_out(self) -> tuple[str, ...]:

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
 from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
-from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.odds import NONE
+from contactbench.pipeline.calibration.diagnosis.explain import NONE
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.fit import PoseNoise
 from contactbench.pipeline.calibration.poses import named

@@ -18,18 +18,20 @@ from contactbench.pipeline.calibration.contact_error import usual_task
 from contactbench.pipeline.calibration.diagnosis.evidence import weigh
 from contactbench.pipeline.calibration.diagnosis.explain import (
     FELT,
+    NONE,
     NOTHING,
     TIE,
     Case,
     Context,
     Words,
     decided_by,
+    odds,
 )
-from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations, hypotheses
-from contactbench.pipeline.calibration.diagnosis.odds import NONE, odds
+from contactbench.pipeline.calibration.diagnosis.hypotheses import MOUNT, WORLD, YAW, hypotheses, settled
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
-from contactbench.pipeline.calibration.diagnosis.turned import MOUNT, WORLD, YAW, settled
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.calibration.diagnosis.hypotheses import FEWEST_BESIDE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.rows import FEWEST_BESIDE
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Fits, Noise, begin, fit, joint_doubts
 
 if TYPE_CHECKING:

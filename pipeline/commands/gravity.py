@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
-    from contactbench.pipeline.calibration.mounting import MountCalibration
+    from contactbench.pipeline.calibration.mount import MountCalibration
     from contactbench.pipeline.calibration.orientation import Convention
 
 _NOT_GOOD_ENOUGH = 1
@@ -136,7 +136,7 @@ def calibrate(
     table = _poses(poses, written_as, R_ES, robot_poses, delay)
     mounted = None
     if estimate_mount:
-        from contactbench.pipeline.calibration.mounting import estimate_mount as fit_mount
+        from contactbench.pipeline.calibration.mount import estimate_mount as fit_mount
 
         mounted = fit_mount(table.poses, **said)
         calibration = mounted.calibration
@@ -160,7 +160,7 @@ def _poses(
     file: Path, written_as: Convention | None, R_ES: Any, robot_poses: Path | None, delay: str | None
 ) -> PoseTable:
     """Read poses or find them in a recording, and tell how, with what was left out."""
-    from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
+    from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 
     with Bar("looking for still poses") as bar:
         table = read_any_poses(

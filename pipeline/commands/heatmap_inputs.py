@@ -86,7 +86,7 @@ def found_contacts(
     min_force: float,
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
-    from contactbench.pipeline.calibration.files.capture_recording import is_recording
+    from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.heatmap.contacts import read_contacts
 
     if is_recording(files.contacts):

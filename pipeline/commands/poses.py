@@ -210,7 +210,7 @@ def captures(
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_recording import capture_any
+    from contactbench.pipeline.calibration.files.capture_file import capture_any
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model

@@ -11,9 +11,10 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
-from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations
-from contactbench.pipeline.calibration.diagnosis.odds import NONE
+from contactbench.pipeline.calibration.diagnosis.explain import NONE
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.errors import InputError

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import quad
 
 from contactbench.pipeline.calibration import Level, calibrate
-from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise, over_unknowns
 from contactbench.pipeline.study import wrong_models as wrong

@@ -6,10 +6,12 @@ import threading
 import time
 
 import pytest
-from devices.drive.test_stream import Heard
+from devices.test_sensor import Heard
 
-from contactbench.pipeline.devices.drive import ElfinPoses, SensorStream, State
 from contactbench.pipeline.devices.emulate.models import sri_frame
+from contactbench.pipeline.devices.robot_poses import ElfinPoses
+from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.transport import Chunk, LineLost
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.study.fault_lines import resting

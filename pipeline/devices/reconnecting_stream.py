@@ -4,27 +4,24 @@ from __future__ import annotations
 
 import threading
 import time
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from contextlib import suppress
-from typing import TYPE_CHECKING, Generic, TypeVar
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.drive.health import Health, State
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError
-from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.stream import Health, Sample, State, Stream
 from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine
 from contactbench.pipeline.devices.url import Carrier
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from types import TracebackType
     from typing import Self
 
-    from contactbench.pipeline.devices.drive.watch import Watch
     from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.devices.url import DeviceAddress
-
-Sample = TypeVar("Sample", WrenchSample, FlangeSample)
+    from contactbench.pipeline.devices.watch import Watch
 
 READ_S = 0.02  # how long a read may wait: how soon a stop or a silence is noticed
 _RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0)
@@ -36,7 +33,7 @@ _DEAD_S = 3.0
 _FAILURES = (Exception, SystemExit)
 
 
-class KeptStream(ABC, Generic[Sample]):
+class ReconnectingStream(Stream[Sample]):
     """
     One device's samples, in a thread of their own.
 
@@ -46,15 +43,9 @@ class KeptStream(ABC, Generic[Sample]):
 
     Parameters
     ----------
-    address : DeviceAddress
+    address, watch, on_samples, on_change
+        As for `Stream`.
     line : Line
-    watch : Watch
-    on_samples : callable
-        Gets every batch of samples, oldest first, in the stream's thread; it must be quick, and what it raises
-        ends the stream.
-    on_change : callable, optional
-        Told when the state changed, or a finding or suspicion came or went, in the same thread. A number
-        within a finding that goes on is no change: `health` has the latest.
     """
 
     def __init__(
@@ -65,14 +56,9 @@ class KeptStream(ABC, Generic[Sample]):
         on_samples: Callable[[Sequence[Sample]], None],
         on_change: Callable[[Health], None] | None = None,
     ) -> None:
-        self.address = address
+        super().__init__(address, watch, on_samples, on_change)
         self._line = line
-        self._on_samples: Callable[[Sequence[Sample]], None] = on_samples
-        self._on_change = on_change
-        self._watch = watch
-        self._watching = threading.Lock()
-        self._state, self._why, self._reconnected = State.CLOSED, "", 0
-        self._told: tuple[State, tuple[str, ...]] | None = None
+        self._why, self._reconnected = "", 0
         self._failure: BaseException | None = None
         self._tries = 0  # to open the line, since the last sample
         self._last = self._heard = self._reviewed = 0.0
@@ -93,19 +79,6 @@ class KeptStream(ABC, Generic[Sample]):
             self._line.interrupt()
         if self._thread is not None:
             self._thread.join()
-
-    def acknowledge(self) -> None:
-        """Drop the suspicions: somebody has read them. `on_change` tells that they are gone."""
-        with self._watching:
-            self._watch.acknowledge()
-
-    def __enter__(self) -> Self:
-        return self.start()
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.stop()
 
     @property
     def health(self) -> Health:
@@ -153,21 +126,15 @@ class KeptStream(ABC, Generic[Sample]):
     # ---- the thread ----------------------------------------------------------------------------
 
     def _health(self, state: State) -> Health:
-        return Health(
-            state,
-            tuple(self._findings(state).values()),
-            self._watch.samples,
-            self._watch.rate(),
-            self._watch.jitter(),
-            self._counters(),
-            self._reconnected,
-            self._watch.suspicions,
-            self._watch.lateness(),
-            None if self._failure is None else self._why,
+        return replace(
+            super()._health(state),
+            counters=self._counters(),
+            reconnected=self._reconnected,
+            lateness=self._watch.lateness(),
+            failure=None if self._failure is None else self._why,
         )
 
     def _findings(self, state: State) -> dict[str, str]:
-        """Return what is wrong, by kind; two of one kind are no news."""
         if state is State.LOST:
             return {self._why: self._why}
         if state is State.SILENT:
@@ -274,16 +241,6 @@ class KeptStream(ABC, Generic[Sample]):
             with self._watching:
                 self._watch.count(now, self._counters(), self._received)
             self._tell()
-
-    def _tell(self) -> None:
-        with self._watching:
-            now = (self._state, (*self._findings(self._state), *self._watch.suspicions))
-            if now == self._told:
-                return
-            self._told = now
-            health = self._health(self._state)  # of this very state: what is told next is judged against it
-        if self._on_change is not None:
-            self._on_change(health)
 
     def _finish(self) -> None:
         try:

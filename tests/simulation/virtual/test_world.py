@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.streams import open_pair, open_poses, open_sensor
@@ -17,11 +17,11 @@ def test_the_same_address_is_the_same_bench_on_one_clock():
     wrenches, flanges, told = [], [], []
     sensor = open_sensor(HERE, wrenches.extend, told.append)
     poses = open_poses(HERE, flanges.extend)
-    assert sensor.bench is poses.bench
-    assert open_sensor(f"{HERE}&seed=1", wrenches.extend).bench is not sensor.bench
+    assert sensor.source.bench is poses.source.bench
+    assert open_sensor(f"{HERE}&seed=1", wrenches.extend).source.bench is not sensor.source.bench
     with sensor, poses:
         begin = time.monotonic()
-        done = sensor.bench.turn_to(rpy=(0, 40, 0), seconds=0.3).result(2)
+        done = sensor.source.bench.turn_to(rpy=(0, 40, 0), seconds=0.3).result(2)
         time.sleep(0.6)
         assert sensor.health.state is State.STREAMING
     assert told[-1].state is State.CLOSED
@@ -31,7 +31,7 @@ def test_the_same_address_is_the_same_bench_on_one_clock():
     # Wrenches and poses of one moment have one time.
     assert {sample.time for sample in flanges[2:-2]} <= {sample.time for sample in wrenches}
     # The bench is gone with its last stream.
-    assert open_sensor(HERE, wrenches.extend).bench is not sensor.bench
+    assert open_sensor(HERE, wrenches.extend).source.bench is not sensor.source.bench
 
 
 def test_stepwise_gives_the_same_every_time(tmp_path):
@@ -44,7 +44,7 @@ def test_stepwise_gives_the_same_every_time(tmp_path):
     for _ in range(2):
         wrenches, flanges, truths = [], [], []
         pair = open_pair(address, address, wrenches.extend, flanges.extend)
-        pair.world.truth = lambda batch, truths=truths: truths.extend(batch.truths)
+        pair.source.truth = lambda batch, truths=truths: truths.extend(batch.truths)
         with pair:
             assert pair.stepwise
             assert pair.step(5) == 5
@@ -79,7 +79,7 @@ def test_readings_without_noise_are_no_fault():
 
 def test_a_tip_that_slid_off_is_a_finding():
     with open_sensor(f"{HERE}&speed=step", lambda _: None) as stream:
-        touch = stream.bench.touch(3, tilt=80.0)
+        touch = stream.source.bench.touch(3, tilt=80.0)
         stream.step(500)
         assert touch.result(0).time == 0.0
         assert any("slid off" in finding for finding in stream.health.findings)
@@ -97,7 +97,7 @@ def test_who_makes_a_mistake_with_samples_leaves_nobody_waiting():
             assert stream.health.state is State.LOST
             assert "ZeroDivisionError: mine" in stream.health.findings[0]
         with pytest.raises(InputError, match="closed"):
-            pair.sensor.bench.release().result(1)
+            pair.sensor.source.bench.release().result(1)
 
 
 def test_a_stream_that_comes_after_the_bench_failed_hears_why(tmp_path):

@@ -6,16 +6,16 @@ import struct
 import time
 
 import pytest
-from devices.drive.test_kept import Script
-from devices.drive.test_stream import Heard, listen, moving
+from devices.test_reconnecting_stream import Script
+from devices.test_sensor import Heard, listen, moving
 
-from contactbench.pipeline.devices.drive import SensorStream, driver, driver_for
-from contactbench.pipeline.devices.drive.readings import Readings
 from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.devices.emulate.models import Quirk, rdt_record
-from contactbench.pipeline.devices.protocols import rdt
+from contactbench.pipeline.devices.protocols import ati_scale, rdt
 from contactbench.pipeline.devices.protocols.ati_scale import ScaleError
+from contactbench.pipeline.devices.readings import Readings
 from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.sensor import SensorStream, driver_for
 from contactbench.pipeline.devices.url import DeviceAddress
 
 
@@ -82,7 +82,7 @@ def test_onrobot_is_told_a_rate_only_when_one_is_asked_for():
 
 
 def test_an_ati_sensor_is_asked_for_its_counts_where_the_address_has_none(monkeypatch):
-    monkeypatch.setattr(driver.ati_scale, "scale_for", lambda _: rdt.CountScale(4.0, 8.0))
+    monkeypatch.setattr(ati_scale, "scale_for", lambda _: rdt.CountScale(4.0, 8.0))
     record = rdt_record((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), (4.0, 8.0))
     heard = Heard()
     made = driver_for(DeviceAddress.parse("rdt+udp://h"))
@@ -99,7 +99,7 @@ def test_counts_that_are_assumed_are_told_as_long_as_they_are(monkeypatch):
     def fail(_):
         raise ScaleError("no page.")
 
-    monkeypatch.setattr(driver.ati_scale, "scale_for", fail)
+    monkeypatch.setattr(ati_scale, "scale_for", fail)
     heard = Heard()
     numbers = iter(range(1, 10**6))
 
@@ -115,7 +115,7 @@ def test_too_much_load_is_not_called_a_broken_sensor():
     parser = rdt.RdtParser(rdt.ATI_TYPICAL)
     (sample,) = parser.feed(rdt_record((1.0,) * 6, (1e6, 1e6), status=0x8000_0002), 0.0)
     assert Status.ERROR in sample.status
-    made = driver.driver_for(DeviceAddress.parse("rdt+udp://h?cpf=1&cpt=1"))
+    made = driver_for(DeviceAddress.parse("rdt+udp://h?cpf=1&cpt=1"))
     readings = Readings(made.limits)
     readings.see(sample)
     (finding,) = readings.findings().values()

@@ -7,9 +7,10 @@ import time
 
 import pytest
 
-from contactbench.pipeline.devices.drive import SensorStream, State, driver_for
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.sample import Status
+from contactbench.pipeline.devices.sensor import SensorStream, driver_for
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 
 DEVICES = [("sri", "serial"), ("sri", "tcp"), ("bota", "serial"), ("robotiq", "serial"), ("rdt", "udp")]

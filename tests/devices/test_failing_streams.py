@@ -7,10 +7,13 @@ import threading
 import time
 
 import pytest
-from devices.drive.test_kept import Script, frames, sri
-from devices.drive.test_stream import Heard
+from devices.test_reconnecting_stream import Script, frames, sri
+from devices.test_sensor import Heard
 
-from contactbench.pipeline.devices.drive import ElfinPoses, SensorStream, State, kept
+from contactbench.pipeline.devices import reconnecting_stream
+from contactbench.pipeline.devices.robot_poses import ElfinPoses
+from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.transport import LineLost, LineUnavailable
 from contactbench.pipeline.devices.url import DeviceAddress
 from contactbench.pipeline.errors import InputError
@@ -72,8 +75,8 @@ def test_kinematics_that_are_missing_are_refused_at_once(monkeypatch):
 
 @pytest.mark.parametrize(("address", "again"), [("sri+tcp://h?rate=100", True), ("bota+serial:///x", False)])
 def test_a_connection_that_is_dead_is_opened_again(monkeypatch, address, again):
-    monkeypatch.setattr(kept, "_DEAD_S", 0.3)
-    monkeypatch.setattr("contactbench.pipeline.devices.drive.stream._REPLY_S", 0.05)
+    monkeypatch.setattr(reconnecting_stream, "_DEAD_S", 0.3)
+    monkeypatch.setattr("contactbench.pipeline.devices.sensor._REPLY_S", 0.05)
     heard = Heard()
     line = Script(lambda _line, _now: b"")
     line.write = lambda _: None

@@ -7,14 +7,15 @@ from itertools import count
 
 import pytest
 
-from contactbench.pipeline.devices.drive import Watch, driver_for
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
 from contactbench.pipeline.devices.emulate.mangle import Mangler
 from contactbench.pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
 from contactbench.pipeline.devices.emulate.signals import Truth
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.sensor import driver_for
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.study.fault_lines import LINES, cases, expectation, resting
 
 SENSORS = [line for line in LINES if not line.robot]

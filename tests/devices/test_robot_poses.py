@@ -6,14 +6,15 @@ import time
 
 import numpy as np
 import pytest
-from devices.drive.test_kept import Script
-from devices.drive.test_stream import Heard, fault
+from devices.test_reconnecting_stream import Script
+from devices.test_sensor import Heard, fault
 
-from contactbench.pipeline.devices.drive import ElfinPoses, State, UrPoses, poses_from
 from contactbench.pipeline.devices.emulate import JOINTS, Fault, constant, emulator, swinging
 from contactbench.pipeline.devices.emulate.arms import UR5E_TABLE, flange_pose
 from contactbench.pipeline.devices.emulate.models import ElfinModel, Quirk
 from contactbench.pipeline.devices.emulate.signals import Moment, Reading
+from contactbench.pipeline.devices.robot_poses import ElfinPoses, UrPoses, poses_from
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.robot import Robot
 
@@ -138,7 +139,7 @@ def test_answers_that_took_long_are_dropped_and_told():
 
 
 def test_a_question_without_an_answer_opens_the_line_again(monkeypatch):
-    monkeypatch.setattr("contactbench.pipeline.devices.drive.poses._UNANSWERED_S", 0.3)
+    monkeypatch.setattr("contactbench.pipeline.devices.robot_poses._UNANSWERED_S", 0.3)
     heard = Heard()
     line = Controller(9.0)
     with ElfinPoses(DeviceAddress.parse("elfin+tcp://h?rate=50"), heard.take, heard.change, line=line):

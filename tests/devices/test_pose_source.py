@@ -11,10 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.pose_source import file_track, still_track
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 from contactbench.pipeline.streams import PoseTrackError, open_poses
-from contactbench.pipeline.streams.tracks import file_track, still_track
 
 
 def typed(address):

@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.devices.clock import SampleClock
-from contactbench.pipeline.devices.drive.kept import READ_S, KeptStream
-from contactbench.pipeline.devices.drive.watch import Watch
 from contactbench.pipeline.devices.protocols import Counters, ProtocolError, ur_rtde
 from contactbench.pipeline.devices.protocols.elfin import ElfinError, Question, ReplyReader, read_numbers
 from contactbench.pipeline.devices.protocols.elfin_pose import flange_sample, resolve_order
 from contactbench.pipeline.devices.protocols.ur_pose import Stage, UrStream
+from contactbench.pipeline.devices.reconnecting_stream import READ_S, ReconnectingStream
 from contactbench.pipeline.devices.sample import FlangeSample
 from contactbench.pipeline.devices.transport import LineLost, line_to
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress, Protocol
+from contactbench.pipeline.devices.watch import Watch
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.pipeline.devices.drive.health import Health
     from contactbench.pipeline.devices.protocols.elfin_pose import FieldOrder
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.devices.transport import Line
     from contactbench.pipeline.robot import Robot
 
@@ -40,7 +40,7 @@ _LATEST_S = 0.05
 _SHOWN_S = 2.0
 
 
-class UrPoses(KeptStream[FlangeSample]):
+class UrPoses(ReconnectingStream[FlangeSample]):
     """
     A UR robot's flange, over RTDE.
 
@@ -48,7 +48,7 @@ class UrPoses(KeptStream[FlangeSample]):
     ----------
     address : DeviceAddress
     on_samples, on_change
-        As for `KeptStream`.
+        As for `ReconnectingStream`.
     tool : 6 floats, optional
         See `UrStream`.
     """
@@ -102,7 +102,7 @@ class UrPoses(KeptStream[FlangeSample]):
         )
 
 
-class ElfinPoses(KeptStream[FlangeSample]):
+class ElfinPoses(ReconnectingStream[FlangeSample]):
     """
     An Elfin robot's flange, asked for at the address's rate.
 
@@ -114,7 +114,7 @@ class ElfinPoses(KeptStream[FlangeSample]):
     ----------
     address : DeviceAddress
     on_samples, on_change
-        As for `KeptStream`.
+        As for `ReconnectingStream`.
     robot : Robot, optional
         The arm; an Elfin3 when left out.
 

@@ -1,29 +1,31 @@
-"""Which source an address means. A new scheme needs a line in one of the two tables."""
+"""One way to open any source of samples: devices, recordings, files of poses, typed poses, the virtual bench."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.devices.drive import SensorStream, poses_from
+from contactbench.pipeline.devices.pose_source import PacedPoses, PoseTrackError, file_track, still_track
+from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.stream import Source, SourceStream, Stream
 from contactbench.pipeline.devices.url import STEPWISE, AddressError, DeviceAddress, Protocol
 from contactbench.pipeline.recording.info import FLANGE_TOPIC, WRENCH_TOPIC, DeviceInfo, RecordingInfo
-from contactbench.pipeline.streams.paced import PacedPoses
-from contactbench.pipeline.streams.replayed import Player, ReplayStream
-from contactbench.pipeline.streams.stream import DeviceStream, Stream
-from contactbench.pipeline.streams.tracks import file_track, still_track
-from contactbench.pipeline.streams.virtual import VirtualStream, World, world_at
+from contactbench.pipeline.recording.replay import Player
+from contactbench.pipeline.simulation.virtual.world import World, world_at
+
+__all__ = ["Pair", "PoseTrackError", "Stream", "open_pair", "open_poses", "open_sensor"]
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from types import TracebackType
 
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.pose_source import Track
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.streams.paced import Track
 
     OnWrenches = Callable[[Sequence[WrenchSample]], None]
     OnFlanges = Callable[[Sequence[FlangeSample]], None]
@@ -33,7 +35,9 @@ if TYPE_CHECKING:
 # ---- one source --------------------------------------------------------------------------------
 
 
-def open_sensor(address: DeviceAddress | str, on_samples: OnWrenches, on_change: OnChange = None) -> Stream:
+def open_sensor(
+    address: DeviceAddress | str, on_samples: OnWrenches, on_change: OnChange = None
+) -> Stream[WrenchSample]:
     """
     Return the wrenches of the device or recording at an address, not yet started.
 
@@ -54,10 +58,14 @@ def open_sensor(address: DeviceAddress | str, on_samples: OnWrenches, on_change:
     """
     where = _parsed(address)
     _check_kinds(where, None)
-    return _SENSORS[where.protocol](where, on_samples, on_change)
+    if where.protocol in _SHARED:
+        return _player_or_world(where, WrenchSample).stream(where, WrenchSample, on_samples, on_change)
+    return SensorStream(where, on_samples, on_change)
 
 
-def open_poses(address: DeviceAddress | str, on_samples: OnFlanges, on_change: OnChange = None) -> Stream:
+def open_poses(
+    address: DeviceAddress | str, on_samples: OnFlanges, on_change: OnChange = None
+) -> Stream[FlangeSample]:
     """
     Return the poses of the robot, recording, file or typed pose at an address, not yet started.
 
@@ -78,52 +86,20 @@ def open_poses(address: DeviceAddress | str, on_samples: OnFlanges, on_change: O
     """
     where = _parsed(address)
     _check_kinds(None, where)
-    return _POSES[where.protocol](where, on_samples, on_change)
+    if where.protocol in _SHARED:
+        return _player_or_world(where, FlangeSample).stream(where, FlangeSample, on_samples, on_change)
+    if where.protocol in _TRACKS:
+        source = PacedPoses(_TRACKS[where.protocol](where))
+        return SourceStream(where, source, FlangeSample, on_samples, on_change, judged=False)
+    return poses_from(where, on_samples, on_change)
 
 
-def _open_device(where: DeviceAddress, on_samples: OnWrenches, on_change: OnChange) -> Stream:
-    return DeviceStream(SensorStream(where, on_samples, on_change))
+def _player_or_world(where: DeviceAddress, kind: type) -> Player | World:
+    if where.protocol is Protocol.VIRTUAL:
+        return world_at(where)
+    return Player(where, None) if kind is WrenchSample else Player(None, where)
 
 
-def _open_robot(where: DeviceAddress, on_samples: OnFlanges, on_change: OnChange) -> Stream:
-    return DeviceStream(poses_from(where, on_samples, on_change))
-
-
-def _open_track(where: DeviceAddress, on_samples: OnFlanges, on_change: OnChange) -> Stream:
-    return PacedPoses(where, _TRACKS[where.protocol](where), on_samples, on_change)
-
-
-def _replay_sensor(where: DeviceAddress, on_samples: OnWrenches, on_change: OnChange) -> Stream:
-    wrenches = ReplayStream(where, on_samples, on_change)
-    Player(where, wrenches, None)
-    return wrenches
-
-
-def _replay_poses(where: DeviceAddress, on_samples: OnFlanges, on_change: OnChange) -> Stream:
-    flanges = ReplayStream(where, on_samples, on_change)
-    Player(where, None, flanges)
-    return flanges
-
-
-def _virtual_sensor(where: DeviceAddress, on_samples: OnWrenches, on_change: OnChange) -> Stream:
-    return VirtualStream(where, world_at(where), WrenchSample, on_samples, on_change)
-
-
-def _virtual_poses(where: DeviceAddress, on_samples: OnFlanges, on_change: OnChange) -> Stream:
-    return VirtualStream(where, world_at(where), FlangeSample, on_samples, on_change)
-
-
-_SENSORS: Mapping[Protocol, Callable[[DeviceAddress, OnWrenches, OnChange], Stream]] = {
-    **dict.fromkeys((Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ, Protocol.RDT), _open_device),
-    Protocol.REPLAY: _replay_sensor,
-    Protocol.VIRTUAL: _virtual_sensor,
-}
-_POSES: Mapping[Protocol, Callable[[DeviceAddress, OnFlanges, OnChange], Stream]] = {
-    **dict.fromkeys((Protocol.ELFIN, Protocol.UR), _open_robot),
-    **dict.fromkeys((Protocol.STILL, Protocol.POSES), _open_track),
-    Protocol.REPLAY: _replay_poses,
-    Protocol.VIRTUAL: _virtual_poses,
-}
 _TRACKS: Mapping[Protocol, Callable[[DeviceAddress], Track]] = {
     Protocol.STILL: still_track,
     Protocol.POSES: file_track,
@@ -142,34 +118,35 @@ class Pair:
     ----------
     sensor : Stream
     poses : Stream or None
-    player : Player or None
-        Of the recording that they come from; None: they are on the host's monotonic clock.
     """
 
-    sensor: Stream
-    poses: Stream | None
-    player: Player | None = None
+    sensor: Stream[WrenchSample]
+    poses: Stream[FlangeSample] | None
 
     @property
-    def streams(self) -> tuple[Stream, ...]:
+    def streams(self) -> tuple[Stream[Any], ...]:
         """Those that there are, the sensor first."""
         return (self.sensor,) if self.poses is None else (self.sensor, self.poses)
 
     @property
-    def stepwise(self) -> bool:
-        """Whether samples come only when `step` asks for them."""
-        source = self.player or self.world
-        return source is not None and source.stepwise
+    def source(self) -> Source | None:
+        """What the wrenches come from; None: a device, on the host's monotonic clock."""
+        return self.sensor.source if isinstance(self.sensor, SourceStream) else None
 
     @property
-    def world(self) -> World | None:
-        """The world of the virtual bench that the wrenches come from; None: they come from elsewhere."""
-        return self.sensor.world if isinstance(self.sensor, VirtualStream) else None
+    def player(self) -> Player | None:
+        """The player of the recording that they come from; None: they come from elsewhere."""
+        return self.source if isinstance(self.source, Player) else None
 
     @property
     def bench(self) -> VirtualBench | None:
         """The virtual bench that the wrenches come from, to be told what to do."""
-        return None if self.world is None else self.world.bench
+        return self.source.bench if isinstance(self.source, World) else None
+
+    @property
+    def stepwise(self) -> bool:
+        """Whether samples come only when `step` asks for them."""
+        return self.source is not None and self.source.stepwise
 
     @property
     def finished(self) -> bool:
@@ -185,16 +162,13 @@ class Pair:
         RuntimeError
             It does not go by steps.
         """
-        source = self.player or self.world
-        if source is None:
-            raise RuntimeError("only a replay or a virtual bench goes by steps: open it with ?speed=step")
-        return source.step(count)
+        if isinstance(self.sensor, SourceStream):
+            return self.sensor.step(count)
+        raise RuntimeError("only a replay or a virtual bench goes by steps: open it with ?speed=step")
 
     def now(self) -> float:
         """Return the present time on the samples' clock, s."""
-        if self.player is not None:
-            return self.player.replay.time
-        return time.monotonic() if self.world is None else self.world.time
+        return time.monotonic() if self.source is None else self.source.time
 
     def about(self, note: str = "") -> RecordingInfo:
         """Return the description of a recording of these streams, on their clock."""
@@ -229,7 +203,8 @@ class Pair:
         self.stop()
 
 
-_FINITE = (Protocol.REPLAY, Protocol.POSES, Protocol.VIRTUAL)
+_SHARED = (Protocol.REPLAY, Protocol.VIRTUAL)
+_FINITE = (*_SHARED, Protocol.POSES)
 
 
 def open_pair(
@@ -269,12 +244,12 @@ def open_pair(
     if where.protocol is not Protocol.REPLAY:
         first = open_sensor(where, on_wrenches, on_sensor_change)
         return Pair(first, None if beside is None else open_poses(beside, on_flanges, on_poses_change))
-    wrenches = ReplayStream(where, on_wrenches, on_sensor_change)
+    track = _TRACKS[beside.protocol](beside) if beside is not None and beside.protocol in _TRACKS else None
+    player = Player(where, beside, track)
+    wrenches = player.stream(where, WrenchSample, on_wrenches, on_sensor_change)
     if beside is None:
-        return Pair(wrenches, None, Player(where, wrenches, None))
-    flanges = ReplayStream(beside, on_flanges, on_poses_change)
-    track = _TRACKS[beside.protocol](beside) if beside.protocol in _TRACKS else None
-    return Pair(wrenches, flanges, Player(where, wrenches, flanges, track))
+        return Pair(wrenches, None)
+    return Pair(wrenches, player.stream(beside, FlangeSample, on_flanges, on_poses_change))
 
 
 def _parsed(address: DeviceAddress | str) -> DeviceAddress:
@@ -282,11 +257,11 @@ def _parsed(address: DeviceAddress | str) -> DeviceAddress:
 
 
 def _check_kinds(sensor: DeviceAddress | None, poses: DeviceAddress | None) -> None:
-    if sensor is not None and sensor.protocol not in _SENSORS:
+    if sensor is not None and not sensor.gives_wrenches:
         raise AddressError(
             f"address {str(sensor)!r}: it is no force/torque sensor: give the address of one, or of a recording."
         )
-    if poses is not None and poses.protocol not in _POSES:
+    if poses is not None and not poses.gives_poses:
         raise AddressError(
             f"address {str(poses)!r}: it gives no poses: give the address of a robot, a recording, poses:///file.csv"
             " or still://?rpy=0,0,0."
@@ -318,7 +293,7 @@ def _check_clock(sensor: DeviceAddress, poses: DeviceAddress) -> None:
         )
 
 
-def _described(stream: Stream, plain: DeviceInfo, known: DeviceInfo | None) -> DeviceInfo:
+def _described(stream: Stream[Any], plain: DeviceInfo, known: DeviceInfo | None) -> DeviceInfo:
     """Return who gave samples: for a recording, also what it knew of them."""
     if known is None:
         rate = stream.address.rate

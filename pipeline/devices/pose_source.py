@@ -1,7 +1,9 @@
-"""Tracks of poses: one that stands still, and those of a CSV file."""
+"""Poses that are typed or read from a CSV file, given at their times."""
 
 from __future__ import annotations
 
+import threading
+import time
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,19 +16,82 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.tables import TableError, TableReader, TableRows, Wording, read_table
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.devices.stream import SourceStream
     from contactbench.pipeline.devices.url import DeviceAddress
     from contactbench.pipeline.robot import Robot
-    from contactbench.pipeline.streams.paced import Track
+
+    Track = Callable[[float], Iterator[FlangeSample]]
 
 _QUATERNION, _POSITION = ("qw", "qx", "qy", "qz"), ("x", "y", "z")
 _UNIT = 0.02  # a quaternion written with two digits is this far from unit length
 _FARTHEST_M = 1e3  # beyond, it is no position in metres
 _LONGEST_S = 1e9  # as far as times still have a tenth of a microsecond
 _MOST_ROWS = 2_000_000
+_SLICE_S = 0.02  # poses of this time are given together, as a line would
+
+
+class PacedPoses:
+    """
+    The source of one stream: a track of poses from the moment of its start, on the host's monotonic clock.
+
+    Parameters
+    ----------
+    track : callable
+        Gets the time of the start, s, and returns the poses with their times, oldest first; it may be endless.
+    """
+
+    stepwise = False
+
+    def __init__(self, track: Track) -> None:
+        self._track = track
+        self._stopping = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    @property
+    def time(self) -> float:
+        """As `Source`."""
+        return time.monotonic()
+
+    def join(self, stream: SourceStream[FlangeSample]) -> None:
+        """Begin, in a thread of its own."""
+        self._thread = threading.Thread(
+            target=self._run, args=(stream,), name=str(stream.address), daemon=True
+        )
+        self._thread.start()
+
+    def leave(self, _stream: SourceStream[FlangeSample]) -> None:
+        """End it."""
+        self._stopping.set()
+        if self._thread is not None and self._thread is not threading.current_thread():
+            self._thread.join()
+
+    def step(self, count: int) -> int:
+        """Give nothing: it does not go by steps."""
+        del count
+        return 0
+
+    def _run(self, stream: SourceStream[FlangeSample]) -> None:
+        batch: list[FlangeSample] = []
+        for pose in self._track(time.monotonic()):
+            if batch and pose.time - batch[0].time > _SLICE_S:
+                self._pass(stream, batch)
+                batch = []
+            if self._stopping.is_set():
+                return
+            batch.append(pose)
+        self._pass(stream, batch)
+        if not self._stopping.is_set():
+            stream.end()
+
+    def _pass(self, stream: SourceStream[FlangeSample], batch: list[FlangeSample]) -> None:
+        # None before its time, and none later than a slice after it.
+        wait = batch[-1].time - time.monotonic()
+        if not self._stopping.wait(min(max(0.0, wait), threading.TIMEOUT_MAX)):
+            stream.take(batch)
 
 
 class PoseTrackError(TableError):

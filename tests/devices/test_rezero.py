@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from contactbench.pipeline.devices.drive import RezeroDetector
 from contactbench.pipeline.devices.emulate import swinging
+from contactbench.pipeline.devices.rezero import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.study.faults import rezero_figures
 

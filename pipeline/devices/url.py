@@ -251,6 +251,11 @@ class DeviceAddress:
 _SENSORS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ, Protocol.RDT, Protocol.REPLAY, Protocol.VIRTUAL)
 
 
+def carriers_of(protocol: Protocol) -> tuple[Carrier, ...]:
+    """Return what can carry a protocol, the usual one first."""
+    return tuple(carrier for known, carrier in _KINDS if known is protocol)
+
+
 def _short(value: object) -> str:
     if isinstance(value, tuple):
         return ",".join(map(_short, value))

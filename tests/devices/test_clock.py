@@ -9,9 +9,11 @@ import pytest
 
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.emulate import SYNTHETIC, Fault, FaultEvent, Script, constant
-from contactbench.pipeline.devices.emulate.models import BotaModel, RobotiqModel, SriModel
-from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.faults import Truth
 from contactbench.pipeline.devices.protocols import bota, robotiq, sri
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 
 PARSERS = {

@@ -8,7 +8,7 @@ import time
 import pytest
 from devices.test_sensor import Heard
 
-from contactbench.pipeline.devices.emulate.models import sri_frame
+from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.devices.robot_poses import ElfinPoses
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import State

@@ -10,9 +10,10 @@ from devices.test_reconnecting_stream import Script
 from devices.test_sensor import Heard, listen, moving
 
 from contactbench.pipeline.devices.emulate import emulator
-from contactbench.pipeline.devices.emulate.models import Quirk, rdt_record
 from contactbench.pipeline.devices.protocols import ati_scale, rdt
 from contactbench.pipeline.devices.protocols.ati_scale import ScaleError
+from contactbench.pipeline.devices.protocols.emulated import Quirk
+from contactbench.pipeline.devices.protocols.rdt import rdt_record
 from contactbench.pipeline.devices.readings import Readings
 from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.devices.sensor import SensorStream, driver_for

@@ -8,10 +8,12 @@ from itertools import count
 import pytest
 
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
-from contactbench.pipeline.devices.emulate.mangle import Mangler
-from contactbench.pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
-from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.faults import Mangler, Truth
 from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.sensor import driver_for
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
@@ -37,7 +39,11 @@ class Played:
 
     def __init__(self, line, script, signal=resting, seconds=5.0):
         driver = driver_for(DeviceAddress.parse(ADDRESSES[str(line)]))
-        model = RdtModel(RATE, line.profile) if line.protocol is Protocol.RDT else MODELS[line.protocol](RATE)
+        model = (
+            RdtModel(RATE, profile=line.profile)
+            if line.protocol is Protocol.RDT
+            else MODELS[line.protocol](RATE)
+        )
         self.parser = driver.parser
         self.watch = Watch(driver.rate, rate_known=driver.rate_known, limits=driver.limits)
         self.truth = Truth(signal, script, model.trap, model.full_scale)

@@ -8,12 +8,12 @@ from collections import deque
 from enum import StrEnum
 from typing import TYPE_CHECKING, ClassVar
 
-from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault
+from contactbench.pipeline.devices.faults import SYNTHETIC, EmulatorError, Fault
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Six
+    from contactbench.pipeline.devices.faults import Moment, Reading, Six
 
 WIRE_FAULTS = frozenset(
     {
@@ -30,6 +30,8 @@ WIRE_FAULTS = frozenset(
 SENSOR_FAULTS = WIRE_FAULTS | {Fault.HEADER, Fault.WRONG_RATE, Fault.SATURATION, Fault.DRIFT, Fault.REZERO}
 _LONGEST_COMMAND = 4096
 _KEPT = 1000
+JOINTS: Six = (0.3, -0.4, 1.1, 0.5, -0.7, 0.9)
+"""Where an emulated robot stands unless it is told otherwise, rad."""
 
 
 class Quirk(StrEnum):
@@ -78,6 +80,8 @@ class Model(ABC):
         That it can have.
     trap, full_scale : six floats or None
         A reading that holds the start of a frame; the largest one.
+    rest, swing, swing_hz
+        What it measures unless it is told otherwise, and how a signal to look at swings about that.
     asked_only : bool
         It sends answers only, never by itself.
     possible_quirks : frozenset of Quirk
@@ -86,6 +90,9 @@ class Model(ABC):
     """
 
     name: ClassVar[str]
+    rest: ClassVar[Six] = SYNTHETIC
+    swing: ClassVar[Six] = (5.0, 5.0, 5.0, 0.2, 0.2, 0.2)
+    swing_hz: ClassVar[float] = 0.5
     own_rate: ClassVar[float]
     faults: ClassVar[frozenset[Fault]] = SENSOR_FAULTS
     trap: ClassVar[Six | None] = None

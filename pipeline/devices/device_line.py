@@ -10,7 +10,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
 
-from contactbench.pipeline.devices.emulate.script import EmulatorError
+from contactbench.pipeline.devices.faults import EmulatorError
 
 _LOOPBACK = "127.0.0.1"
 _READ = 65_536

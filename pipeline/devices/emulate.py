@@ -1,4 +1,4 @@
-"""An emulated device on a real line, in a thread of its own."""
+"""Wire-exact emulated devices on real lines, with scripted faults, in threads of their own."""
 
 from __future__ import annotations
 
@@ -9,18 +9,60 @@ from collections import Counter, deque
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.emulate.mangle import Mangler
-from contactbench.pipeline.devices.emulate.script import EmulatorError, Fault, Script
-from contactbench.pipeline.devices.emulate.signals import SYNTHETIC, Truth, constant
+from contactbench.pipeline.devices.device_line import DeviceLine, PtyLine, TcpServerLine, UdpServerLine
+from contactbench.pipeline.devices.faults import (
+    SYNTHETIC,
+    EmulatorError,
+    Fault,
+    FaultEvent,
+    Mangler,
+    Moment,
+    Reading,
+    Script,
+    Signal,
+    Six,
+    Truth,
+    constant,
+    recorded,
+    sine,
+)
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.elfin import ElfinModel
+from contactbench.pipeline.devices.protocols.emulated import JOINTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
+from contactbench.pipeline.devices.protocols.ur_pose import UrModel
+from contactbench.pipeline.devices.url import Carrier, Protocol, carriers_of
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from types import TracebackType
 
-    from contactbench.pipeline.devices.emulate.lines import DeviceLine
-    from contactbench.pipeline.devices.emulate.mangle import Emission
-    from contactbench.pipeline.devices.emulate.models.model import Model
-    from contactbench.pipeline.devices.emulate.script import FaultEvent
-    from contactbench.pipeline.devices.emulate.signals import Moment, Reading, Signal
+    from contactbench.pipeline.devices.faults import Emission
+
+__all__ = [
+    "EMULATED",
+    "JOINTS",
+    "SYNTHETIC",
+    "Emulator",
+    "EmulatorError",
+    "Fault",
+    "FaultEvent",
+    "Moment",
+    "Quirk",
+    "Reading",
+    "Script",
+    "Sent",
+    "Signal",
+    "Six",
+    "constant",
+    "emulator",
+    "possible_faults",
+    "recorded",
+    "sine",
+    "swinging",
+]
 
 _IDLE_S = 0.05  # how long a stop may go unnoticed
 _BETWEEN_PIECES_S = 0.0005  # without it the kernel joins them again
@@ -303,3 +345,109 @@ class Emulator:
         self.model.restart()
         self._mangler.restart()
         self._number, self._due = 0, None
+
+
+# ---- by the name of a protocol -------------------------------------------------------------------
+
+EMULATED: dict[Protocol, type[Model]] = {
+    Protocol.SRI: SriModel,
+    Protocol.BOTA: BotaModel,
+    Protocol.ROBOTIQ: RobotiqModel,
+    Protocol.RDT: RdtModel,
+    Protocol.ELFIN: ElfinModel,
+    Protocol.UR: UrModel,
+}
+
+
+def emulator(
+    protocol: Protocol | str,
+    carrier: Carrier | str | None = None,
+    *,
+    port: int = 0,
+    rate: float | None = None,
+    signal: Signal | None = None,
+    script: Script | None = None,
+    seed: int = 0,
+    profile: str = "ati",
+    quirks: Iterable[Quirk | str] = (),
+    tool: Six | None = None,
+    log: int = LOG,
+) -> Emulator:
+    """Make an emulated device, not yet started.
+
+    Parameters
+    ----------
+    protocol : Protocol
+    carrier : Carrier or None
+        The protocol's first one if none is given.
+    port : int
+        Of TCP and UDP, on the loopback interface; 0: any free one.
+    rate : float or None
+        Frames per second until a command changes it.
+    signal, script, seed, log
+        As for `Emulator`; without a signal a constant one.
+    profile : str
+        Of RDT.
+    quirks : iterable of Quirk
+        What this one does and others of its kind do not.
+    tool : six floats or None
+        Of UR: the active tool frame in the flange frame, m and a rotation vector in rad; None: the flange.
+
+    Raises
+    ------
+    EmulatorError
+        There is no such device, carrier, port, quirk or fault.
+
+    Examples
+    --------
+    >>> with emulator("sri", "tcp") as device:
+    ...     device.url.startswith("sri+tcp://127.0.0.1:")
+    True
+    """
+    emulated = _emulated(protocol)
+    kind = Protocol(protocol)
+    carriers = carriers_of(kind)
+    if carrier is not None and carrier not in list(carriers):
+        raise EmulatorError(f"{kind} over {carrier}: it speaks over {', '.join(carriers)}.")
+    if tool is not None and kind is not Protocol.UR:
+        raise EmulatorError(f"tool {tool}: {kind} has none: leave it out.")
+    model = emulated(rate, quirks)
+    query = ""
+    if isinstance(model, RdtModel):
+        # It has no page to ask for its counts, as an ATI sensor has.
+        counts = "&cpf=1000000&cpt=1000000" if profile == "ati" else ""
+        model.speak(profile)
+        query = f"?profile={profile}{counts}"
+    if isinstance(model, UrModel) and tool is not None:
+        model.set_tool(tool)
+    if script is not None:
+        script.check(model.faults, model.name)
+    over = Carrier(carrier or carriers[0])
+    signal = signal or constant(model.rest)
+    line = _line(over, kind, port)
+    return Emulator(
+        model, line, f"{kind}+{over}", signal=signal, script=script, seed=seed, query=query, log=log
+    )
+
+
+def swinging(protocol: Protocol | str) -> Signal:
+    """Return a signal to look at: a slow sine of each channel about the constant one."""
+    model = _emulated(protocol)
+    return sine(model.swing, model.swing_hz, model.rest)
+
+
+def possible_faults(protocol: Protocol | str) -> frozenset[Fault]:
+    """Return the faults that the emulated device of a protocol can have."""
+    return _emulated(protocol).faults
+
+
+def _emulated(protocol: Protocol | str) -> type[Model]:
+    if protocol not in list(EMULATED):
+        raise EmulatorError(f"device {str(protocol)!r}: there are {', '.join(EMULATED)}.")
+    return EMULATED[Protocol(protocol)]
+
+
+def _line(carrier: Carrier, protocol: Protocol, port: int) -> DeviceLine:
+    if carrier is Carrier.SERIAL:
+        return PtyLine(protocol.value)
+    return UdpServerLine(port) if carrier is Carrier.UDP else TcpServerLine(port)

@@ -26,12 +26,9 @@ from contactbench.pipeline.devices.faults import (
     recorded,
     sine,
 )
-from contactbench.pipeline.devices.protocols.bota import BotaModel
-from contactbench.pipeline.devices.protocols.elfin import ElfinModel
 from contactbench.pipeline.devices.protocols.emulated import JOINTS, Model, Quirk
 from contactbench.pipeline.devices.protocols.rdt import RdtModel
-from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
-from contactbench.pipeline.devices.protocols.sri import SriModel
+from contactbench.pipeline.devices.protocols.registry import PROTOCOLS
 from contactbench.pipeline.devices.protocols.ur_pose import UrModel
 from contactbench.pipeline.devices.url import Carrier, Protocol, carriers_of
 
@@ -349,14 +346,7 @@ class Emulator:
 
 # ---- by the name of a protocol -------------------------------------------------------------------
 
-EMULATED: dict[Protocol, type[Model]] = {
-    Protocol.SRI: SriModel,
-    Protocol.BOTA: BotaModel,
-    Protocol.ROBOTIQ: RobotiqModel,
-    Protocol.RDT: RdtModel,
-    Protocol.ELFIN: ElfinModel,
-    Protocol.UR: UrModel,
-}
+EMULATED = tuple(PROTOCOLS)
 
 
 def emulator(
@@ -444,7 +434,7 @@ def possible_faults(protocol: Protocol | str) -> frozenset[Fault]:
 def _emulated(protocol: Protocol | str) -> type[Model]:
     if protocol not in list(EMULATED):
         raise EmulatorError(f"device {str(protocol)!r}: there are {', '.join(EMULATED)}.")
-    return EMULATED[Protocol(protocol)]
+    return PROTOCOLS[Protocol(protocol)].emulated
 
 
 def _line(carrier: Carrier, protocol: Protocol, port: int) -> DeviceLine:

@@ -17,9 +17,10 @@ from contactbench.pipeline.devices.emulate import (
     possible_faults,
     swinging,
 )
+from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-from contactbench.pipeline.devices.sensor import SensorStream, driver_for
+from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import Health
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 

@@ -8,8 +8,9 @@ import time
 import pytest
 
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
+from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.devices.sensor import SensorStream, driver_for
+from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.url import AddressError, DeviceAddress
 

@@ -14,9 +14,10 @@ from contactbench.pipeline.devices.protocols import ati_scale, rdt
 from contactbench.pipeline.devices.protocols.ati_scale import ScaleError
 from contactbench.pipeline.devices.protocols.emulated import Quirk
 from contactbench.pipeline.devices.protocols.rdt import rdt_record
+from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.readings import Readings
 from contactbench.pipeline.devices.sample import Status
-from contactbench.pipeline.devices.sensor import SensorStream, driver_for
+from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.url import DeviceAddress
 
 

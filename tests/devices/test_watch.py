@@ -12,10 +12,10 @@ from contactbench.pipeline.devices.faults import Mangler, Truth
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.protocols.bota import BotaModel
 from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.registry import driver_for
 from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
 from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
-from contactbench.pipeline.devices.sensor import driver_for
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 from contactbench.pipeline.devices.watch import Watch
 from contactbench.pipeline.study.fault_lines import LINES, cases, expectation, resting

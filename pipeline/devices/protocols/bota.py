@@ -18,7 +18,13 @@ from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import crc16_x25
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
+from contactbench.pipeline.devices.protocols.parser import (
+    ASSUMED_RATE_HZ,
+    Counters,
+    ProtocolError,
+    SensorDriver,
+    finite_status,
+)
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import DeviceClock
 from contactbench.pipeline.devices.sample import Status, WrenchSample
@@ -27,6 +33,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 37
 _FRAME = struct.Struct("<xH6fIfH")
@@ -173,6 +180,20 @@ def _status(bits: int) -> Status:
         if bits & bit:
             status |= flag
     return status | Status.ERROR if bits & ~_KNOWN_BITS else status
+
+
+def driver(address: DeviceAddress) -> SensorDriver:
+    """
+    Return the driver of the sensor at an address.
+
+    Raises
+    ------
+    ProtocolError
+        The rate does not fit the device or its line.
+    """
+    rate = address.rate or ASSUMED_RATE_HZ
+    start = start_commands(rate, baud=address.baud or DEFAULT_BAUD)
+    return SensorDriver(BotaParser(rate), start, stop_commands(), rate)
 
 
 # ---- emulated: a SensONE or Rokubi ---------------------------------------------------------------

@@ -17,15 +17,22 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.parser import (
+    ASSUMED_RATE_HZ,
+    Counters,
+    ProtocolError,
+    SensorDriver,
+)
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.devices.url import PROFILES
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 RECORD_BYTES = 36
 PORT = 49152
@@ -188,6 +195,51 @@ def stop_commands() -> tuple[Command, ...]:
 
 def _request(command: _Request, argument: int) -> Command:
     return Command(_REQUEST.pack(_MAGIC, command, argument))
+
+
+def driver(address: DeviceAddress) -> SensorDriver:
+    """
+    Return the driver of the sensor at an address.
+
+    Raises
+    ------
+    ProtocolError
+        The rate does not fit the device or its line.
+    """
+    profile = Profile.ONROBOT if address.profile == "onrobot" else Profile.ATI
+    start = start_commands(address.rate, profile=profile)
+    rate = ASSUMED_RATE_HZ if address.rate is None else possible_rate(address.rate, profile)
+    typical = ONROBOT_SCALE if profile is Profile.ONROBOT else ATI_TYPICAL
+    assumed = CountScale(
+        address.counts_per_newton or typical.per_newton,
+        address.counts_per_newton_metre or typical.per_newton_metre,
+    )
+    parser = RdtParser(assumed)
+    known = address.counts_per_newton is not None and address.counts_per_newton_metre is not None
+    return SensorDriver(
+        parser,
+        start,
+        stop_commands(),
+        rate,
+        rate_known=address.rate is not None,
+        prepare=None if known else lambda: _ask_scale(parser, address),
+    )
+
+
+def _ask_scale(parser: RdtParser, address: DeviceAddress) -> str:
+    """Take the sensor's own counts per newton."""
+    from contactbench.pipeline.devices.protocols.ati_scale import scale_for  # it needs the counts of here
+
+    try:
+        parser.scale = scale_for(address)
+    except InputError as error:
+        scale = parser.scale
+        return (
+            f"The sensor did not tell its counts per newton ({error}) {scale.per_newton:g} per N and"
+            f" {scale.per_newton_metre:g} per N·m are assumed: compare with its calibration sheet, and give cpf and cpt"
+            " in the address."
+        )
+    return ""
 
 
 # ---- emulated: a box that speaks RDT -------------------------------------------------------------

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, ClassVar
 from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
 from contactbench.pipeline.devices.protocols.emulated import Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters
+from contactbench.pipeline.devices.protocols.parser import Counters, SensorDriver
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.sample import WrenchSample
 
@@ -24,11 +24,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 FRAME_BYTES = 16
 RATE = 100.0
 _FRAME = struct.Struct("<2x6h2x")
 _FORCE_SCALE, _TORQUE_SCALE = 100.0, 1000.0
+_LIMITS = (327.67, 32.767)  # what its 16 bits hold: there it stops counting
 
 # Modbus: slave 9, write one register (410) with 0x0200, "stream".
 _START = bytes.fromhex("09 10 01 9A 00 01 02 02 00 CD CA")
@@ -100,6 +102,19 @@ def _read(frame: bytes, time: float) -> WrenchSample:
         (fx / _FORCE_SCALE, fy / _FORCE_SCALE, fz / _FORCE_SCALE),
         (mx / _TORQUE_SCALE, my / _TORQUE_SCALE, mz / _TORQUE_SCALE),
     )
+
+
+def driver(address: DeviceAddress) -> SensorDriver:
+    """
+    Return the driver of the sensor at an address.
+
+    Raises
+    ------
+    ProtocolError
+        The rate does not fit the device or its line.
+    """
+    rate = address.rate or RATE
+    return SensorDriver(RobotiqParser(), start_commands(rate), stop_commands(), rate, limits=_LIMITS)
 
 
 # ---- emulated: an FT 300 -------------------------------------------------------------------------

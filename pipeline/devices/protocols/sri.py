@@ -22,7 +22,13 @@ from contactbench.pipeline.devices.faults import Fault
 from contactbench.pipeline.devices.protocols.checksums import sum8
 from contactbench.pipeline.devices.protocols.commands import Command, check_line, check_rate
 from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
-from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError, finite_status
+from contactbench.pipeline.devices.protocols.parser import (
+    ASSUMED_RATE_HZ,
+    Counters,
+    ProtocolError,
+    SensorDriver,
+    finite_status,
+)
 from contactbench.pipeline.devices.protocols.scanner import FrameScanner
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
@@ -31,6 +37,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 _SYNC = b"\xaa\x55"
 _POINTS_AT = 6
@@ -257,6 +264,29 @@ def _check_for(layout: Layout) -> Callable[[bytes], bool]:
         return zlib.crc32(frame[_POINTS_AT:end]) == int.from_bytes(frame[end:], "little")
 
     return sum_fits if layout.trailer is Trailer.SUM else crc_fits
+
+
+def driver(address: DeviceAddress) -> SensorDriver:
+    """
+    Return the driver of the sensor at an address.
+
+    Raises
+    ------
+    ProtocolError
+        The rate does not fit the device or its line.
+    """
+    rate = address.rate or ASSUMED_RATE_HZ
+    start = start_commands(rate, baud=address.baud)
+    parser = SriParser(either_trailer=True)
+    return SensorDriver(parser, start, stop_commands(), rate, troubles=lambda: _troubles(parser))
+
+
+def _troubles(parser: SriParser) -> dict[str, str]:
+    if parser.trailer is Trailer.SUM:
+        return {}
+    return {
+        "trailer": "The device did not accept AT+DCKMD=SUM: its frames end with a CRC-32, and are checked by that."
+    }
 
 
 # ---- emulated: an M8128 box ----------------------------------------------------------------------

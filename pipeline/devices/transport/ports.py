@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.devices.protocols.registry import PROTOCOLS
 
-# Words in what USB says about a port. Most boxes use a bought converter that says nothing about them.
-_WORDS = {
-    Protocol.SRI: ("sunrise", "m8128", "m8126", "sri "),
-    Protocol.BOTA: ("bota", "rokubi", "sensone", "minione"),
-    Protocol.ROBOTIQ: ("robotiq", "ft300", "ft 300"),
-}
+if TYPE_CHECKING:
+    from contactbench.pipeline.devices.url import Protocol
 
 
 @dataclass(frozen=True)
@@ -58,7 +55,6 @@ def list_ports() -> list[SerialPort]:
 def guess_device(description: str) -> Protocol | None:
     """Guess from what USB says of a port which protocol its device speaks; None: it does not say."""
     text = f"{description.lower()} "
-    for protocol, words in _WORDS.items():
-        if any(word in text for word in words):
-            return protocol
-    return None
+    return next(
+        (name for name, known in PROTOCOLS.items() if any(word in text for word in known.usb_words)), None
+    )

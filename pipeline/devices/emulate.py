@@ -71,36 +71,16 @@ LOG = 100_000
 
 @dataclass(frozen=True, slots=True)
 class Sent:
-    """One frame as it went out, or did not.
+    """One frame as it went out, or did not."""
 
-    Attributes
-    ----------
-    count : int
-        Of all frames of this emulator, from 0.
-    time : float
-        When it was due, seconds after the first frame of all.
-    sent_at : float
-        When it was given to the line, seconds of the monotonic clock.
-    reading : Reading
-        What is in it.
-    moment : Moment
-        Its number, and the device's clock.
-    frame : bytes
-        As it was before the line's faults.
-    intact : bool
-        All of it went on the line, unchanged.
-    fault : Fault or None
-        Of the line, that acted on it.
-    """
-
-    count: int
-    time: float
-    sent_at: float
-    reading: Reading
-    moment: Moment
-    frame: bytes
-    intact: bool
-    fault: Fault | None
+    count: int  # of all frames of this emulator, from 0
+    time: float  # when it was due, seconds after the first frame of all
+    sent_at: float  # when it was given to the line, seconds of the monotonic clock
+    reading: Reading  # what is in it
+    moment: Moment  # its number, and the device's clock
+    frame: bytes  # as it was before the line's faults
+    intact: bool  # all of it went on the line, unchanged
+    fault: Fault | None  # of the line, that acted on it
 
 
 class Emulator:

@@ -65,23 +65,12 @@ _FORM = re.compile(
 
 @dataclass(frozen=True)
 class FaultEvent:
-    """One fault.
+    """One fault."""
 
-    Attributes
-    ----------
-    start : float
-        Seconds after the device first streams.
-    fault : Fault
-    duration : float
-        Seconds, positive.
-    size : float
-        What `Fault` says of it; of no meaning elsewhere.
-    """
-
-    start: float
+    start: float  # seconds after the device first streams
     fault: Fault
-    duration: float = 1.0
-    size: float | None = None
+    duration: float = 1.0  # seconds, positive
+    size: float | None = None  # what `Fault` says of it; of no meaning elsewhere
 
     def __post_init__(self) -> None:
         if not (0 <= self.start < math.inf and 0 < self.duration < math.inf):
@@ -190,40 +179,20 @@ _DRIFT_PER_DEGREE: Six = (0.05, -0.03, 0.1, 0.001, -0.002, 0.0005)
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What the device believes to measure.
+    """What the device believes to measure."""
 
-    Attributes
-    ----------
-    values : six floats
-        As a `Signal` gives them, with the faults applied.
-    temperature : float
-        Degrees Celsius.
-    saturated : bool
-        At the limit.
-    """
-
-    values: Six
-    temperature: float = ROOM
-    saturated: bool = False
+    values: Six  # as a `Signal` gives them, with the faults applied
+    temperature: float = ROOM  # degrees Celsius
+    saturated: bool = False  # at the limit
 
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """Where a frame is in its stream.
+    """Where a frame is in its stream."""
 
-    Attributes
-    ----------
-    number : int
-        From 0 since the device last came up.
-    clock : float
-        The device's, s, jumps included.
-    jump : float
-        How far the clock has leapt so far, s.
-    """
-
-    number: int
-    clock: float
-    jump: float = 0.0
+    number: int  # from 0 since the device last came up
+    clock: float  # the device's, s, jumps included
+    jump: float = 0.0  # how far the clock has leapt so far, s
 
 
 def constant(values: Six) -> Signal:
@@ -339,24 +308,12 @@ _MOST_GARBAGE = 40
 
 @dataclass(frozen=True, slots=True)
 class Emission:
-    """What goes on the line at one moment.
+    """What goes on the line at one moment."""
 
-    Attributes
-    ----------
-    pieces : tuple of bytes
-        Each written by itself.
-    intact : bool
-        The frame is whole and right, and goes out now or with one of the next.
-    fault : Fault or None
-        Of the line, that acted on it.
-    away : FaultEvent or None
-        After the pieces the line breaks, until this is over.
-    """
-
-    pieces: tuple[bytes, ...]
-    intact: bool = True
-    fault: Fault | None = None
-    away: FaultEvent | None = None
+    pieces: tuple[bytes, ...]  # each written by itself
+    intact: bool = True  # the frame is whole and right, and goes out now or with one of the next
+    fault: Fault | None = None  # of the line, that acted on it
+    away: FaultEvent | None = None  # after the pieces the line breaks, until this is over
 
 
 class Mangler:

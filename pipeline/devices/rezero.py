@@ -26,18 +26,10 @@ _GAP_S = 1.0
 
 @dataclass(frozen=True)
 class Rezero:
-    """
-    A step to zero that no load explains.
+    """A step to zero that no load explains."""
 
-    Attributes
-    ----------
-    time : float
-        Of the first reading after it, s.
-    force, torque : float
-        Size of the step, N and N·m.
-    """
-
-    time: float
+    time: float  # of the first reading after it, s
+    # Size of the step, N and N·m.
     force: float
     torque: float
 

@@ -316,16 +316,6 @@ def test_arrivals_that_go_back_are_another_clock():
     assert Status.CLOCK in early.status
 
 
-def test_the_fit_shows_the_spread_of_delays():
-    clock, given = SampleClock(200.0), measured(200.0, seconds=5.0)
-    assert clock.fit_s is None
-    Timed(clock, given, given.number)
-    assert clock.fit_s == pytest.approx(0.0, abs=1e-6)
-    jittery = SampleClock(200.0)
-    Timed(jittery, given.late(0.004), given.number)
-    assert 0.001 < jittery.fit_s < 0.006
-
-
 def test_poses_have_no_status():
     pose = FlangeSample(5.0, np.eye(3), np.zeros(3), device_time=77.0)
     clock = SampleClock(100.0)

@@ -66,21 +66,11 @@ class Outcome(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """
-    One answer.
+    """One answer."""
 
-    Attributes
-    ----------
-    command : str
-        The question that it answers; empty for an unknown command.
-    outcome : Outcome
-    values : tuple of str
-        What follows OK or Fail.
-    """
-
-    command: str
+    command: str  # the question that it answers; empty for an unknown command
     outcome: Outcome
-    values: tuple[str, ...] = ()
+    values: tuple[str, ...] = ()  # what follows OK or Fail
 
 
 class ReplyReader:

@@ -63,17 +63,13 @@ class CountScale:
     """
     Counts per unit.
 
-    Attributes
-    ----------
-    per_newton, per_newton_metre : float
-        ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
-
     Raises
     ------
     ProtocolError
         One is not finite or not positive.
     """
 
+    # ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
     per_newton: float
     per_newton_metre: float
 

@@ -67,12 +67,6 @@ class Layout:
     """
     Which frames a box sends.
 
-    Attributes
-    ----------
-    trailer : Trailer
-    points : int
-        Samples per frame.
-
     Raises
     ------
     ProtocolError
@@ -80,7 +74,7 @@ class Layout:
     """
 
     trailer: Trailer = Trailer.SUM
-    points: int = 1
+    points: int = 1  # samples per frame
 
     def __post_init__(self) -> None:
         if not 1 <= self.points <= MOST_POINTS:

@@ -13,24 +13,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SerialPort:
-    """One serial port.
+    """One serial port."""
 
-    Attributes
-    ----------
-    path : str
-        As an address has it.
-    description : str
-        What the system says about it.
-    serial_number : str or None
-        Of the USB converter.
-    guess : Protocol or None
-        None: a converter that does not say what it belongs to.
-    """
-
-    path: str
-    description: str
-    serial_number: str | None
-    guess: Protocol | None
+    path: str  # as an address has it
+    description: str  # what the system says about it
+    serial_number: str | None  # of the USB converter
+    guess: Protocol | None  # None: a converter that does not say what it belongs to
 
     @property
     def url(self) -> str | None:

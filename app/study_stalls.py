@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from contactbench.app.study_window import load as machine_load
 from contactbench.app.study_window import loaded, opened, own_home, rest, shown_window, until
-from contactbench.pipeline.devices.drive import SensorStream
+from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.study.live.trial import sensor_process
 from contactbench.pipeline.study.preparation.report import Figure, Report

@@ -166,7 +166,7 @@ def _without_paths(where: DeviceAddress) -> DeviceAddress:
 
 
 def _bench(where: DeviceAddress) -> VirtualBench:
-    from contactbench.pipeline.streams.virtual import bench_at
+    from contactbench.pipeline.simulation.virtual.world import bench_at
 
     return bench_at(where)
 

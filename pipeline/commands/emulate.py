@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from types import FrameType
 
     from contactbench.pipeline.devices.emulate import Emulator
-    from contactbench.pipeline.devices.emulate.signals import Six
+    from contactbench.pipeline.devices.faults import Six
 
 emulate_app = typer.Typer(rich_markup_mode=None)
 _LOOK_S = 0.1  # how long an end may go unnoticed

@@ -19,7 +19,7 @@ from contactbench.pipeline.console import JsonOption, print_json, say
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import Pair
 
@@ -147,7 +147,7 @@ def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Cha
 
 def broken(pair: Pair) -> bool:
     """Tell whether a stream has ended before its end: it failed, or its recording cannot be read on."""
-    from contactbench.pipeline.devices.drive import State
+    from contactbench.pipeline.devices.stream import State
 
     return any(
         stream.health.failure is not None or (stream.done.is_set() and stream.health.state is State.LOST)

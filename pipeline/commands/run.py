@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime import Run
     from contactbench.pipeline.runtime.outlet import Target

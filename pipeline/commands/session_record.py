@@ -12,7 +12,7 @@ from contactbench.pipeline.commands.record import Changes, ended_by_signals, wai
 from contactbench.pipeline.console import JsonOption, print_json, say
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.live import LiveRecording

@@ -8,7 +8,6 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.drive import Health, SensorStream, driver_for, poses_from
 from contactbench.pipeline.devices.emulate import (
     Fault,
     FaultEvent,
@@ -18,14 +17,18 @@ from contactbench.pipeline.devices.emulate import (
     possible_faults,
     swinging,
 )
+from contactbench.pipeline.devices.protocols.registry import driver_for
+from contactbench.pipeline.devices.robot_poses import poses_from
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.sensor import SensorStream
+from contactbench.pipeline.devices.stream import Health
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
-    from contactbench.pipeline.devices.drive import ElfinPoses, UrPoses
     from contactbench.pipeline.devices.emulate import Emulator, Sent
+    from contactbench.pipeline.devices.robot_poses import ElfinPoses, UrPoses
 
 HEALTHY_S, FAULT_S = 1.3, 0.6
 _RATE = 100.0

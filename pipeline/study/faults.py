@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.devices.drive import RezeroDetector
 from contactbench.pipeline.devices.emulate import Fault
+from contactbench.pipeline.devices.rezero import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.fault_lines import LINES, FaultLine, Outcome, cases, run_case

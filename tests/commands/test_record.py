@@ -19,9 +19,9 @@ from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
-from contactbench.pipeline.devices.drive import Health, State
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.stream import Health, State
 from contactbench.pipeline.recording import (
     Event,
     RecordingError,

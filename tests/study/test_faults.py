@@ -59,10 +59,10 @@ def test_the_matrix_is_a_table():
 
 
 def test_a_sample_that_was_never_sent_is_counted():
-    from contactbench.pipeline.devices.drive import driver_for
-    from contactbench.pipeline.devices.emulate.emulator import Sent
-    from contactbench.pipeline.devices.emulate.models import sri_frame
-    from contactbench.pipeline.devices.emulate.signals import Moment, Reading
+    from contactbench.pipeline.devices.emulate import Sent
+    from contactbench.pipeline.devices.faults import Moment, Reading
+    from contactbench.pipeline.devices.protocols.registry import driver_for
+    from contactbench.pipeline.devices.protocols.sri import sri_frame
     from contactbench.pipeline.devices.url import DeviceAddress
 
     address = DeviceAddress.parse("sri+tcp://h")

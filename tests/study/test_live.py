@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from contactbench.pipeline.devices.emulate.models.sri import sri_frame
+from contactbench.pipeline.devices.protocols.sri import sri_frame
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.live.machine import Sleeper
 from contactbench.pipeline.study.live.parsing import PROTOCOLS, parse_speed

@@ -14,7 +14,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from contactbench.pipeline.devices.drive import SensorStream
+from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.study.live.records import GIVEN
 
 if TYPE_CHECKING:

@@ -13,14 +13,14 @@ import time
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from contactbench.pipeline.devices.emulate.emulator import Emulator
-from contactbench.pipeline.devices.emulate.lines import PtyLine
-from contactbench.pipeline.devices.emulate.models import SriModel
+from contactbench.pipeline.devices.device_line import PtyLine
+from contactbench.pipeline.devices.emulate import Emulator
+from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.study.live.records import FRAME_BYTES, SENT
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.devices.emulate.lines import DeviceLine
-    from contactbench.pipeline.devices.emulate.signals import Six
+    from contactbench.pipeline.devices.device_line import DeviceLine
+    from contactbench.pipeline.devices.faults import Six
 
 _BAUD = 921_600  # what carries 1 kHz
 

@@ -216,7 +216,8 @@ def _rounding(title: str, body: Body, samples: int, rng: np.random.Generator) ->
             found = method.locate_batch(touches.wrenches)
             # On another facet the wrench has another condition.
             pressed = (found.faces == touches.faces) & (found.vertices < 0)
-            answers = np.where(pressed[:, None], found.points, np.nan), found.faces, found.vertices
+            points = np.where(pressed[:, None], found.points, np.nan)
+            answers = points, found.faces.astype(np.int64), found.vertices.astype(np.int64)
             most = MOST_ROUNDOFFS if by == DOUBLE else None
             # A plane that is off by a roundoff of the mesh moves the point along the force by that over the cosine.
             mesh = reach(body) / cosine

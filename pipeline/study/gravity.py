@@ -9,7 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration import Calibration, calibrate
 from contactbench.pipeline.calibration.fit import parameter_covariance
-from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, prediction_jacobian
+from contactbench.pipeline.calibration.model import CENTRE_OF_MASS, cross_matrix, prediction_jacobian
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reachable import by_robot
 from contactbench.pipeline.calibration.suggest import plan_error, plan_poses
@@ -17,7 +17,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
 from contactbench.pipeline.simulation.weighing import Weighing, bump, draw_weighing
 from contactbench.pipeline.study.blind_sets import BLIND_SETS, try_blind
-from contactbench.pipeline.study.rivals.calibrators import measured_regressor
 from contactbench.pipeline.timing import time_calls
 
 if TYPE_CHECKING:
@@ -253,6 +252,24 @@ def light_load(trials: int, seed: int) -> list[Figure]:
             abs(bias) < 0.1,
         )
     ]
+
+
+def measured_regressor(R_SW: NDArray[np.float64], F: NDArray[np.float64], M: NDArray[np.float64]) -> Any:
+    """
+    Return the parameters (12,) by two plain least squares, the second on the *measured* force (Eq. 2).
+
+    Parameters
+    ----------
+    R_SW : (n, 3, 3)
+    F, M : (n, 3)
+        N and N·m.
+    """
+    n = len(R_SW)
+    identity = np.broadcast_to(np.eye(3), (n, 3, 3))
+    forces = np.concatenate([R_SW, identity], axis=2).reshape(-1, 6)
+    first = np.linalg.lstsq(forces, F.ravel(), rcond=None)[0]
+    torques = np.concatenate([-cross_matrix(F - first[3:]), identity], axis=2).reshape(-1, 6)
+    return np.concatenate([first, np.linalg.lstsq(torques, M.ravel(), rcond=None)[0]])
 
 
 def _paper(weighing: Weighing) -> NDArray[np.float64]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import subprocess
+import sys
 import tempfile
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,7 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench.pipeline import kernel
+from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -21,7 +24,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.contact import Batch, ContactSolver, Gates
+    from contactbench.pipeline.contact import Batch, Gates
 
     Rows = NDArray[np.void]
 
@@ -218,7 +221,7 @@ def _gates(gates: Gates) -> list[float]:
 
 def _run(command: list[str], seconds: float, build: Build) -> None:
     try:
-        done: subprocess.CompletedProcess[Any] = subprocess.run(  # noqa: S603 - a compiler, and what it built
+        done: subprocess.CompletedProcess[Any] = subprocess.run(
             command, capture_output=True, text=True, check=False, timeout=seconds
         )
     except (OSError, subprocess.TimeoutExpired) as error:
@@ -229,3 +232,27 @@ def _run(command: list[str], seconds: float, build: Build) -> None:
         raise InputError(
             f"{build.name}: {command[0]} failed ({done.stderr.strip()[-600:]}): leave this build out."
         )
+
+
+def write_task(file: Path, solver: ContactSolver, wrenches: NDArray[np.float64]) -> None:
+    """Write what a process is to solve: a probe with default noise and gates, wrenches (n, 6), N and N·m in S."""
+    np.savez(file, vertices=solver.probe.vertices, faces=solver.probe.faces, wrenches=wrenches)
+
+
+def tracked(solver: ContactSolver, wrenches: NDArray[np.float64]) -> Rows:
+    """Return the answers to wrenches as one stream, from its beginning."""
+    solver.reset()
+    return kernel_rows(solver.track_batch(wrenches))
+
+
+def main(given: str, out: str) -> None:
+    """Solve a task: each wrench on its own, then all as one stream."""
+    with np.load(given, allow_pickle=False) as task:
+        solver = ContactSolver(Probe.from_arrays(task["vertices"], task["faces"]))
+        wrenches = task["wrenches"]
+    located = kernel_rows(solver.locate_batch(wrenches))
+    Path(out).write_bytes(located.tobytes() + tracked(solver, wrenches).tobytes())
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

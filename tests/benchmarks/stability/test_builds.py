@@ -12,8 +12,10 @@ from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.stability import builds, precision, repeat, rounding, theory
-from contactbench.pipeline.study.stability.builds import SINGLE, Build, Workshop
+from contactbench.pipeline.study import stability
+
+from . import builds, precision, repeat, rounding, theory
+from .builds import SINGLE, Build, Workshop
 
 needs_compiler = pytest.mark.skipif(shutil.which("g++") is None, reason="no g++")
 
@@ -73,8 +75,8 @@ def test_single_precision_rounds_a_billion_times_more(workshop: Workshop) -> Non
     answers = rounding.both_precisions(body, touches, workshop)
     rows = rounding.measure("rounding", "case", body, touches, answers)
     assert all(row.met for row in rows)
-    error = {row.by: row.median for row in rows if row.figure == rounding.ERROR}
-    assert 1e8 < error[rounding.SINGLE] / error[rounding.DOUBLE] < 1e10
+    error = {row.by: row.median for row in rows if row.figure == stability.ERROR}
+    assert 1e8 < error[rounding.SINGLE] / error[stability.DOUBLE] < 1e10
 
 
 @needs_compiler

@@ -6,45 +6,38 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.simulation import add_noise
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import probes, theory
-from contactbench.pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.study.stability import COSINE, COSINES, OPEN, PREDICTED, QUIET
+
+from . import theory
+from .theory import Row, Where
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from contactbench.pipeline.study.hard_meshes import Body, Float
-    from contactbench.pipeline.study.stability.theory import Touches
+
+    from .theory import FacetTouches
 
 PART = "amplification"
-# No preference for the surface that is met first: it is no part of the closed form.
-OPEN = Gates(friction_angle=89.9999999, min_force=0.0, first_odds=1.0)
-QUIET = WrenchNoise(0.0, 0.0)
-MEASURED, PREDICTED = "measured", "first order"
+MEASURED = "measured"
 OFF = "change of the point, off its first-order prediction by"
 GROWS = "point moved, of each unit of relative error"
 SPREAD = "rms error with the default noise"
-CONDITION = "condition: most that the point moves, of each unit of relative error"
-COSINE, FORCE, ANGLE = "cosine of the friction angle", "force, N", "friction angle, degrees"
+FORCE = "force, N"
 _FIRST_ORDER = 1.0  # %
-# Down to nearly the least at which a facet answers, 0.001: what is steeper is edge-on.
-COSINES = (1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.0015)
 
 
-def run(samples: int, seed: int, names: Sequence[str] = probes.BUNDLED) -> list[Row]:
+def run(samples: int, seed: int) -> list[Row]:
     """
-    Measure amplification towards n . F = 0 and towards F = 0, and the condition of ordinary solves.
+    Measure amplification towards n . F = 0 and towards F = 0.
 
     Parameters
     ----------
     samples : int
-        Touches of each figure.
+        FacetTouches of each figure.
     seed : int
-    names : sequence of str
-        Probes: bundled, or prepared files in S.
     """
     body = hm.ellipsoid()
     rows: list[Row] = []
@@ -52,8 +45,6 @@ def run(samples: int, seed: int, names: Sequence[str] = probes.BUNDLED) -> list[
         rows += _steep(body, cosine, samples, np.random.default_rng((seed, i)))
     for power in range(2, -7, -1):
         rows += _weak(body, 10.0**power, samples, np.random.default_rng((seed, 10 - power)))
-    for i, name in enumerate(names):
-        rows += _ordinary(name, samples, np.random.default_rng((seed, 100 + i)))
     return rows
 
 
@@ -70,7 +61,7 @@ def _weak(body: Body, force: float, samples: int, rng: np.random.Generator) -> l
     """Make the force small and keep the noise: first a millionth of it, then all of it."""
     touches = theory.touch(body, samples, rng, angle=(0.0, 30.0))
     size = force / np.linalg.norm(touches.wrenches[:, :3], axis=1, keepdims=True)
-    touches = theory.Touches(touches.wrenches * size, touches.points, touches.faces)
+    touches = theory.FacetTouches(touches.wrenches * size, touches.points, touches.faces)
     noise, still = WrenchNoise(), np.zeros_like(touches.wrenches)
     change = 1e-6 * add_noise(still, noise, rng)
     more: Where = {"x": force, "axis": FORCE}
@@ -89,7 +80,7 @@ def _weak(body: Body, force: float, samples: int, rng: np.random.Generator) -> l
 
 
 def _compared(
-    body: Body, touches: Touches, change: Float, size: float | None, case: str, more: Where
+    body: Body, touches: FacetTouches, change: Float, size: float | None, case: str, more: Where
 ) -> list[Row]:
     """Compare the solver's two answers with theory where the same facet gives both."""
     solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
@@ -115,17 +106,3 @@ def _share(case: str, same: int, tries: int, more: Where) -> Row:
     left = 100.0 * (1 - same / tries)
     figure = "left out: another facet answers"
     return Row(PART, case, MEASURED, figure, "%", tries, left, left, most=10.0, **more)
-
-
-def _ordinary(name: str, samples: int, rng: np.random.Generator) -> list[Row]:
-    """Give the condition of solves inside the friction cone."""
-    body = probes.body_of(name, 1000)
-    rows = []
-    for angle in (0.0, 30.0, 60.0, 75.0):
-        touches = theory.touch(body, samples, rng, angle=np.full(samples, angle))
-        normals = body.normals[touches.faces].astype(np.float64)
-        values = theory.condition(normals, touches.points, touches.wrenches)
-        rows.append(
-            Row.of(PART, probes.title_of(name), PREDICTED, CONDITION, "m", values, x=angle, axis=ANGLE)
-        )
-    return rows

@@ -18,13 +18,15 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_slide
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.stability import builds
-from contactbench.pipeline.study.stability.repeat_child import tracked, write_task
-from contactbench.pipeline.study.stability.rows import Row
+
+from . import builds
+from .builds import tracked, write_task
+from .theory import Row, count
 
 if TYPE_CHECKING:
     from contactbench.pipeline.study.hard_meshes import Float
-    from contactbench.pipeline.study.stability.builds import Rows, Workshop
+
+    from .builds import Rows, Workshop
 
 PART = "repeatability"
 DIFFER, APART, REASON = "answers that differ in any bit", "points, apart", "answers with another reason"
@@ -115,8 +117,8 @@ def _in_processes(
         for file, share in zip(files, np.array_split(wrenches, workers), strict=True):
             task = file.with_suffix(".npz")
             write_task(task, solver, share)
-            command = [sys.executable, "-m", write_task.__module__, str(task), str(file)]
-            running.append(subprocess.Popen(command, env=environment))  # noqa: S603 - this Python, our module
+            command = [sys.executable, builds.__file__, str(task), str(file)]
+            running.append(subprocess.Popen(command, env=environment))
         try:
             codes = [child.wait(_SECONDS) for child in running]
             if any(codes):
@@ -140,10 +142,10 @@ def _build_rows(build: builds.Build, base: Rows, found: Rows, case: str) -> list
         off = 1e3 * np.linalg.norm(found["point"] - base["point"], axis=1)
         rows.append(Row.of(PART, case, build.name, APART, "mm", off))
         reasons = int((found["reason"] != base["reason"]).sum())
-        rows.append(Row.count(PART, case, build.name, REASON, reasons, len(base)))
+        rows.append(count(PART, case, build.name, REASON, reasons, len(base)))
     return rows
 
 
 def _row(by: str, base: Rows, found: Rows, case: str = LOCATED, *, judged: bool = True) -> Row:
-    count = int(builds.differing(np.ascontiguousarray(found), base).sum())
-    return Row.count(PART, case, by, DIFFER, count, len(base), most=0.0 if judged else None)
+    different = int(builds.differing(np.ascontiguousarray(found), base).sum())
+    return count(PART, case, by, DIFFER, different, len(base), most=0.0 if judged else None)

@@ -11,9 +11,10 @@ import numpy as np
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import theory
-from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
-from contactbench.pipeline.study.stability.rows import Row
+from contactbench.pipeline.study.stability import OPEN, QUIET
+
+from . import theory
+from .theory import Row, count
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Contact
@@ -41,7 +42,7 @@ def run(samples: int, seed: int) -> list[Row]:
     Parameters
     ----------
     samples : int
-        Touches of each case.
+        FacetTouches of each case.
     seed : int
     """
     round_body, bent = hm.ellipsoid(), hm.bundled("t-shape", 1000)
@@ -93,11 +94,11 @@ def _compared(case: str, body: Body, drawn: Drawn) -> list[Row]:
             if max(margins) != 0 and (max(margins) < 0) != (face in facets):
                 depths.append(_depth(body, face, F, margins))
         none += held and not answers
-    count = len(drawn)
+    tries = len(drawn)
     rows = [
-        Row.count(PART, case, DOUBLE, OTHERWISE, len(depths) - 1, count),
+        count(PART, case, DOUBLE, OTHERWISE, len(depths) - 1, tries),
         Row.of(PART, case, DOUBLE, DEPTH, "mm", 1e3 * np.array(depths), most=MOST_MM),
-        Row.count(PART, case, DOUBLE, NONE, none, count, most=0.0),
+        count(PART, case, DOUBLE, NONE, none, tries, most=0.0),
     ]
     if off:
         rows.append(Row.of(PART, case, DOUBLE, ERROR, "mm", 1e3 * np.array(off), most=MOST_MM))

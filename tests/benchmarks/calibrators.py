@@ -12,6 +12,7 @@ from contactbench.pipeline.calibration.contact_error import usual_task
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.simulation.weighing import bump, draw_weighing
+from contactbench.pipeline.study.gravity import measured_regressor
 from contactbench.pipeline.study.rivals.interleave import medians
 from contactbench.pipeline.study.rivals.rows import OURS, TOLD, Contender, Row, erred, known, timed
 
@@ -29,24 +30,6 @@ MEASURED = "two-stage least squares, measured force"
 VERTICAL = "one least squares, vertical known"
 _TILT = np.radians(1.0)
 _LIGHT: dict[str, Any] = {"mass": (0.1, 0.1), "force_noise": (0.2, 0.2), "torque_noise": (0.002, 0.002)}
-
-
-def measured_regressor(R_SW: NDArray[np.float64], F: NDArray[np.float64], M: NDArray[np.float64]) -> Any:
-    """
-    Return the parameters (12,) by two plain least squares, the second on the *measured* force (Eq. 2).
-
-    Parameters
-    ----------
-    R_SW : (n, 3, 3)
-    F, M : (n, 3)
-        N and N·m.
-    """
-    n = len(R_SW)
-    identity = np.broadcast_to(np.eye(3), (n, 3, 3))
-    forces = np.concatenate([R_SW, identity], axis=2).reshape(-1, 6)
-    first = np.linalg.lstsq(forces, F.ravel(), rcond=None)[0]
-    torques = np.concatenate([-cross_matrix(F - first[3:]), identity], axis=2).reshape(-1, 6)
-    return np.concatenate([first, np.linalg.lstsq(torques, M.ravel(), rcond=None)[0]])
 
 
 def known_vertical(R_SW: NDArray[np.float64], F: NDArray[np.float64], M: NDArray[np.float64]) -> Any:

@@ -10,17 +10,20 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.stability import (
+from contactbench.pipeline.study import stability
+
+from . import (
     amplification,
     bias,
     edges,
     exact,
+    repeat,
     rounding,
     theory,
     thin,
     units,
 )
-from contactbench.pipeline.study.stability.rows import Row, of_part
+from .theory import Row, of_part
 
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh import Probe
@@ -52,13 +55,8 @@ def test_amplification_is_first_order() -> None:
     rows = amplification.run(SAMPLES, 1)
     assert not missed(rows)
     assert {row.x for row in of_part(rows, amplification.PART, figure=amplification.GROWS)} == {
-        *amplification.COSINES
+        *stability.COSINES
     }
-    along, slanted = (
-        max(r.worst for r in rows if r.figure == amplification.CONDITION and r.x == angle)
-        for angle in (0.0, 75.0)
-    )
-    assert slanted > 2 * along
 
 
 def test_a_wrong_prediction_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -66,18 +64,18 @@ def test_a_wrong_prediction_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(theory, "moved", lambda *a: 1.02 * right(*a))
     broken = missed(amplification.run(SAMPLES, 1))
     assert {row.figure for row in broken} == {amplification.OFF}
-    assert len(broken) == len(amplification.COSINES) + 9
+    assert len(broken) == len(stability.COSINES) + 9
 
 
 def test_rounding_stays_within_the_condition() -> None:
     rows = rounding.run(SAMPLES, 1, None, quick=True)
     assert not missed(rows)
-    assert {row.by for row in rows} == {rounding.DOUBLE, rounding.ALGORITHM1}
-    assert all(row.most is None for row in rows if row.by == rounding.ALGORITHM1)
+    assert {row.by for row in rows} == {stability.DOUBLE, stability.ALGORITHM1}
+    assert all(row.most is None for row in rows if row.by == stability.ALGORITHM1)
     worst = {
-        row.by: row.worst for row in rows if row.figure == rounding.RATIO and row.axis == rounding.FACETS
+        row.by: row.worst for row in rows if row.figure == stability.RATIO and row.axis == rounding.FACETS
     }
-    assert worst[rounding.DOUBLE] < worst[rounding.ALGORITHM1]
+    assert worst[stability.DOUBLE] < worst[stability.ALGORITHM1]
 
 
 def test_a_solver_off_by_more_than_rounding_is_noticed() -> None:
@@ -88,6 +86,12 @@ def test_a_solver_off_by_more_than_rounding_is_noticed() -> None:
             "rounding", "case", body, touches, rounding.both_precisions(body, touches, None)
         )
         assert bool(missed(rows)) is broken
+
+
+def test_the_bits_are_the_same_in_other_threads_and_processes() -> None:
+    rows = repeat.run(50, 1, None, quick=True)
+    assert {"2 threads", "2 new processes", "wrenches in reverse order"} <= {row.by for row in rows}
+    assert all(row.worst == 0 and row.tries == 300 for row in rows)
 
 
 def test_edges_leave_no_gap_and_jumps_are_predicted() -> None:
@@ -118,7 +122,7 @@ def test_a_bias_costs_what_the_reading_rounds_to() -> None:
     rows = bias.run(SAMPLES, 1, None)
     assert not missed(rows)
     error = {(row.by, row.x): row.worst for row in rows if row.figure == bias.ERROR}
-    assert error[bias.DOUBLE, 1e8] < 1e-4 < error[bias.WIRE, 1e4]
+    assert error[stability.DOUBLE, 1e8] < 1e-4 < error[bias.WIRE, 1e4]
 
 
 def test_exact_arithmetic_agrees() -> None:

@@ -9,27 +9,24 @@ import numpy as np
 from contactbench.pipeline.contact import ContactSolver, Gates
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import theory
-from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
-from contactbench.pipeline.study.stability.rounding import DOUBLE, both_precisions, measure
-from contactbench.pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.study.stability import DOUBLE, NEAR, OPEN, QUIET, REFUSED, SURE_SHARE
+
+from . import theory
+from .rounding import both_precisions, measure
+from .theory import Row, Where, count
 
 if TYPE_CHECKING:
     from contactbench.pipeline.study.hard_meshes import Body, Ints, Long
-    from contactbench.pipeline.study.stability.builds import Workshop
-    from contactbench.pipeline.study.stability.theory import Touches
+
+    from .builds import Workshop
 
 PART = "edges"
-NEAR = "distance from the edge or vertex, of the edge's length"
 PITCH = "local torque over force, mm"
 OTHER = "answered by another facet or vertex"
 UNANSWERED = "not answered"
-REFUSED = "refused by the friction cone, though no steeper than 45 degrees on the facet that is pressed"
 JUMP = "jump of the point across an edge"
 JUMP_OFF = "jump, off its prediction by"
 MEASURED, PREDICTED = "measured", "|h| |n1 x n2| / (|n1.f| |n2.f|)"
-# In double precision a facet keeps what lies further inside than this share of its edge.
-_SURE_SHARE = 1e-12
 
 
 def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
@@ -39,7 +36,7 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
     Parameters
     ----------
     samples : int
-        Touches of each figure.
+        FacetTouches of each figure.
     seed : int
     workshop : Workshop, optional
         Where the single-precision solver is built; without one there is only double precision.
@@ -62,7 +59,7 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
 def _near(
     body: Body, place: str, near: float, samples: int, rng: np.random.Generator, workshop: Workshop | None
 ) -> list[Row]:
-    touches = _next_to(body, place, near, samples, rng)
+    touches = theory.next_to(body, place, near, samples, rng)
     case = f"ellipsoid, next to {place} points"
     more: Where = {"x": near, "axis": NEAR}
     answers = both_precisions(body, touches, workshop)
@@ -70,33 +67,21 @@ def _near(
     for by, found in answers.items():
         none = ~np.isfinite(found["point"][:, 0])
         other = ((found["face"] != touches.faces) | (found["vertex"] >= 0)) & ~none
-        most = 0.0 if by == DOUBLE and near >= _SURE_SHARE else None
-        rows.append(Row.count(PART, case, by, OTHER, int(other.sum()), samples, most=most, **more))
-        rows.append(Row.count(PART, case, by, UNANSWERED, int(none.sum()), samples, most=0.0, **more))
+        most = 0.0 if by == DOUBLE and near >= SURE_SHARE else None
+        rows.append(count(PART, case, by, OTHER, int(other.sum()), samples, most=most, **more))
+        rows.append(count(PART, case, by, UNANSWERED, int(none.sum()), samples, most=0.0, **more))
     return rows
-
-
-def _next_to(body: Body, place: str, near: float, samples: int, rng: np.random.Generator) -> Touches:
-    """Press at this share of the edge's length from an edge or a vertex, up to 45 degrees from the normal."""
-    along = rng.uniform(0.2, 0.8, samples)
-    if place == "edge":
-        shares = np.stack([(1 - near) * along, (1 - near) * (1 - along), np.full(samples, near)], axis=1)
-    else:
-        shares = np.stack([np.full(samples, 1 - near), near * along, near * (1 - along)], axis=1)
-    turned = (rng.integers(3, size=samples)[:, None] + np.arange(3)) % 3
-    shares = np.take_along_axis(shares, turned, axis=1)
-    return theory.touch(body, samples, rng, shares=shares, angle=(0.0, 45.0))
 
 
 def _refused(
     body: Body, place: str, near: float, samples: int, rng: np.random.Generator, workshop: Workshop | None
 ) -> list[Row]:
     """Count what is refused at a sharp rim because rounding names the facet on its other side."""
-    touches = _next_to(body, place, near, samples, rng)
+    touches = theory.next_to(body, place, near, samples, rng)
     rows = []
     for by, found in both_precisions(body, touches, workshop, Gates()).items():
         refused = 100.0 * float((~np.isfinite(found["point"][:, 0])).mean())
-        most = 0.0 if by == DOUBLE and near >= _SURE_SHARE else None
+        most = 0.0 if by == DOUBLE and near >= SURE_SHARE else None
         more: Where = {"x": near, "axis": NEAR, "most": most}
         rows.append(
             Row(PART, f"T-shape, next to {place} points", by, REFUSED, "%", samples, refused, refused, **more)

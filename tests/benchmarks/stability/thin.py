@@ -10,51 +10,40 @@ from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import builds, probes, theory
-from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
-from contactbench.pipeline.study.stability.rounding import DOUBLE, ERROR, SINGLE
-from contactbench.pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.study.stability import DOUBLE, ERROR, OPEN, QUIET
+
+from . import builds, theory
+from .rounding import SINGLE
+from .theory import Row, Where, count
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from contactbench.pipeline.study.hard_meshes import Body, Float, Ints
-    from contactbench.pipeline.study.stability.builds import Workshop
+
+    from .builds import Workshop
 
 PART = "thin facets"
 HEIGHT = "height of the facet, of its longest edge"
 NORMAL = "normal, off by"
 FROM_TRUTH = "from the point that was pressed"
-SLENDER = "longest edge of a facet over its height"
 UNANSWERED, REFUSED = "not answered", "mesh refused"
 CAP, NEEDLE = "caps", "needles"
 # Stated for double precision, from a height of this on: what thinner facets do is only shown.
 _HEIGHT, MOST_MM = 1e-8, 1e-3
-_MANY = 20_000  # facets of a probe whose thinnest one is told
 
 
-def run(
-    samples: int, seed: int, workshop: Workshop | None, names: Sequence[str] = probes.BUNDLED
-) -> list[Row]:
+def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
     """
     Press on thin facets.
 
     Parameters
     ----------
     samples : int
-        Touches of each figure.
+        FacetTouches of each figure.
     seed : int
     workshop : Workshop, optional
         Where the single-precision solver is built; without one there is only double precision.
-    names : sequence of str
-        Probes whose thinnest facet is told: bundled, or prepared files in S.
     """
-    rows: list[Row] = [
-        Row.of(
-            PART, probes.title_of(name), DOUBLE, SLENDER, "", probes.slenderness(probes.body_of(name, _MANY))
-        )
-        for name in names
-    ]
+    rows: list[Row] = []
     for power in range(1, 16):
         for i, kind in enumerate((CAP, NEEDLE)):
             rows += _thin(kind, 10.0**-power, samples, np.random.default_rng((seed, power, i)), workshop)
@@ -72,14 +61,14 @@ def _thin(
         touches = theory.touch(body, samples, rng, among=thin, angle=(0.0, 45.0))
         solver = ContactSolver(body.probe(), QUIET, OPEN, EXACT)
     except InputError:
-        return [Row.count(PART, kind, DOUBLE, REFUSED, 1, 1, **more)]
+        return [count(PART, kind, DOUBLE, REFUSED, 1, 1, **more)]
     rows = []
     answers = {DOUBLE: builds.kernel_rows(solver.locate_batch(touches.wrenches))}
     if workshop is not None:
         try:
             answers[SINGLE] = workshop.solve(builds.SINGLE, solver, touches.wrenches)[0]
         except InputError:
-            rows.append(Row.count(PART, kind, SINGLE, REFUSED, 1, 1, **more))
+            rows.append(count(PART, kind, SINGLE, REFUSED, 1, 1, **more))
     for by, found in answers.items():
         judged = by == DOUBLE and height >= _HEIGHT
         off = theory.errors(body, found["point"], found["face"], found["vertex"], touches.wrenches)
@@ -90,9 +79,7 @@ def _thin(
             Row.of(PART, kind, by, NORMAL, "degrees", _turned(body, found), **more),
         ]
         none = int((~np.isfinite(found["point"][:, 0])).sum())
-        rows.append(
-            Row.count(PART, kind, by, UNANSWERED, none, samples, most=0.0 if judged else None, **more)
-        )
+        rows.append(count(PART, kind, by, UNANSWERED, none, samples, most=0.0 if judged else None, **more))
     return rows
 
 

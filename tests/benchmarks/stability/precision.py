@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
 from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
-from contactbench.pipeline.study.stability import builds, probes, theory
-from contactbench.pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.study import hard_meshes as hm
+
+from . import builds, theory
+from .theory import Row, Where
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from contactbench.pipeline.study.hard_meshes import Body, Float
-    from contactbench.pipeline.study.stability.builds import Workshop
+
+    from .builds import Workshop
 
 PART = "precision"
 APART = "point, single from double precision"
@@ -35,7 +37,6 @@ def run(
     samples: int,
     seed: int,
     workshop: Workshop,
-    names: Sequence[str] = probes.BUNDLED,
     *,
     quick: bool = False,
 ) -> list[Row]:
@@ -45,22 +46,20 @@ def run(
     Parameters
     ----------
     samples : int
-        Touches of each figure.
+        FacetTouches of each figure.
     seed : int
     workshop : Workshop
         Where the single-precision solver is built.
-    names : sequence of str
-        Probes: bundled, or prepared files in S.
     quick : bool
         Only coarse meshes.
     """
     rows: list[Row] = []
-    for i, name in enumerate(names):
+    for i, name in enumerate(assets.PROBE_NAMES):
         rng = np.random.default_rng((seed, i))
-        for facets in probes.sizes_of(name, _FACETS[:2] if quick else _FACETS):
-            body = probes.body_of(name, facets)
+        for facets in _FACETS[:2] if quick else _FACETS:
+            body = hm.bundled(name, facets)
             touches = theory.touch(body, samples, rng, angle=(0.0, 60.0))
-            case = f"{probes.title_of(name)}, {INSIDE}"
+            case = f"{name}, {INSIDE}"
             where: Where = {"x": len(body.faces), "axis": FACETS}
             rows += _compared(case, body, touches.wrenches, _CONE, workshop, judged=True, **where)
         rows += _on_one(name, samples, rng, workshop)
@@ -69,7 +68,7 @@ def run(
 
 def _on_one(name: str, samples: int, rng: np.random.Generator, workshop: Workshop) -> list[Row]:
     """Turn, twist and scale the wrench on a probe of 1,000 facets."""
-    body, title = probes.body_of(name, 1000), probes.title_of(name)
+    body, title = hm.bundled(name, 1000), name
     rows: list[Row] = []
     more: Where
     for low, high in ((60.0, 75.0), (75.0, 85.0), (85.0, 89.0), (89.0, 89.9)):

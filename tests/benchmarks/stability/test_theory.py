@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.stability import theory
+
+from . import theory
 
 
 @pytest.fixture

@@ -10,15 +10,17 @@ from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import builds, theory
-from contactbench.pipeline.study.stability.amplification import OPEN, QUIET
-from contactbench.pipeline.study.stability.rounding import DOUBLE, SINGLE
-from contactbench.pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.study.stability import DOUBLE, OPEN, QUIET
+
+from . import builds, theory
+from .rounding import SINGLE
+from .theory import Row, Where
 
 if TYPE_CHECKING:
     from contactbench.pipeline.study.hard_meshes import Body, Float
-    from contactbench.pipeline.study.stability.builds import Workshop
-    from contactbench.pipeline.study.stability.theory import Touches
+
+    from .builds import Workshop
+    from .theory import FacetTouches
 
 PART = "bias"
 RATIO = "bias, of the contact's force and torque"
@@ -28,7 +30,7 @@ WIRE = "double, readings as single"
 # Stated: cancellation costs the readings' own rounding, and that of two more operations.
 MOST_ROUNDOFFS = 16.0
 _WEIGHT_N, _ARM_M = 4.0, np.array([0.003, -0.002, 0.045])
-_UNITS = {DOUBLE: theory.DOUBLE, SINGLE: theory.SINGLE, WIRE: theory.SINGLE}
+_UNITS = {DOUBLE: theory.ROUNDOFF, SINGLE: theory.FLOAT_ROUNDOFF, WIRE: theory.FLOAT_ROUNDOFF}
 
 
 def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
@@ -38,7 +40,7 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
     Parameters
     ----------
     samples : int
-        Touches of each figure.
+        FacetTouches of each figure.
     seed : int
     workshop : Workshop, optional
         Where the single-precision solver is built; without one there is only double precision.
@@ -52,7 +54,7 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
 
 
 def _biased(
-    body: Body, touches: Touches, ratio: float, rng: np.random.Generator, workshop: Workshop | None
+    body: Body, touches: FacetTouches, ratio: float, rng: np.random.Generator, workshop: Workshop | None
 ) -> list[Row]:
     model = _model(touches, ratio, rng)
     long = touches.wrenches.astype(np.longdouble)
@@ -84,7 +86,7 @@ def _biased(
     return rows
 
 
-def _model(touches: Touches, ratio: float, rng: np.random.Generator) -> GravityModel:
+def _model(touches: FacetTouches, ratio: float, rng: np.random.Generator) -> GravityModel:
     """Make a load with a bias of force and torque, `ratio` times those of the touches."""
     sizes: list[Float] = []
     for part in np.split(touches.wrenches, 2, axis=1):

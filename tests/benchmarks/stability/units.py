@@ -11,13 +11,16 @@ from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, Wren
 from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.stability import builds, theory
-from contactbench.pipeline.study.stability.rounding import DOUBLE, SINGLE
-from contactbench.pipeline.study.stability.rows import Row, Where
+from contactbench.pipeline.study.stability import DOUBLE
+
+from . import builds, theory
+from .rounding import SINGLE
+from .theory import Row, Where, count
 
 if TYPE_CHECKING:
     from contactbench.pipeline.study.hard_meshes import Body, Float
-    from contactbench.pipeline.study.stability.builds import Rows, Workshop
+
+    from .builds import Rows, Workshop
 
 PART = "units"
 DIFFER, ROUNDING = "answers that differ in any bit", "point, unscaled, off by, of the probe's size"
@@ -25,7 +28,7 @@ REASON, FORGOTTEN = "another reason", "another reason when the gates stay in met
 LENGTH, FORCE = "numbers of length, of those in metres", "numbers of force, of those in newtons"
 NAMED = {"µm": 1e6, "mm": 1e3, "m": 1.0, "km": 1e-3}
 # Stated: unscaling is a matter of roundoffs.
-MOST_ROUNDOFFS = {DOUBLE: 100 * theory.DOUBLE, SINGLE: 100 * theory.SINGLE}
+MOST_ROUNDOFFS = {DOUBLE: 100 * theory.ROUNDOFF, SINGLE: 100 * theory.FLOAT_ROUNDOFF}
 _MOST_REASONS = 0.1  # %, in single precision: answers on the border of a gate
 # In single precision a covariance, m², loses bits where lengths are smaller or larger.
 _SQUARES_FIT = (1e-9, 1e12)
@@ -42,7 +45,7 @@ def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
     Parameters
     ----------
     samples : int
-        Touches.
+        FacetTouches.
     seed : int
     workshop : Workshop, optional
         Where the single-precision solver is built; without one there is only double precision.
@@ -131,7 +134,7 @@ class _Scene:
                 bits = int(builds.differing(found, base).sum())
                 within = by == DOUBLE or _SQUARES_FIT[0] < length < _SQUARES_FIT[1]
                 rows.append(
-                    Row.count(PART, case, by, DIFFER, bits, len(found), most=0.0 if within else None, **more)
+                    count(PART, case, by, DIFFER, bits, len(found), most=0.0 if within else None, **more)
                 )
             else:
                 off = np.linalg.norm(found["point"] - base["point"], axis=1) / self.body.size

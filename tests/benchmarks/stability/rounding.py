@@ -9,24 +9,31 @@ import numpy as np
 from contactbench.pipeline.contact import ContactSolver, methods
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import builds, theory
-from contactbench.pipeline.study.stability.amplification import COSINE, COSINES, OPEN, QUIET
-from contactbench.pipeline.study.stability.rows import Row
+from contactbench.pipeline.study.stability import (
+    ALGORITHM1,
+    COSINE,
+    COSINES,
+    DOUBLE,
+    MOST_ROUNDOFFS,
+    OPEN,
+    QUIET,
+    roundoffs,
+)
+
+from . import builds, theory
+from .theory import Row
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Gates
-    from contactbench.pipeline.study.hard_meshes import Body, Float
-    from contactbench.pipeline.study.stability.builds import Rows, Workshop
-    from contactbench.pipeline.study.stability.theory import Touches
+    from contactbench.pipeline.study.hard_meshes import Body
+
+    from .builds import Rows, Workshop
+    from .theory import FacetTouches
 
 PART = "rounding"
-ERROR = "error against long double"
-RATIO = "error over unit roundoff times condition"
 FACETS, FAR = "facets", "distance of the mesh from the sensor origin, m"
-DOUBLE, SINGLE, ALGORITHM1 = "double", "single", "algorithm1"
-_UNITS = {DOUBLE: theory.DOUBLE, SINGLE: theory.SINGLE, ALGORITHM1: theory.DOUBLE}
-# Stated, up to 100,000 facets: an answer is the exact one of a wrench and a mesh this many roundoffs away.
-MOST_ROUNDOFFS = 16.0
+SINGLE = "single"
+_UNITS = {DOUBLE: theory.ROUNDOFF, SINGLE: theory.FLOAT_ROUNDOFF, ALGORITHM1: theory.ROUNDOFF}
 
 
 def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = False) -> list[Row]:
@@ -36,7 +43,7 @@ def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = Fal
     Parameters
     ----------
     samples : int
-        Touches of each figure.
+        FacetTouches of each figure.
     seed : int
     workshop : Workshop, optional
         Where the single-precision solver is built; without one there is only double precision.
@@ -61,7 +68,7 @@ def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = Fal
     return rows
 
 
-def _rows(case: str, body: Body, touches: Touches, workshop: Workshop | None, **more: Any) -> list[Row]:
+def _rows(case: str, body: Body, touches: FacetTouches, workshop: Workshop | None, **more: Any) -> list[Row]:
     answers = both_precisions(body, touches, workshop)
     eliminated = methods.algorithm1(body.probe(), QUIET, OPEN).locate_batch(touches.wrenches)
     answers[ALGORITHM1] = builds.kernel_rows(eliminated)
@@ -69,7 +76,7 @@ def _rows(case: str, body: Body, touches: Touches, workshop: Workshop | None, **
 
 
 def both_precisions(
-    body: Body, touches: Touches, workshop: Workshop | None, gates: Gates = OPEN
+    body: Body, touches: FacetTouches, workshop: Workshop | None, gates: Gates = OPEN
 ) -> dict[str, Rows]:
     """Return the answers where no noise is expected, as :data:`builds.ROW`: of the kernel, and in single precision."""
     solver = ContactSolver(body.probe(), QUIET, gates, EXACT)
@@ -80,26 +87,16 @@ def both_precisions(
 
 
 def measure(
-    part: str, case: str, body: Body, touches: Touches, answers: dict[str, Rows], **more: Any
+    part: str, case: str, body: Body, touches: FacetTouches, answers: dict[str, Rows], **more: Any
 ) -> list[Row]:
     """
     Give the errors of answers against the exact solution of the facet or vertex that each names.
 
     A row of the errors, mm, and one of them over unit roundoff and condition, which is judged but for Algorithm 1.
     """
-    normals = body.normals[touches.faces].astype(np.float64)
-    scale = theory.condition(normals, touches.points, touches.wrenches) + reach(body)
     rows = []
     for by, found in answers.items():
-        off = theory.errors(body, found["point"], found["face"], found["vertex"], touches.wrenches)
-        ratio = off / (_UNITS[by] * scale)
-        rows.append(Row.of(part, case, by, ERROR, "mm", 1e3 * off, **more))
         most = None if by == ALGORITHM1 else MOST_ROUNDOFFS
-        rows.append(Row.of(part, case, by, RATIO, "", ratio, most=most, **more))
+        named = found["point"], found["face"], found["vertex"]
+        rows += roundoffs(part, case, by, body, touches, named, most=most, unit=_UNITS[by], **more)
     return rows
-
-
-def reach(body: Body) -> float:
-    """Return the largest distance of a vertex from the sensor origin, m: what the mesh's own rounding is worth."""
-    used: Float = body.vertices[np.unique(body.faces)]
-    return float(np.linalg.norm(used, axis=1).max())

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.health import edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.shell.cut import cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
@@ -33,6 +33,7 @@ SEAM = 1e-4
 _FLAT = 0.01  # of the width: a hole with such a rim needs no vertices inside
 _SEAMS = 0.7  # of the open edges: sewing that joins fewer nibbles at the rims of holes
 _FILLINGS = 4
+_SCRAP = 1e-4  # of the area
 _FRAYED = 0.005  # open edges a facet that are left: so many are no fins, but a surface in rags
 _SHEETS = 0.01  # of the hull's area: with more that has the outside on both sides the surface is not closed
 
@@ -119,7 +120,8 @@ def sew_up(
         None where it stays in rags.
     """
     size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
-    soup = _trimmed(_sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size))
+    soup = _sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size)
+    soup = _trimmed(_without_dust(soup))
     left = len(open_edges(soup[1], len(soup[0])))
     named: list[Opening] = []
     small = 0
@@ -201,6 +203,18 @@ def _with(soup: Soup, added: Sequence[Surface]) -> Soup:
     """Add surfaces that no facet of the file is in."""
     points, triangles = join([soup[:2], *added])
     return distinct(points, triangles, np.concatenate((soup[2], np.full(len(triangles) - len(soup[2]), -1))))
+
+
+def _without_dust(soup: Soup) -> Soup:
+    """Leave out tiny open scraps: where they lie on a surface they cross it without end."""
+    vertices, faces, born = soup
+    label = label_parts(faces, len(vertices))
+    area = np.linalg.norm(cross_products(vertices, faces), axis=1)
+    torn = np.bincount(label, (_uses(faces) == 1).any(axis=1)) > 0
+    scraps = (torn & (np.bincount(label, area) < _SCRAP * area.sum()))[label]
+    if area[scraps].sum() > _FRAYED * area.sum():
+        return soup
+    return distinct(vertices, faces[~scraps], born[~scraps])
 
 
 def _trimmed(soup: Soup) -> Soup:

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh.shell.wrap import Surface, Wrapped
+    from contactbench.pipeline.mesh.soundness import Soundness
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
 # size of the shell's facets.
@@ -53,7 +54,7 @@ _GLANCES, _NIGHT, _MUCH = 4_000, 0.05, 0.01  # facets looked at, light and share
 _VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part of the shape
 _NO_SPACE = 1e-6  # of the volume of a body with that area, about
 _SHEET = 0.25  # coarse alphas: the wrap of a sheet is twice its offset thick, 0.2
-_TIDYINGS, _MOST_SLIVERS = 4, 500
+_WIDTHS, _MOST_SLIVERS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1.0, 1.0), 500  # of a seam's
 # Degrees; strips that graze a wall cross it in slivers, and others then do not.
 _LEANS = ((30.0, 70.0), (45.0,))
 _LIP = 0.2  # of the width of a mouth
@@ -385,21 +386,27 @@ def _without(shell: Shell, specks: NDArray[np.bool_]) -> Shell:
 
 def _tidied(shell: Shell, base: Probe) -> Shell:
     """Join the slivers that fold or lie on each other: cutting leaves some, of which rounding decides the normal."""
-    for _ in range(_TIDYINGS):
+    for width in _WIDTHS:  # the wider what is joined, the likelier it meets something
         found, made = shell.soundness, shell.probe
         if found is None or found.sound or not found.health.watertight:
             break
-        slivers = np.unique(
-            np.concatenate((found.facets_of(CROSSING, OVERLAP), found.folded_facets, found.flat_facets))
-        )
+        slivers = _faulty(found)
         if len(slivers) > _MOST_SLIVERS:
             break
-        faces, of = without_slivers(made.vertices, made.faces, slivers, SEAM * made.size)
+        faces, of = without_slivers(made.vertices, made.faces, slivers, width * SEAM * made.size)
         if np.array_equal(faces, made.faces):
-            break
-        tidied = _some_facets(made, of, faces)
-        shell = _examined(replace(shell, probe=tidied, how=HULL), base)
+            continue
+        tidied = _examined(replace(shell, probe=_some_facets(made, of, faces), how=HULL), base)
+        if tidied.soundness is not None and len(_faulty(tidied.soundness)) < len(slivers):
+            shell = tidied
     return shell
+
+
+def _faulty(found: Soundness) -> NDArray[np.int64]:
+    """Facets that cross others, lie on them, are folded or have no area, ascending."""
+    return np.unique(
+        np.concatenate((found.facets_of(CROSSING, OVERLAP), found.folded_facets, found.flat_facets))
+    )
 
 
 def _some_facets(probe: Probe, kept: NDArray[np.int64], faces: NDArray[np.int32] | None = None) -> Probe:

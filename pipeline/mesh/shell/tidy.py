@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.kernel import SurfaceIndex, crossings
+from contactbench.pipeline.mesh.probe import degenerate_facets
+from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP
 from contactbench.pipeline.mesh.triangles import cross_products
 
 if TYPE_CHECKING:
@@ -82,9 +84,30 @@ def _shrunk(
         return False
     if SurfaceIndex(vertices, after).closest(vertices[[gone]])[0][0] > width:
         return False
+    before = faces[moved]
+    met = _meeting(vertices, faces, left, moved)
     faces[moved] = after
     left[between] = False
+    if _meeting(vertices, faces, left, moved) > met:
+        faces[moved] = before
+        left[between] = True
+        return False
     return True
+
+
+def _meeting(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    left: NDArray[np.bool_],
+    some: NDArray[np.int64],
+) -> int:
+    """Count the pairs of facets round some that cross or lie on each other."""
+    corners = vertices[faces[some]].reshape(-1, 3)
+    spread = np.stack([vertices[faces[:, corner]] for corner in range(3)])
+    near = ((spread.max(axis=0) >= corners.min(axis=0)) & (spread.min(axis=0) <= corners.max(axis=0))).all(
+        axis=1
+    )
+    return int(crossings(vertices, np.ascontiguousarray(faces[left & near]))[2][[CROSSING, OVERLAP]].sum())
 
 
 def _spoils(
@@ -94,7 +117,7 @@ def _spoils(
     old, new = cross_products(vertices, before), cross_products(vertices, after)
     sizes = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
     turns = np.einsum("ij,ij->i", old, new) < _STEEP * sizes
-    return bool(((sizes == 0) | (turns & (_height(vertices, before) > width))).any())
+    return bool((degenerate_facets(vertices, after) | (turns & (_height(vertices, before) > width))).any())
 
 
 def _height(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float64]:

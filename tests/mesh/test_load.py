@@ -79,11 +79,11 @@ def test_unknown_unit(ball_file):
         (
             1.0,
             "m",
-            r"probe is 8\d+\.?\d* mm long, more than 2000 mm: did the file hold milli.*pass units='mm'",
+            r"probe is 8\d+\.?\d* mm long, more than 2000 mm: are the numbers milli.*Give --units mm",
         ),
-        (1e-3, "mm", r"less than 5 mm: did the file hold metres\? pass units='m' instead of 'mm'"),
-        (1e-3, "in", r"less than 5 mm: did the file hold metres\? pass units='m' instead of 'in'"),
-        (1e6, "mm", r"with units='mm' that cannot be a probe"),
+        (1e-3, "mm", r"less than 5 mm: are the numbers metres\? Give --units m instead of mm"),
+        (1e-3, "in", r"less than 5 mm: are the numbers metres\? Give --units m instead of in"),
+        (1e6, "mm", r"no probe has that size in millimetres"),
         (0.0, "mm", r"the probe is 0 mm long"),
     ],
 )

@@ -76,14 +76,11 @@ def test_the_stated_unit_is_used(write, unit, metres):
         assert load_probe(path).size == pytest.approx(metres)
 
 
-def test_another_unit_than_stated_is_refused(write):
+def test_a_unit_that_is_given_counts_and_the_stated_one_is_told(write):
     path = write("a.3mf", packed(model(attributes='unit="inch"')))
-    for other in ("cm", "mm"):
-        refuse(
-            path,
-            f"states that its numbers are inches, but units='{other}' was given: pass 'in' or 'auto'",
-            units=other,
-        )
+    with pytest.warns(MeshWarning, match="states inches, but millimetres were asked for and are used"):
+        assert load_probe(path, "mm").size == pytest.approx(0.05)
+    assert load_probe(path, "in").size == pytest.approx(1.27)
 
 
 def test_parts_are_placed_by_components_and_items(write):

@@ -64,7 +64,7 @@ def findings(found: Inspection) -> tuple[Finding, ...]:
 
 def _unit(found: Inspection) -> Iterator[Finding]:
     if found.unit is not None and not found.unit.certain:
-        yield Finding("doubt", found.unit.reason)
+        yield Finding("doubt", found.unit.doubt)
 
 
 def _openings(found: Inspection) -> Iterator[Finding]:

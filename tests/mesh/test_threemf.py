@@ -133,6 +133,50 @@ def test_only_what_the_build_lists_is_there(write):
     refuse(write("b.3mf", packed(model(items=""))), "builds no triangles")
 
 
+@pytest.mark.parametrize(
+    ("space", "read"),
+    [
+        ("http://schemas.3mf.io/3dmanufacturing/booleans/2023/07", False),
+        ("http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02", False),
+        ("http://schemas.microsoft.com/3dmanufacturing/production/2015/06", True),
+        ("http://schemas.microsoft.com/3dmanufacturing/material/2015/02", True),
+    ],
+)
+def test_extensions_that_a_file_requires(write, space, read):
+    path = write("a.3mf", packed(model(attributes=f'xmlns:e="{space}" requiredextensions="p e"').replace(
+        "http://example.org/production", "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+    )))  # fmt: skip
+    if read:
+        assert load_probe(path).size == 0.05
+    else:
+        refuse(path, f"needs the extension '{space}', which is not read: export the part as plain triangles")
+
+
+def test_supports_and_items_that_are_not_printed_are_left_out_and_told(write):
+    aside = 'transform="1 0 0 0 1 0 0 0 1 100 0 0"'
+    objects = OBJECT + OBJECT.replace('id="1" type="model"', 'id="2" type="support"')
+    items = f'<item objectid="1"/><item objectid="2" {aside}/><item objectid="1" printable="0" {aside}/>'
+    with pytest.warns(MeshWarning, match=r"Supports .*\(objects: 1\).*does not print .*\(items: 1\)"):
+        probe = load_probe(write("a.3mf", packed(model(objects, items))))
+    assert (len(probe.faces), probe.size) == (4, 0.05)
+
+
+def test_parts_in_another_unit_than_the_build(write):
+    placed = '<component p:path="/3D/Objects/part.model" objectid="1"/>'
+    objects = f'<object id="2"><components>{placed}</components></object>'
+    inches = model(attributes='unit="inch"', items="")
+    data = packed(model(objects, '<item objectid="2"/>'), part=inches)
+    with pytest.warns(MeshWarning, match=r"state another unit \(inch\) than its build \(millimeter\)"):
+        assert load_probe(write("a.3mf", data)).size == 0.05
+    small = inches.replace('"50"', '"2"')
+    path = write("b.3mf", packed(model(objects, '<item objectid="2"/>'), part=small))
+    refuse(
+        path, "the probe is 2 mm long, less than 5 mm: are the numbers inches. Give --units in instead of mm"
+    )
+    with pytest.warns(MeshWarning, match="states millimetres, but inches were asked for"):
+        assert load_probe(path, "in").size == pytest.approx(0.0508)
+
+
 def test_elements_of_other_namespaces_are_left_alone(write):
     odd = OBJECT.replace("<vertices>", '<vertices><p:vertex x="hello"/>')
     assert len(load_probe(write("a.3mf", packed(model(odd)))).faces) == 4

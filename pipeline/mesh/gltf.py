@@ -88,8 +88,8 @@ def read_gltf(data: bytes) -> RawMesh:
     for name in _list(file.text, "extensionsRequired"):
         if not str(name).startswith("KHR_materials_") and name not in _HARMLESS:
             raise MeshError(
-                f"the glTF scene needs the extension {str(name)[:60]}, which is not read: export it again without it, or"
-                " as STL or 3MF."
+                f"the glTF scene needs the extension {str(name)[:60]}, which is not read: export it again without it,"
+                " or as STL or 3MF."
             )
     # A number that is none, or overflows here, is refused, with its row, like every other.
     with np.errstate(over="ignore", invalid="ignore"):

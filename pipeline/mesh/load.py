@@ -183,6 +183,7 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
         raw, notes = _read(file)
         check_faces(raw.faces, len(raw.vertices))
         raw = _without_stray(raw)
+        _refuse_not_finite(raw.vertices)
         check_vertices(raw.vertices)
         return _with_units(raw, notes, units, "m" if file.suffix.lower() in _IN_METRES else None)
     except MeshError as error:
@@ -206,6 +207,17 @@ def _with_units(
         defined=defined,
     )
     return MeshFile(raw, guess, guess.units)
+
+
+def _refuse_not_finite(vertices: npt.NDArray[np.float64]) -> None:
+    bad: npt.NDArray[np.bool_] = ~np.all(np.isfinite(vertices), axis=1)
+    if bad.any():
+        row, count = int(np.argmax(bad)), np.count_nonzero(bad)
+        place = ", ".join(f"{value:g}" for value in vertices[row])
+        raise MeshError(
+            f"vertex {row + 1} is ({place}); {count} of {len(bad)} vertices {'is' if count == 1 else 'are'} not finite."
+            " Repair the file or export it again."
+        )
 
 
 def _without_stray(raw: RawMesh) -> RawMesh:

@@ -7,7 +7,7 @@ import re
 from array import array
 
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points
+from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, broken, decimal_points, plain_text, points
 from contactbench.pipeline.mesh.polygons import Polygons
 
 _POSITION = re.compile(rb"v" + (rb"\s+(" + NUMBER + rb")") * 3 + rb"(?!\S)")
@@ -56,9 +56,7 @@ def read_obj(data: bytes) -> RawMesh:
 def _position(line: bytes, number: int) -> tuple[bytes, ...]:
     match = _POSITION.match(line)
     if match is None:
-        raise MeshError(
-            f"line {number} of the OBJ text is a vertex without three numbers: export the file again."
-        )
+        raise broken(f"line {number} of the OBJ text", "is a vertex without three numbers", line)
     return match.groups()
 
 

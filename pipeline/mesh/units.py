@@ -208,10 +208,11 @@ def _contrast(span: float, ranked: list[Units]) -> str:
 def _question(span: float, ranked: list[Units]) -> str:
     first, *others = (f"{_millimetres(span, unit)} if they are {NAMES[unit]}" for unit in ranked[:3])
     choices = "".join(f", {other}" for other in others) if others else ", an unusual size"
-    options = " or ".join(f"--units {unit}" for unit in ranked[:3])
+    options = ", ".join(ranked[:3])
+    options = " or ".join(options.rsplit(", ", 1))
     return (
         f"The numbers span {_number(span)}: the longest side is {first}{choices}."
-        f" Measure the probe and give {options}."
+        f" Measure the probe and give --units {options}."
     )
 
 

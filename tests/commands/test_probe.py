@@ -73,7 +73,7 @@ def test_nothing_is_made_of_numbers_whose_unit_nobody_can_tell(tmp_path, command
     result = invoke(command, tmp_path / "box.stl", "--out", tmp_path / "out.ply")
     assert result.exit_code == 2
     assert "59.06 mm if they are centimetres, 150 mm if they are inches" in said(result)
-    assert "give --units cm or --units in" in said(result)
+    assert "give --units cm, in or mm" in said(result)
     assert [file.name for file in tmp_path.iterdir()] == ["box.stl"]
     assert "unit cannot be told" not in said(
         invoke(command, tmp_path / "box.stl", "--units", "in", "--out", tmp_path / "out.ply")

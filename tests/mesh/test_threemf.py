@@ -198,7 +198,10 @@ def test_names_may_be_in_another_case(write):
         (packed(model().replace("<build>", "<build>&nosuch;")), "not sound XML"),
         (packed(model(attributes='unit="cubit"')), "unknown unit 'cubit'"),
         (packed(model().replace('x="50"', 'x="fifty"')), "a <vertex> of the 3MF model holds no number"),
-        (packed(model().replace('x="50"', 'x="nan"')), "is not a finite point"),
+        (
+            packed(model().replace('x="50"', 'x="nan"')),
+            "vertex 2 is .nan, nan, nan.; 1 of 4 vertices is not finite",
+        ),
         (packed(model().replace('x="50"', "")), "a <vertex> of the 3MF model has no 'x'"),
         (packed(model().replace('v1="1"', 'v1="4"')), "refers to a vertex that is not there"),
         (packed(model().replace('v1="1"', 'v1="-1"')), "refers to a vertex that is not there"),

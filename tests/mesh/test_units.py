@@ -47,7 +47,7 @@ def test_inch_or_centimetre_is_asked():
     guess = guess_units(5.2)
     assert set(guess.alternatives) >= {"in"}
     assert "52 mm if they are centimetres, 132.1 mm if they are inches" in guess.reason
-    assert "Measure the probe and give --units cm or --units in" in guess.reason
+    assert "Measure the probe and give --units cm, in or mm" in guess.reason
     assert guess.must_be_given
 
 
@@ -92,7 +92,7 @@ def test_a_unit_that_is_only_mentioned_decides_nothing(notes):
     guess = guess_units(5.906, notes=notes)
     assert guess == guess_units(5.906)
     assert guess.must_be_given
-    assert "--units in" in guess.reason
+    assert "--units cm, in or mm" in guess.reason
 
 
 def test_a_declared_unit_that_makes_no_usual_probe_is_a_doubt():

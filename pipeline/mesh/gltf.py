@@ -63,20 +63,10 @@ class _File:
 
 def read_gltf(data: bytes) -> RawMesh:
     """
-    Read the content of a GLB file, or of a glTF text that holds its own data; the meshes of its scene become one.
+    Read the content of a GLB file, or of a glTF text that holds its own data; the meshes of its scene become one; y is up.
 
     Shapes to morph into count as much as the file's weights say. Materials, lines, points, skeletons and animations
     are not looked at.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Metres, if whoever wrote it kept to the format. y is up in it.
 
     Raises
     ------

@@ -57,6 +57,7 @@ _RIGID = 1e-6
 _FARTHEST_MOUNT_M = 10.0
 _LARGEST_FILE = 2**29
 
+# Each takes the bytes of a whole file; facets stay in its order.
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
     ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
     ".glb": read_gltf, ".gltf": read_gltf,

@@ -22,16 +22,6 @@ def read_obj(data: bytes) -> RawMesh:
     Materials, textures, normals, colours, weights, lines, points and files that the text refers to are not looked
     at.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the file's order.
-
     Raises
     ------
     MeshError

@@ -38,16 +38,6 @@ def read_off(data: bytes) -> RawMesh:
 
     Colours, normals, texture coordinates, comments and what follows the last facet are not looked at.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the file's order.
-
     Raises
     ------
     MeshError

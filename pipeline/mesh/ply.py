@@ -23,16 +23,6 @@ def read_ply(data: bytes) -> RawMesh:
     """
     Read the content of a PLY file; polygons become triangles that share their polygon's region.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the file's order.
-
     Raises
     ------
     MeshError

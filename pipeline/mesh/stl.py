@@ -51,16 +51,6 @@ def read_stl(data: bytes) -> RawMesh:
     """
     Read the content of an STL file; several solids become one mesh.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Three vertices of its own per facet, as the format has it.
-
     Raises
     ------
     MeshError

@@ -108,16 +108,6 @@ def read_threemf(data: bytes) -> RawMesh:
     Supports and items that are not to be printed are left out, which is told. Materials, colours, and beams and slices
     that the file does not require, are not looked at.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the order of the build; `stated` is the unit.
-
     Raises
     ------
     MeshError

@@ -63,7 +63,7 @@ class _File:
 
 def read_gltf(data: bytes) -> RawMesh:
     """
-    Read the content of a GLB file, or of a glTF text that holds its own data; the meshes of its scene become one; y is up.
+    Read the content of a GLB file, or of a glTF text that holds its own data; its scene becomes one mesh, y up.
 
     Shapes to morph into count as much as the file's weights say. Materials, lines, points, skeletons and animations
     are not looked at.

@@ -215,9 +215,9 @@ def _refuse_not_finite(vertices: npt.NDArray[np.float64]) -> None:
     if bad.any():
         row, count = int(np.argmax(bad)), np.count_nonzero(bad)
         place = ", ".join(f"{value:g}" for value in vertices[row])
+        all_ = f"1 of {len(bad)} vertices is" if count == 1 else f"{count} of {len(bad)} vertices are"
         raise MeshError(
-            f"vertex {row + 1} is ({place}); {count} of {len(bad)} vertices {'is' if count == 1 else 'are'} not finite."
-            " Repair the file or export it again."
+            f"vertex {row + 1} is ({place}); {all_} not finite. Repair the file or export it again."
         )
 
 

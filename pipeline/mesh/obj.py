@@ -46,7 +46,11 @@ def read_obj(data: bytes) -> RawMesh:
 def _position(line: bytes, number: int) -> tuple[bytes, ...]:
     match = _POSITION.match(line)
     if match is None:
-        raise broken(f"line {number} of the OBJ text", "is a vertex without three numbers", line)
+        raise broken(
+            f"line {number} of the OBJ text",
+            line,
+            f"line {number} of the OBJ text is a vertex without three numbers: export the file again.",
+        )
     return match.groups()
 
 

@@ -157,7 +157,11 @@ def _polygon(row: bytes) -> list[int] | None:
 def _bad_row(number: int, row: bytes, what: str, vertex_count: int, facet_count: int) -> MeshError:
     if not number:
         return _too_short(vertex_count, facet_count)
-    return broken(f"line {number} of the OFF text", f"is not {what}", row)
+    return broken(
+        f"line {number} of the OFF text",
+        row,
+        f"line {number} of the OFF text is not {what}: it is damaged, export it again.",
+    )
 
 
 def _too_short(vertex_count: int, facet_count: int) -> MeshError:

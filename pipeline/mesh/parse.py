@@ -113,11 +113,11 @@ def decimal_points(text: bytes, row: re.Pattern[bytes]) -> tuple[bytes, tuple[st
     return row.sub(lambda found: found.group().replace(b",", b"."), text), (note,)
 
 
-def broken(where: str, what: str, row: bytes, remedy: str = "it is damaged, export it again") -> MeshError:
-    """Say that a row of text is not what it should be, and name its commas where they are the cause."""
+def broken(where: str, row: bytes, why: str) -> MeshError:
+    """Say why a row of text cannot be read; its commas, where it has any, are the cause."""
     comma = next((word.decode("latin-1")[:20] for word in row.split() if _COMMA.fullmatch(word)), None)
     if comma is None:
-        return MeshError(f"{where} {what}: {remedy}.")
+        return MeshError(why)
     return MeshError(
         f"{where} has the number {comma!r}, whose comma may stand for a decimal point or set thousands apart: export"
         " the file again with decimal points."

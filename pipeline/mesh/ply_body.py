@@ -403,9 +403,9 @@ class _RowReader:
         """What was left out, in sentences."""
         if not self._surplus:
             return ()
-        where = f"at the end of each row of the PLY element '{self._element.name}'"
+        name, count = self._element.name, self._surplus
         return (
-            f"Numbers {where}, which the header does not announce, were left out (a row: {self._surplus}).",
+            f"Rows of the PLY element '{name}' end in numbers that the header lacks; left out (a row: {count}).",
         )
 
 
@@ -433,6 +433,7 @@ def _fields(element: Element, row: list[bytes], number: int) -> tuple[dict[str, 
 def _bad_row(element: Element, row: list[bytes], number: int) -> MeshError:
     return broken(
         f"row {number} of the PLY element '{element.name}'",
-        "does not hold the numbers that the header announces",
         b" ".join(row),
+        f"row {number} of the PLY element '{element.name}' does not hold the numbers that the header"
+        " announces: the file is damaged, export it again.",
     )

@@ -158,7 +158,7 @@ def _broken_facet(text: bytes, ended: bool) -> MeshError:
     end = text.lower().find(b"endfacet", wrong.end())
     return broken(
         f"the facet on line {line} of the STL text",
-        "is not three 'vertex x y z' between 'outer loop' and 'endloop'",
         text[wrong.start() : end if end >= 0 else None],
-        "repair that facet or export the file again",
+        f"the facet on line {line} of the STL text is not three 'vertex x y z'"
+        " between 'outer loop' and 'endloop': repair that facet or export the file again.",
     )

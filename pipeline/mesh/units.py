@@ -155,17 +155,17 @@ def guess_units(
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
     usual = tuple(near or likely)
     declared = {defined} if defined else _declared(notes)
-    who = "glTF is defined in" if defined else "The file declares"
+    declared = {defined} if defined else _declared(notes)
     if len(declared) == 1:
         (unit,) = declared
         others = tuple(other for other in ranked if other != unit)
         if unit in likely or (unit in possible and not likely):
-            return UnitGuess(unit, True, f"{who} {NAMES[unit]}, and {_says(span, unit)}.", others)
-        size = _size(span, unit)
-        doubt = f"{size} is {'small' if in_metres(span, unit) < LIKELY_M[0] else 'large'} for a probe"
-        said = f" {who} {NAMES[unit]}, but {doubt if unit in possible else size + ' is impossible'}."
+            return UnitGuess(unit, True, f"{_declares(unit, defined)}, and {_says(span, unit)}.", others)
+        said = f" {_declares(unit, defined)}, but {_unlikely(span, unit, unit in possible)}."
         return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
-    said = f" The file declares several units: {_listed(declared)}." if declared else ""
+    said = ""
+    if declared:
+        said = f" The file declares several units: {', '.join(NAMES[unit] for unit in NAMES if unit in declared)}."
     # Few programs write centimetres or inches; alone the size is too little to believe it. And nothing is as sure as
     # that where another unit makes a small probe, or the hub of a needle.
     smaller = any(in_metres(span, unit) < LIKELY_M[0] for unit in possible)
@@ -190,8 +190,19 @@ def _declared(notes: bytes) -> set[Units]:
     }
 
 
-def _listed(declared: set[Units]) -> str:
-    return " and ".join(NAMES[unit] for unit in NAMES if unit in declared)
+def _declares(unit: Units, defined: Units | None) -> str:
+    return f"glTF is defined in {NAMES[unit]}" if defined else f"The file declares {NAMES[unit]}"
+
+
+def _unlikely(span: float, unit: Units, possible: bool) -> str:
+    size = _size(span, unit)
+    if not possible:
+        return f"{size} is impossible"
+    return (
+        f"{size} is small for a probe"
+        if in_metres(span, unit) < LIKELY_M[0]
+        else f"{size} is large for a probe"
+    )
 
 
 def _says(span: float, unit: Units) -> str:

@@ -499,7 +499,10 @@ def test_ply_text_on_other_lines_than_usual(write, ply_text, layout):
 
 def test_ply_rows_with_a_column_that_the_header_forgot(write, ply_text):
     rows = [f"{row} 7" for row in TETRAHEDRON]
-    with pytest.warns(MeshWarning, match=r"each row of the PLY element 'vertex'.* left out \(a row: 1\)"):
+    with pytest.warns(
+        MeshWarning,
+        match=r"Rows of the PLY element 'vertex' end in numbers that the header lacks; left out \(a row: 1\)",
+    ):
         assert load_probe(write("a.ply", ply_text(rows, TRIANGLES))).size == pytest.approx(0.05)
     refuse(
         write("b.ply", ply_text([*rows[:3], rows[3] + " 7"], TRIANGLES)), "row 3 of the PLY element 'vertex'"

@@ -105,7 +105,7 @@ def test_a_declared_unit_that_makes_no_usual_probe_is_a_doubt():
 def test_several_declared_units_decide_nothing():
     guess = guess_units(132.0, notes=b"units: mm\nunits: inches")
     assert (guess.units, guess.certain) == ("mm", False)
-    assert guess.reason.endswith("The file declares several units: millimetres and inches.")
+    assert guess.reason.endswith("The file declares several units: millimetres, inches.")
 
 
 def test_notes_that_cannot_be_true_make_it_uncertain():

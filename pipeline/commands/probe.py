@@ -29,6 +29,7 @@ from contactbench.pipeline.commands.probe_options import (
     metres,
     open_mesh,
     planned,
+    refuse_to_guess,
     share,
 )
 from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
@@ -260,6 +261,7 @@ def prepare(
 
     refuse_overwriting(out, [file])
     check_target(out)
+    refuse_to_guess(file, units)
     plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
     placed = chosen_mount(mount, alignment)
     with Bar("preparing", counted=True) as bar:

@@ -100,10 +100,21 @@ def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeF
         check_target(out)
     from contactbench.pipeline.preparation.steps import import_mesh
 
+    refuse_to_guess(file, units)
     content = import_mesh(file, units.value)
     for note in content.notes:
         say(f"warning: {note}", "yellow")
     return content
+
+
+def refuse_to_guess(file: Path, units: UnitsOrAuto) -> None:
+    """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
+    from contactbench.pipeline.mesh import MeshError
+    from contactbench.pipeline.mesh.load import read_mesh
+
+    guess = None if units is not UnitsOrAuto.auto else read_mesh(file).guess
+    if guess is not None and guess.must_be_given:
+        raise MeshError(f"{file}: the unit cannot be told. {guess.reason}")
 
 
 def closings(names: list[ClosingName] | None) -> Closing | list[Closing]:

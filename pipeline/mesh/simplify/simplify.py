@@ -149,7 +149,10 @@ def _reach(job: Job, target: Target, tell: _Told) -> tuple[Attempt, str]:
     if isinstance(target, MaxDeviation):
         found = fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell.attempts)
     else:
-        found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts)
+        if have <= target.enough:
+            job.steps.append(f"The surface has {have} facets, few enough: it is left as it is.")
+            return job.unchanged(), ""
+        found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts, target.enough)
     if found is not None:
         return found, ""
     job.steps.append("No fewer facets keep the limit: the surface is left as it is.")

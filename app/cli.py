@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import os
 import sys
-from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from contactbench.app.study import study_app
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.errors import InputError
 
 __all__ = ["app", "main"]
-
-app.add_typer(study_app, name="gui-study")
 
 
 def main() -> None:
@@ -72,35 +68,6 @@ def heatmap_viewer(
     load(application, remembered.language)
     use_theme(remembered.theme)
     raise typer.Exit(run(list(files or ())))
-
-
-@app.command(
-    help="Make the README's pictures by driving the real window.",
-    epilog="Example: contactbench screenshots pictures --theme both --pages gravity,verify",
-)
-def screenshots(
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="Folder to write.")],
-    theme: Annotated[str, typer.Option(metavar="NAME", help="light, dark or both.")] = "light",
-    size: Annotated[str, typer.Option(metavar="WxH", help="Of the window, px.")] = "1280x800",
-    pages: Annotated[
-        str, typer.Option(metavar="NAME,...", help="Of start, the six steps, motion and heatmap [all].")
-    ] = "",
-    language: Annotated[str, typer.Option(metavar="CODE", help="Language, such as de.")] = "en",
-) -> None:
-    """Make pictures."""
-    check_screen()
-    made = import_module("contactbench.app.screenshots")
-    themes = made.THEMES if theme == "both" else (theme,)
-    wanted = tuple(pages.split(",")) if pages else made.PAGES
-    raise typer.Exit(made.run(out, themes, size_of(size), wanted, language))
-
-
-def size_of(text: str) -> tuple[int, int]:
-    """Return width and height, px; InputError."""
-    width, _, height = text.partition("x")
-    if not (width.isascii() and height.isascii() and width.isdigit() and height.isdigit()):
-        raise InputError(f"--size {text}: give width and height in px, such as 1280x800.")
-    return int(width), int(height)
 
 
 def check_screen() -> None:

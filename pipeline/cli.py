@@ -30,7 +30,6 @@ from contactbench.pipeline.commands.record import record_app
 from contactbench.pipeline.commands.recording import recording_app
 from contactbench.pipeline.commands.region import region_app
 from contactbench.pipeline.commands.report import report_app
-from contactbench.pipeline.commands.reproduce import reproduce_app
 from contactbench.pipeline.commands.run import run_app
 from contactbench.pipeline.commands.session import session_app
 from contactbench.pipeline.commands.verify import markers_app, verify_app
@@ -209,9 +208,8 @@ def demo(
 
 # ---- more commands -----------------------------------------------------------------------------
 
-# Their modules take options and output from contactbench.pipeline.console and contactbench.pipeline.commands,
-# never from this one, and
-# import nothing heavy at their top.
+# Their modules take options and output from contactbench.pipeline.console and contactbench.pipeline.commands, never
+# from this one, and import nothing heavy at their top.
 app.add_typer(locate_app)
 app.add_typer(heatmap_app)
 app.add_typer(report_app)
@@ -231,7 +229,6 @@ app.add_typer(config_app, name="config")
 app.add_typer(run_app)
 app.add_typer(control_app, name="control")
 app.add_typer(study_app, name="study")
-app.add_typer(reproduce_app, name="reproduce")
 
 
 if __name__ == "__main__":

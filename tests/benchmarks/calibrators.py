@@ -6,13 +6,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.gravity import measured_regressor
 
 from contactbench.pipeline.calibration import calibrate
 from contactbench.pipeline.calibration.contact_error import usual_task
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.simulation.weighing import bump, draw_weighing
-from contactbench.pipeline.study.gravity import measured_regressor
 from contactbench.pipeline.study.rivals.interleave import medians
 from contactbench.pipeline.study.rivals.rows import OURS, TOLD, Contender, Row, erred, known, timed
 

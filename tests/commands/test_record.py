@@ -14,6 +14,7 @@ import time
 
 import numpy as np
 import pytest
+from benchmarks.fault_lines import resting
 from recording.recording_cases import record
 from typer.testing import CliRunner
 
@@ -30,7 +31,6 @@ from contactbench.pipeline.recording import (
     read_recording,
 )
 from contactbench.pipeline.recording.recorder import Recorder
-from contactbench.pipeline.study.fault_lines import resting
 
 
 def invoke(*arguments):

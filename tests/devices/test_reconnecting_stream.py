@@ -6,6 +6,7 @@ import threading
 import time
 
 import pytest
+from benchmarks.fault_lines import resting
 from devices.test_sensor import Heard
 
 from contactbench.pipeline.devices.protocols.sri import sri_frame
@@ -14,7 +15,6 @@ from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.transport import Chunk, LineLost
 from contactbench.pipeline.devices.url import DeviceAddress
-from contactbench.pipeline.study.fault_lines import resting
 
 
 class Script:

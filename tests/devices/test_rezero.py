@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from benchmarks.faults import rezero_figures
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.devices.emulate import swinging
 from contactbench.pipeline.devices.rezero import RezeroDetector
 from contactbench.pipeline.devices.sample import WrenchSample
-from contactbench.pipeline.study.faults import rezero_figures
 
 WEIGHT = np.array([1.0, -2.0, 4.5, 0.12, -0.2, 0.05])
 RATE = 100.0

@@ -6,6 +6,7 @@ import dataclasses
 from itertools import count
 
 import pytest
+from benchmarks.fault_lines import LINES, cases, expectation, resting
 
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
 from contactbench.pipeline.devices.faults import Mangler, Truth
@@ -18,7 +19,6 @@ from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
 from contactbench.pipeline.devices.watch import Watch
-from contactbench.pipeline.study.fault_lines import LINES, cases, expectation, resting
 
 SENSORS = [line for line in LINES if not line.robot]
 RATE = 100.0

@@ -38,14 +38,25 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.commands import study_app
 
 _WRONG_INPUT, _INTERRUPTED = 2, 130
+_WORDS = "contactbench.words"
+# Typer brings a click of its own, or uses click itself: this is either's.
+_UsageError: Any = typer.BadParameter.__base__
 
 
 class _Commands(TyperGroup):
     """The commands, with every expected end of one turned into a sentence and an exit code."""
 
+    def parse_args(self, ctx: Any, args: list[str]) -> Any:
+        ctx.meta[_WORDS] = tuple(args)
+        return super().parse_args(ctx, args)
+
     def invoke(self, ctx: Any) -> Any:
         try:
             return super().invoke(ctx)
+        except _UsageError as error:
+            if "--json" in ctx.meta[_WORDS]:  # it may not have been read before the word that was wrong
+                print_json({"error": error.format_message()})
+            raise
         except InputError as error:
             report_error(str(error), as_json=wants_json(ctx))
             raise typer.Exit(_WRONG_INPUT) from None
@@ -60,7 +71,7 @@ app = typer.Typer(
     help="Find where a medical robot's probe is touched, from one force/torque sensor, and how sure that is.",
     epilog="Example: contactbench locate --probe probe.stl --units mm wrenches.csv --out contacts.csv",
     no_args_is_help=True,
-    add_completion=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )

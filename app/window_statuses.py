@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def is_connected(bench: Bench) -> bool:
     """Whether samples come."""
-    from contactbench.pipeline.devices.drive import State
+    from contactbench.pipeline.devices.stream import State
 
     health = bench.live.health
     return health is not None and health[0].state is State.STREAMING

@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 _WRONG_INPUT, _INTERRUPTED = 2, 130
-_UsageError = typer.BadParameter.__bases__[0]
 _COMMANDS = "contactbench.pipeline.commands"
+_WORDS = "contactbench.words"
+# Typer brings a click of its own, or uses click itself: this is either's.
+_UsageError: Any = typer.BadParameter.__base__
 
 
 @dataclass(frozen=True)
@@ -48,19 +50,35 @@ class Entry:
 
 
 ENTRIES = {
-    "demo": Entry("Begin", f"{_COMMANDS}.demo:demo_app", "Do the whole job on simulated probes, without files"),
-    "info": Entry("Begin", f"{_COMMANDS}.info:info_app", "Show versions, the kernel in use and optional packages"),
-    "record": Entry("At the bench", f"{_COMMANDS}.record:record_app", "Record a sensor and a robot; convert recordings"),
-    "calibrate": Entry("At the bench", f"{_COMMANDS}.calibrate:calibrate_app", "Bias, weight and centre of mass"),
-    "probe": Entry("At the bench", f"{_COMMANDS}.probe:probe_app", "Make a probe of a mesh; its regions and markers"),
-    "verify": Entry("At the bench", f"{_COMMANDS}.verify:verify_app", "Judge contacts by touches of markers; report"),
-    "session": Entry("At the bench", f"{_COMMANDS}.session:session_app", "Keep everything about a probe in one folder"),
+    "demo": Entry(
+        "Begin", f"{_COMMANDS}.demo:demo_app", "Do the whole job on simulated probes, without files"
+    ),
+    "info": Entry(
+        "Begin", f"{_COMMANDS}.info:info_app", "Show versions, the kernel in use and optional packages"
+    ),
+    "record": Entry(
+        "At the bench", f"{_COMMANDS}.record:record_app", "Record a sensor and a robot; convert recordings"
+    ),
+    "calibrate": Entry(
+        "At the bench", f"{_COMMANDS}.calibrate:calibrate_app", "Bias, weight and centre of mass"
+    ),
+    "probe": Entry(
+        "At the bench", f"{_COMMANDS}.probe:probe_app", "Make a probe of a mesh; its regions and markers"
+    ),
+    "verify": Entry(
+        "At the bench", f"{_COMMANDS}.verify:verify_app", "Judge contacts by touches of markers; report"
+    ),
+    "session": Entry(
+        "At the bench", f"{_COMMANDS}.session:session_app", "Keep everything about a probe in one folder"
+    ),
     "locate": Entry("Use", f"{_COMMANDS}.locate:locate_app", "Locate the contact of each wrench in a file"),
     "heatmap": Entry("Use", f"{_COMMANDS}.heatmap:heatmap_app", "Show where on the probe it was touched"),
     "bundle": Entry("Use", f"{_COMMANDS}.bundle:bundle_app", "Export, check and compare what a robot loads"),
     "run": Entry("Use", f"{_COMMANDS}.run:run_app", "Run a bundle on live streams"),
     "bench": Entry("Try", f"{_COMMANDS}.bench:bench_app", "Simulated bench, devices and motion control"),
-    "study": Entry("Try", "contactbench.pipeline.study.commands:study_app", "Measure accuracy, speed and robustness"),
+    "study": Entry(
+        "Try", "contactbench.pipeline.study.commands:study_app", "Measure accuracy, speed and robustness"
+    ),
 }
 _SECTIONS = ("Begin", "At the bench", "Use", "Try")
 
@@ -108,23 +126,26 @@ class _Commands(Nouns):
             "More: contactbench COMMAND -h. A command's own options include --json and --quiet.\n"
         )
 
-    def make_context(self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any) -> Any:
-        as_json = "--json" in args
-        with _told(as_json=as_json):
-            context = super().make_context(info_name, args, parent, **extra)
-        context.meta["contactbench.asked"] = as_json
-        return context
+    def parse_args(self, ctx: Any, args: list[str]) -> Any:
+        ctx.meta[_WORDS] = tuple(args)
+        with _told(ctx):
+            return super().parse_args(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:
-        with _told(as_json=ctx.meta["contactbench.asked"]):
+        with _told(ctx):
             return super().invoke(ctx)
 
 
 @contextmanager
-def _told(*, as_json: bool) -> Iterator[None]:
-    """Say what went wrong, once, in the form that was asked for; whoever prints wrong usage is typer itself."""
+def _told(ctx: Any) -> Iterator[None]:
+    """Say what went wrong, once, in the form that was asked for; what is wrong usage, typer itself says."""
+    as_json = "--json" in ctx.meta[_WORDS]  # it may not have been read before the word that was wrong
     try:
         yield
+    except _UsageError as error:
+        if as_json:
+            print_json({"error": error.format_message()})
+        raise
     except InputError as error:
         report_error(str(error), as_json=as_json)
         raise typer.Exit(_WRONG_INPUT) from None
@@ -140,10 +161,6 @@ def _told(*, as_json: bool) -> Iterator[None]:
     except KeyboardInterrupt:
         report_error("interrupted: the command was stopped before its end.", as_json=as_json)
         raise typer.Exit(_INTERRUPTED) from None
-    except _UsageError as error:
-        if as_json:
-            print_json({"error": error.format_message()})  # type: ignore[attr-defined]
-        raise
 
 
 app = typer.Typer(

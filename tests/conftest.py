@@ -6,10 +6,15 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
 _screen = None
+# Benchmarks start processes of their own modules.
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    (str(Path(__file__).parent), os.environ.get("PYTHONPATH", ""))
+).rstrip(os.pathsep)
 
 
 def pytest_configure(config):  # noqa: ARG001 - the hook's name

@@ -437,3 +437,20 @@ def test_bar_waits_for_half_a_second_and_a_terminal(monkeypatch):
         monkeypatch.setattr(bar, "_begin", time.perf_counter() - 1)
         bar(50, 100)
     assert quiet.getvalue() == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("probe inspect --units furlong a.stl --json", "furlong"),
+        ("probe inspect --json", "FILE"),
+        ("probe simplify a.stl --facets abc --out b.ply --json", "--facets"),
+        ("locate --nonsense --json", "--nonsense"),
+        ("nonsense --json", "nonsense"),
+    ],
+)
+def test_wrong_usage_is_one_object_too(words, said):
+    done = RUNNER.invoke(cli.app, words.split())
+    assert done.exit_code == 2
+    assert said in json.loads(done.stdout)["error"]
+    assert said in done.stderr

@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.stream import State
 from contactbench.widgets.icons import Sign, icon
 from contactbench.widgets.phrases import said
 

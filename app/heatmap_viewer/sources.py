@@ -12,7 +12,7 @@ import numpy as np
 
 from contactbench.app.heatmap_viewer.how import HowRead
 from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-from contactbench.pipeline.calibration.files.capture_recording import is_recording
+from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError

@@ -21,7 +21,7 @@ from contactbench.app.bench import Weight
 from contactbench.app.page import Page
 from contactbench.app.pages.devices_sources import PoseSource, SensorSource, angle_field
 from contactbench.app.undo import SetParameters
-from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.devices.transport.ports import SerialPort, list_ports
 from contactbench.pipeline.workbench.live_devices import Devices, gives_poses, problem_of
 from contactbench.pipeline.workbench.live_trial import trial_of

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.comparison import NOISE, PLAIN, Candidate, Comparison
 from contactbench.pipeline.calibration.diagnosis.diagnose import FEWEST_POSES, MOST_POSES, diagnose
-from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.odds import NONE
+from contactbench.pipeline.calibration.diagnosis.explain import NONE
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.fit import PoseNoise
 from contactbench.pipeline.calibration.poses import named
@@ -36,24 +36,14 @@ _HOUR = 3600.0  # s
 
 @dataclass(frozen=True)
 class Cause:
-    """What may be behind the residuals.
+    """What may be behind the residuals."""
 
-    Attributes
-    ----------
-    key : str
-        plain, noise, drift, rezero, cable or mount; a convention that the diagnosis found; or none of those known.
-    odds : float
-        Its probability among all causes that were compared, 0 to 1.
-    sentence : str
-        What it would mean, with its size and the remedy.
-    believed : bool
-        The evidence is strong: the calibration rests on it.
-    """
-
+    # plain, noise, drift, rezero, cable or mount; a convention that the diagnosis found; or none of those
+    # known
     key: str
-    odds: float
-    sentence: str
-    believed: bool = False
+    odds: float  # Its probability among all causes that were compared, 0 to 1
+    sentence: str  # What it would mean, with its size and the remedy
+    believed: bool = False  # The evidence is strong: the calibration rests on it
 
     @property
     def diagnosed(self) -> bool:

@@ -49,32 +49,15 @@ _PATIENCE = 2  # poses left out in vain
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """One cause, fitted.
+    """One cause, fitted."""
 
-    Attributes
-    ----------
-    key : str
-        PLAIN, or one of `nuisance`'s.
-    moment : float
-        Of the re-zero; 0 for others.
-    noisy : NoisyFit
-        Of the poses that agree.
-    bumped : (n,) bool
-    terms : Terms
-        Of all poses.
-    prior : NoisePrior
-        With which it was fitted.
-    log_odds : float
-        Logarithm of prior times evidence, up to a constant that all causes share.
-    """
-
-    key: str
-    moment: float
-    noisy: NoisyFit
-    bumped: NDArray[np.bool_]
-    terms: Terms
-    prior: NoisePrior
-    log_odds: float
+    key: str  # PLAIN, or one of `nuisance`'s
+    moment: float  # Of the re-zero; 0 for others
+    noisy: NoisyFit  # Of the poses that agree
+    bumped: NDArray[np.bool_]  # (n,)
+    terms: Terms  # Of all poses
+    prior: NoisePrior  # With which it was fitted
+    log_odds: float  # Logarithm of prior times evidence, up to a constant that all causes share
 
     @property
     def agree(self) -> bool:
@@ -89,17 +72,10 @@ class Candidate:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """All causes that were fitted, the most probable first.
-
-    Attributes
-    ----------
-    candidates : tuple of Candidate
-    probabilities : (k,)
-        Of each, among them.
-    """
+    """All causes that were fitted, the most probable first."""
 
     candidates: tuple[Candidate, ...]
-    probabilities: NDArray[np.float64]
+    probabilities: NDArray[np.float64]  # (k,) of each, among them
 
     @property
     def best(self) -> Candidate:

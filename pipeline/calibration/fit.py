@@ -112,20 +112,12 @@ class PoseNoise:
 
 @dataclass(frozen=True, eq=False)
 class Terms:
-    """What may be in the readings beside bias and weight.
+    """What may be in the readings beside bias and weight."""
 
-    Attributes
-    ----------
-    columns : (n, 6, m)
-        What each unknown adds to the readings, N and N·m for one unit of it.
-    widths : (m,)
-        What each could be if the readings say nothing of it.
-    turns : bool
-        The sensor is turned on its mount by an unknown rotation: three more unknowns, before the others.
-    """
-
+    # (n, 6, m) what each unknown adds to the readings, N and N·m for one unit of it
     columns: NDArray[np.float64]
-    widths: NDArray[np.float64]
+    widths: NDArray[np.float64]  # (m,) what each could be if the readings say nothing of it
+    # The sensor is turned on its mount by an unknown rotation: three more unknowns, before the others
     turns: bool = False
 
     def take(self, chosen: NDArray[np.bool_]) -> Terms:
@@ -145,38 +137,19 @@ def nothing_beside(count: int) -> Terms:
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """A maximum of the likelihood.
+    """A maximum of the likelihood."""
 
-    Attributes
-    ----------
-    theta : (12,)
-        In the order of PARAMETERS.
-    covariance : (p, p)
-        Inverse of the information matrix, of the twelve, then of the terms' unknowns; directions that the poses
-        do not show have the width of UNKNOWN.
-    residuals : (n, 6)
-        Read minus predicted, in standard deviations of the noise.
-    J : (n, 6, p)
-        Change of the predictions with the free parameters, in the same unit.
-    free : (12,) bool
-        Parameters that were fitted.
-    added : (m,)
-        The terms' unknowns, without the rotation.
-    mount : (3, 3)
-        By which the sensor is turned from where it was said to be: ``R_SW <- mount @ R_SW``.
-    R_SW : (n, 3, 3)
-        Orientations, so turned.
-    terms : Terms
-    """
-
-    theta: NDArray[np.float64]
+    theta: NDArray[np.float64]  # (12,) in the order of PARAMETERS
+    # (p, p) inverse of the information matrix, of the twelve, then of the terms' unknowns; directions that
+    # the poses do not show have the width of UNKNOWN
     covariance: NDArray[np.float64]
-    residuals: NDArray[np.float64]
-    J: NDArray[np.float64]
-    free: NDArray[np.bool_]
-    added: NDArray[np.float64]
+    residuals: NDArray[np.float64]  # (n, 6) read minus predicted, in standard deviations of the noise
+    J: NDArray[np.float64]  # (n, 6, p) change of the predictions with the free parameters, in the same unit
+    free: NDArray[np.bool_]  # (12,) parameters that were fitted
+    added: NDArray[np.float64]  # (m,) the terms' unknowns, without the rotation
+    # (3, 3) by which the sensor is turned from where it was said to be: ``R_SW <- mount @ R_SW``
     mount: NDArray[np.float64]
-    R_SW: NDArray[np.float64]
+    R_SW: NDArray[np.float64]  # (n, 3, 3) orientations, so turned
     terms: Terms
 
     @property

@@ -25,33 +25,18 @@ _DOWN_W = np.array([0.0, 0.0, -1.0])
 
 @dataclass(frozen=True)
 class Observability:
-    """
-    What a set of poses shows.
+    """What a set of poses shows."""
 
-    Attributes
-    ----------
-    rank : int
-        Of the twelve parameters, how many combinations the poses determine.
-    force_rank, torque_rank : int
-        Of the six of (gravity, force bias), and of the six of (centre of mass, torque bias).
-    force_condition, torque_condition : float
-        Ratio of the best to the worst determined combination, for a load of 1 N; infinite below full rank.
-    null_directions : tuple of str
-        What cannot be told apart, why, and which poses would show it.
-    weighs : bool
-        Whether the weight of the load is felt.
-    weak : str
-        The same for what is only badly determined; empty when all is well.
-    """
-
-    rank: int
+    rank: int  # Of the twelve parameters, how many combinations the poses determine
+    # Of the six of (gravity, force bias), and of the six of (centre of mass, torque bias)
     force_rank: int
     torque_rank: int
+    # Ratio of the best to the worst determined combination, for a load of 1 N; infinite below full rank
     force_condition: float
     torque_condition: float
-    null_directions: tuple[str, ...]
-    weighs: bool
-    weak: str
+    null_directions: tuple[str, ...]  # What cannot be told apart, why, and which poses would show it
+    weighs: bool  # Whether the weight of the load is felt
+    weak: str  # The same for what is only badly determined; empty when all is well
 
     @property
     def condition(self) -> float:

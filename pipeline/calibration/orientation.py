@@ -50,19 +50,6 @@ class RowError(InputError):
 class Convention:
     """How the numbers of an orientation are meant.
 
-    Parameters
-    ----------
-    kind : Kind
-    order : str
-        For Euler angles: the axes in the order in which the columns name their angles; lower case for fixed
-        axes (``xyz``: R = Rz Ry Rx), upper case for axes that turn along (``ZYX``: R = Rz Ry Rx too).
-    degrees : bool
-        Angles are in degrees, else rad.
-    robot : str
-        For joints: which robot, as in contactbench.pipeline.robot.
-    inverse : bool
-        The numbers mean R_SW instead of R_WS.
-
     Raises
     ------
     InputError
@@ -70,10 +57,12 @@ class Convention:
     """
 
     kind: Kind = Kind.QUATERNION
+    # For Euler angles: the axes in the order in which the columns name their angles; lower case for fixed
+    # axes (``xyz``: R = Rz Ry Rx), upper case for axes that turn along (``ZYX``: R = Rz Ry Rx too)
     order: str = "xyz"
-    degrees: bool = True
-    robot: str = ""
-    inverse: bool = False
+    degrees: bool = True  # Angles are in degrees, else rad
+    robot: str = ""  # For joints: which robot, as in contactbench.pipeline.robot
+    inverse: bool = False  # The numbers mean R_SW instead of R_WS
 
     def __post_init__(self) -> None:
         axes = self.order.lower()

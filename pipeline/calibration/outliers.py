@@ -58,25 +58,15 @@ _TINY, _FAR = 1e-280, 35.0  # a probability that still has a deviate, and a devi
 
 @dataclass(frozen=True)
 class Rejection:
-    """A pose that was left out.
+    """A pose that was left out."""
 
-    Attributes
-    ----------
-    index : int
-        Into the poses that were given.
-    name : str
-    force_sigmas, torque_sigmas : float
-        How far its force and torque are from what the other poses predict, as normal deviates: three numbers
-        that are jointly as improbable as one number so many standard deviations off.
-    reason : str
-        In words.
-    """
-
-    index: int
+    index: int  # Into the poses that were given
     name: str
+    # How far its force and torque are from what the other poses predict, as normal deviates: three numbers
+    # that are jointly as improbable as one number so many standard deviations off
     force_sigmas: float
     torque_sigmas: float
-    reason: str
+    reason: str  # In words
 
 
 def find_bumped(

@@ -113,24 +113,14 @@ class PoseSample:
 
 @dataclass(frozen=True, eq=False)
 class Stack:
-    """Poses as arrays, for computing.
+    """Poses as arrays, for computing."""
 
-    Attributes
-    ----------
-    R_SW : (n, 3, 3)
-        World components to sensor components: the transposes of the poses' R_WS.
-    wrenches : (n, 6)
-        Mean readings, force before torque, S, N and N·m.
-    moments : (n,)
-        When, from 0 at the first pose to 1 at the last one: by time, or by number where not all have one.
-    duration : float or None
-        s from the first pose to the last; None where they have no times.
-    """
-
+    # (n, 3, 3) world components to sensor components: the transposes of the poses' R_WS
     R_SW: NDArray[np.float64]
-    wrenches: NDArray[np.float64]
+    wrenches: NDArray[np.float64]  # (n, 6) mean readings, force before torque, S, N and N·m
+    # (n,) when, from 0 at the first pose to 1 at the last one: by time, or by number where not all have one
     moments: NDArray[np.float64]
-    duration: float | None = None
+    duration: float | None = None  # s from the first pose to the last; None where they have no times
 
     def __len__(self) -> int:
         return len(self.wrenches)

@@ -24,31 +24,16 @@ _PLASTIC = 1.324717957244746  # the real root of x³ = x + 1
 
 @dataclass(frozen=True, eq=False)
 class Reachable:
-    """Orientations that can be taken.
+    """Orientations that can be taken."""
 
-    Attributes
-    ----------
-    R_WS : (k, 3, 3)
-    joints : (k, 6) or None
-        The robot's joints that give them, rad.
-    travel : (k,)
-        What it takes to get there from where the robot is: s for a robot, rad turned by hand.
-    robot : Robot or None
-    start : (6,) or None
-        Where the robot is, rad.
-    check : ClearanceCheck or None
-        Says what a move would hit.
-    down_W : (3,)
-        Where gravity points in W.
-    """
-
-    R_WS: NDArray[np.float64]
+    R_WS: NDArray[np.float64]  # (k, 3, 3)
+    # (k,) what it takes to get there from where the robot is: s for a robot, rad turned by hand
     travel: NDArray[np.float64]
-    joints: NDArray[np.float64] | None = None
+    joints: NDArray[np.float64] | None = None  # (k, 6) the robot's joints that give them, rad
     robot: Robot | None = None
-    start: NDArray[np.float64] | None = None
-    check: ClearanceCheck | None = None
-    down_W: ArrayLike = DOWN_W
+    start: NDArray[np.float64] | None = None  # (6,) where the robot is, rad
+    check: ClearanceCheck | None = None  # Says what a move would hit
+    down_W: ArrayLike = DOWN_W  # (3,) where gravity points in W
 
     def __len__(self) -> int:
         return len(self.R_WS)

@@ -59,27 +59,13 @@ _SIZES = 4.0 ** -np.arange(8.0)
 
 @dataclass(frozen=True, eq=False)
 class NoisePrior:
-    """What is known of the noise before.
+    """What is known of the noise before."""
 
-    Attributes
-    ----------
-    sigmas : (6,) or None
-        Of a pose's mean, N and N·m; None: nothing is known.
-    least : (6,)
-        What the scatter within the poses says it is at least.
-    orientation : float
-        1 sigma of the poses' orientations, rad.
-    guessed : bool
-        `orientation` is a guess, which may be wrong by a factor of three.
-    believed : bool
-        What was given is right.
-    """
-
-    sigmas: NDArray[np.float64] | None
-    least: NDArray[np.float64]
-    orientation: float
-    guessed: bool
-    believed: bool = True
+    sigmas: NDArray[np.float64] | None  # (6,) of a pose's mean, N and N·m; None: nothing is known
+    least: NDArray[np.float64]  # (6,) what the scatter within the poses says it is at least
+    orientation: float  # 1 sigma of the poses' orientations, rad
+    guessed: bool  # `orientation` is a guess, which may be wrong by a factor of three
+    believed: bool = True  # What was given is right
 
     @classmethod
     def of(cls, noise: PoseNoise | None, orientation: float | None, least: NDArray[np.float64]) -> NoisePrior:
@@ -110,21 +96,12 @@ class NoisePrior:
 
 @dataclass(frozen=True, eq=False)
 class NoisyFit:
-    """A fit with its noise.
-
-    Attributes
-    ----------
-    fit : Fit
-    noise : PoseNoise
-    V : (n, 6, 6)
-        Covariance of each pose's reading.
-    log_evidence : float
-        Logarithm of the likelihood of the readings, over all sizes of the noise and of the unknowns.
-    """
+    """A fit with its noise."""
 
     fit: Fit
     noise: PoseNoise
-    V: NDArray[np.float64]
+    V: NDArray[np.float64]  # (n, 6, 6) covariance of each pose's reading
+    # Logarithm of the likelihood of the readings, over all sizes of the noise and of the unknowns
     log_evidence: float
 
 

@@ -46,49 +46,27 @@ _LARGEST_PLAN = 60
 
 @dataclass(frozen=True, eq=False)
 class Suggestion:
-    """A pose to take.
+    """A pose to take."""
 
-    Attributes
-    ----------
-    R_WS : (3, 3)
-    joints : (6,) or None
-        Of the robot, rad.
-    travel : float
-        s for a robot, rad by hand.
-    error_before, error_after : float
-        The calibration's share of the contact error, worst 1 sigma, m: now, and predicted with this pose.
-    sentence : str
-        What to do and what it gains.
-    """
-
-    R_WS: NDArray[np.float64]
-    joints: NDArray[np.float64] | None
-    travel: float
+    R_WS: NDArray[np.float64]  # (3, 3)
+    joints: NDArray[np.float64] | None  # (6,) of the robot, rad
+    travel: float  # s for a robot, rad by hand
+    # The calibration's share of the contact error, worst 1 sigma, m: now, and predicted with this pose
     error_before: float
     error_after: float
-    sentence: str
+    sentence: str  # What to do and what it gains
 
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """Poses to take, in this order.
+    """Poses to take, in this order."""
 
-    Attributes
-    ----------
-    R_WS : (n, 3, 3)
-    joints : (n, 6) or None
-        Of the robot, rad.
-    errors : (n,)
-        Predicted share of the calibration in the contact error after each pose, worst 1 sigma, m; values
-        far beyond a probe's size mean that something is still undetermined.
-    warnings : tuple of str
-        Moves that are not clear.
-    """
-
-    R_WS: NDArray[np.float64]
-    joints: NDArray[np.float64] | None
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    joints: NDArray[np.float64] | None  # (n, 6) of the robot, rad
+    # (n,) predicted share of the calibration in the contact error after each pose, worst 1 sigma, m; values
+    # far beyond a probe's size mean that something is still undetermined
     errors: NDArray[np.float64]
-    warnings: tuple[str, ...]
+    warnings: tuple[str, ...]  # Moves that are not clear
 
     @property
     def error(self) -> float:

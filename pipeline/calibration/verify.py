@@ -34,42 +34,25 @@ _FEW = 3
 
 @dataclass(frozen=True, eq=False)
 class StillVerification:
-    """How a calibration does in still, contact-free poses that it was not made from.
+    """How a calibration does in still, contact-free poses that it was not made from."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Of the poses.
-    residuals : (n, 6)
-        Read minus predicted, S, N and N·m: what a compensated reading shows although nothing touches.
-    force_rms, torque_rms : float
-        Of the residuals' lengths, N and N·m.
-    deviates : (n,)
-        Length of each residual in standard deviations of what calibration and noise predict there; on average
-        its square is 6.
-    chi_square : float
-        Of all residuals together; the calibration's error, which they share, is in their covariance.
-    freedom : int
-        Its degrees of freedom, 6 n.
-    p_value : float
-        Probability of residuals as large if the calibration's covariance and the noise are right.
-    contact_errors : (n, m)
-        By how much each residual moves a contact, for each of the task's forces, m.
-    predicted_contact_error : float
-        The rms that calibration and noise predict for the worst of the forces, m.
-    limits : Limits
-    verdict : Verdict
-    """
-
-    names: tuple[str, ...]
+    names: tuple[str, ...]  # Of the poses
+    # (n, 6) read minus predicted, S, N and N·m: what a compensated reading shows although nothing touches
     residuals: Floats
+    # Of the residuals' lengths, N and N·m
     force_rms: float
     torque_rms: float
+    # (n,) length of each residual in standard deviations of what calibration and noise predict there; on
+    # average its square is 6
     deviates: Floats
+    # Of all residuals together; the calibration's error, which they share, is in their covariance
     chi_square: float
-    freedom: int
+    freedom: int  # Its degrees of freedom, 6 n
+    # Probability of residuals as large if the calibration's covariance and the noise are right
     p_value: float
+    # (n, m) by how much each residual moves a contact, for each of the task's forces, m
     contact_errors: Floats
+    # The rms that calibration and noise predict for the worst of the forces, m
     predicted_contact_error: float
     limits: Limits
     verdict: Verdict

@@ -1,43 +1,43 @@
-"""``contactbench bench run, serve``: the virtual bench, by a script or behind real lines."""
+"""``contactbench bench ...``: the virtual bench, emulated devices, and motion control in simulation."""
 
 from __future__ import annotations
 
 import signal
 import sys
 import threading
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-import typer
-from contactbench.pipeline.console import Noun, answer, as_json, JsonOption, print_json, say
-from contactbench.pipeline.errors import InputError
-import signal
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
+
 import typer
-from contactbench.pipeline.console import JsonOption, print_json, say
+
+from contactbench.pipeline.commands.control import control_app
+from contactbench.pipeline.console import Noun, answer, as_json, print_json, say
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from types import FrameType
-
-    from contactbench.pipeline.devices.url import DeviceAddress
-    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
-    from contactbench.pipeline.simulation.virtual.serve import ServedBench
     from collections.abc import Iterator
     from types import FrameType
 
     from contactbench.pipeline.devices.emulate import Emulator
-    from contactbench.pipeline.devices.emulate.signals import Six
+    from contactbench.pipeline.devices.faults import Six
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.simulation.virtual.bench import VirtualBench
+    from contactbench.pipeline.simulation.virtual.serve import ServedBench
 
 
-bench_app = Noun("The virtual bench: a probe on a wrist, read by a sensor, without hardware.")
+bench_app = Noun("Try without hardware: a virtual bench, emulated devices, and motion control by touch.")
+bench_app.add_typer(control_app, name="control")
 
 _LOOK_S = 0.1
 
 ProbeOption = Annotated[str, typer.Option(metavar="t-shape|linear|convex", help="A bundled probe.")]
 MeshOption = Annotated[Path | None, typer.Option(help="Or a probe of your own, a mesh file in S.")]
-SensorOption = Annotated[str, typer.Option(metavar="paper|ideal|noisy", help="The sensor's faults.")]
+SensorOption = Annotated[
+    str, typer.Option("--model", metavar="paper|ideal|noisy", help="Of the sensor, with its faults.")
+]
 SeedOption = Annotated[int, typer.Option(help="Of the sensor's noise.")]
 RateOption = Annotated[float, typer.Option(help="Wrenches per second, up to 1000.")]
 
@@ -55,9 +55,7 @@ def run(
     seed: SeedOption = 0,
     rate: RateOption = 200.0,
 ) -> None:
-    """Run a script on the virtual bench.
-
-    Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
+    """Run a script from beginning to end, as fast as it goes, and record wrenches and poses.
 
     SCRIPT has a command a line: {"at": 2, "do": "touch", "marker": 3, "force": 9, "seconds": 1}. at is in
     seconds of the bench; after instead: seconds after the command above was over. do is turn_to (rpy or
@@ -92,7 +90,7 @@ def run(
     )
 
 
-@bench_app.command(example="bench serve --probe t-shape --sensor paper --pty")
+@bench_app.command(example="bench serve --probe t-shape --model paper --pty")
 def serve(
     probe: ProbeOption = "t-shape",
     mesh: MeshOption = None,
@@ -106,9 +104,7 @@ def serve(
     ] = None,
     elfin_port: Annotated[int, typer.Option(help="Of the robot; 0 is any free one.")] = 0,
 ) -> None:
-    """Serve the virtual bench on real lines.
-
-    Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.
+    """Serve the virtual bench in real time as an SRI sensor and an Elfin robot, until Ctrl-C.
 
     The first line of standard output is a JSON object with the two addresses. Commands come on standard
     input, one JSON object a line as in a script but without a time: {"do": "turn_to", "rpy": [0, 90, 0]};
@@ -169,7 +165,7 @@ def _without_paths(where: DeviceAddress) -> DeviceAddress:
 
 
 def _bench(where: DeviceAddress) -> VirtualBench:
-    from contactbench.pipeline.streams.virtual import bench_at
+    from contactbench.pipeline.simulation.virtual.world import bench_at
 
     return bench_at(where)
 
@@ -207,12 +203,13 @@ def _obey(served: ServedBench) -> None:
 def _interrupt(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
     raise KeyboardInterrupt
 
+
 _EMULATED_LOOK_S = 0.1  # how long an end may go unnoticed
 # A closed terminal ends it too: a pseudo-terminal's folder would stay behind. Not all systems have SIGHUP.
 _ENDS = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
-@bench_app.command(example="emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
+@bench_app.command(example="bench emulate sri --pty --fault stall@2+0.5 --fault wrong-rate@5+2x0.5")
 def emulate(
     device: Annotated[str, typer.Argument(metavar="DEVICE", help="What to emulate.")],
     pty: Annotated[bool, typer.Option("--pty", help="On a pseudo-terminal.")] = False,
@@ -231,9 +228,7 @@ def emulate(
     ] = None,
     seed: Annotated[int, typer.Option(help="Of chance in the faults.")] = 0,
 ) -> None:
-    """Emulate a device.
-
-    Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur.
+    """Emulate a force/torque sensor or a robot: sri, bota, robotiq, rdt, elfin, ur.
 
     Prints the address to connect to, and runs until Ctrl-C. Faults are NAME@START+DURATION in seconds
     after the first frame, some with xSIZE: split, merged, garbage, bad-checksum, header, stall,
@@ -303,7 +298,9 @@ def _emulate(device: Emulator, ended: _Ended, seconds: float | None) -> None:
     else:
         typer.echo(device.url)
     while not ended.by_signal and device.failure is None and (end is None or time.monotonic() < end):
-        time.sleep(_EMULATED_LOOK_S if end is None else max(0.0, min(_EMULATED_LOOK_S, end - time.monotonic())))
+        time.sleep(
+            _EMULATED_LOOK_S if end is None else max(0.0, min(_EMULATED_LOOK_S, end - time.monotonic()))
+        )
 
 
 def _six(text: str | None) -> Six | None:

@@ -1,4 +1,4 @@
-"""``contactbench config ...``: the bundle that a robot's runtime loads."""
+"""``contactbench bundle ...``: the bundle that a robot's runtime loads."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import MountOption, numbers
-from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import Noun, answer, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,17 +26,17 @@ _SECONDS_AN_HOUR = 3600
 BundleArgument = Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file.")]
 
 
-@bundle_app.command(example="config export bench-1 --sensor M8128 --rate 1000 --out runtime.zip")
+@bundle_app.command(example="bundle export bench-1 --model M8128 --rate 1000 --out runtime.zip")
 def export(
     out: Annotated[Path, typer.Option(help="Folder to write, or a zip file if it ends in .zip.")],
     session: Annotated[Path | None, typer.Argument(metavar="[SESSION]", help="Folder of a session.")] = None,
-    calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate.")] = None,
+    calibration: Annotated[Path | None, typer.Option(help="JSON file of calibrate fit.")] = None,
     probe: Annotated[Path | None, typer.Option(help="PLY file of probe prepare.")] = None,
-    verification: Annotated[Path | None, typer.Option(help="JSON file of verify.")] = None,
+    verification: Annotated[Path | None, typer.Option(help="JSON file of verify touches.")] = None,
     report: Annotated[Path | None, typer.Option(help="HTML report to put into it.")] = None,
-    known_weight: Annotated[Path | None, typer.Option(help="JSON file of check weight.")] = None,
-    known_touch: Annotated[Path | None, typer.Option(help="JSON file of check touch.")] = None,
-    sensor: Annotated[str | None, typer.Option(help="Model of the sensor [unknown].")] = None,
+    known_weight: Annotated[Path | None, typer.Option(help="JSON file of calibrate check weight.")] = None,
+    known_touch: Annotated[Path | None, typer.Option(help="JSON file of calibrate check touch.")] = None,
+    model: Annotated[str | None, typer.Option(help="Model of the sensor [unknown].")] = None,
     serial: Annotated[str | None, typer.Option(help="Its serial number [the one the session knows].")] = None,
     rate: Annotated[
         float | None, typer.Option(help="Readings a second, Hz [as verified, if the verification says it].")
@@ -95,9 +95,7 @@ def export(
         bool, typer.Option("--unverified", help="Write it all the same, and mark it: for trials only.")
     ] = False,
 ) -> None:
-    """Write a bundle.
-
-    Write a bundle: from a session's newest calibration and probe, or from files.
+    """Write a bundle: from a session's newest calibration and probe, or from files.
 
     What is not given for a session is what its settings config.* say, such as config.serial, as in the
     desktop application; the same session then gives the same bytes.
@@ -114,7 +112,7 @@ def export(
     if rate is None and cutoff is not None and session is None:
         raise typer.BadParameter("--cutoff: give --rate too.")
     given = {
-        "sensor": sensor, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
+        "sensor": model, "serial": serial, "rate": rate, "noise_force": noise_force, "noise_torque": noise_torque,
         "cutoff": cutoff, "no_filter": no_filter, "region_only": region_only,
         "accept_by_region": accept_by_region, "torsion_arm_mm": torsion_arm_mm, "max_force": max_force,
         "max_torque": max_torque, "sensor_frame": sensor_frame, "world_frame": world_frame,
@@ -147,12 +145,11 @@ def export(
     answer({"out": str(out), **_facts(made)})
 
 
-@bundle_app.command(example="config check runtime.zip --json")
+@bundle_app.command(example="bundle check runtime.zip --json")
 def check(bundle: BundleArgument) -> None:
-    """Load a bundle and say what it is.
+    """Load a bundle as a runtime does, replay its test vectors, and say what it is.
 
-    Load a bundle as a runtime does, and replay its test vectors. Exit code 1: it is sound but not
-    verified; 2: it is refused.
+    Exit code 1: it is sound but not verified; 2: it is refused.
     """
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.self_test import replay
@@ -179,15 +176,12 @@ def check(bundle: BundleArgument) -> None:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-@bundle_app.command(example="config diff old.zip new.zip")
+@bundle_app.command(example="bundle diff old.zip new.zip")
 def diff(
     one: Annotated[Path, typer.Argument(metavar="A", help="Folder or zip file.")],
     other: Annotated[Path, typer.Argument(metavar="B", help="Another.")],
 ) -> None:
-    """Compare two bundles.
-
-    Compare two bundles: the fields that differ, what that means, and how far the surfaces are apart.
-    """
+    """Compare two bundles: the fields that differ, what that means, and how far the surfaces are apart."""
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.differ import differences
 
@@ -196,7 +190,7 @@ def diff(
     answer(found.to_json())
 
 
-@bundle_app.command(example="config schema > runtime-config.schema.json")
+@bundle_app.command(example="bundle schema > runtime-config.schema.json")
 def schema() -> None:
     """Print the JSON Schema of contactbench.json on standard output."""
     from contactbench.pipeline.config.runtime.canonical import json_schema

@@ -1,45 +1,17 @@
-"""``contactbench calibrate, diagnose, verify-still, compensate``: bias, weight and centre of mass."""
+"""``contactbench calibrate ...``: bias, weight and centre of mass."""
 
 from __future__ import annotations
 
-import sys
-from dataclasses import replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-import typer
-from contactbench.pipeline.commands.options import (
-    DelayOption,
-    DownOption,
-    EulerOption,
-    ForceOption,
-    InverseOption,
-    MountOption,
-    NoiseForceOption,
-    NoiseTorqueOption,
-    OrientationNoiseOption,
-    RadiansOption,
-    RobotOption,
-    RobotPosesOption,
-    TipOption,
-    VectorOption,
-    contact_task,
-    convention,
-    delay_seconds,
-    down_direction,
-    mount_rotation,
-    numbers,
-    orientation_sigma,
-    pose_noise,
-    refuse_overwriting,
-)
-from contactbench.pipeline.console import Noun, answer, as_json, Bar, JsonOption, print_json, say
 import io
 import sys
 from csv import writer
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+
 import typer
+
+from contactbench.pipeline.commands.check import check_app
 from contactbench.pipeline.commands.options import (
     AllJointsOption,
     DelayOption,
@@ -50,6 +22,9 @@ from contactbench.pipeline.commands.options import (
     InverseOption,
     JointsOption,
     MountOption,
+    NoiseForceOption,
+    NoiseTorqueOption,
+    OrientationNoiseOption,
     RadiansOption,
     RobotOption,
     RobotPosesOption,
@@ -62,10 +37,13 @@ from contactbench.pipeline.commands.options import (
     delay_seconds,
     down_direction,
     mount_rotation,
+    numbers,
+    orientation_sigma,
+    pose_noise,
     reachable,
     refuse_overwriting,
 )
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -76,11 +54,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
     from contactbench.pipeline.calibration.files.pose_csv import PoseTable
-    from contactbench.pipeline.calibration.mounting import MountCalibration
+    from contactbench.pipeline.calibration.mount import MountCalibration
     from contactbench.pipeline.calibration.orientation import Convention
-    import numpy as np
-    from numpy.typing import NDArray
-
     from contactbench.pipeline.calibration.suggest import Plan
 
 
@@ -91,25 +66,30 @@ _WORTH_A_WORD = 0.2  # probability from which a cause is told
 _STYLES = {"good": "green", "usable": "yellow", "refuse": "red"}
 
 
+calibrate_app = Noun(
+    "Find a sensor's bias, and the weight and centre of mass of what hangs on it, from still poses."
+)
+calibrate_app.add_typer(check_app, name="check")
 
 PosesArgument = Annotated[
     Path,
     typer.Argument(
-        metavar="POSES", help="CSV file of still, contact-free poses, or a recording of them; see calibrate."
+        metavar="POSES",
+        help="CSV file of still, contact-free poses, or a recording of them; see calibrate fit.",
     ),
 ]
 CalibrationArgument = Annotated[
-    Path, typer.Argument(metavar="CALIBRATION", help="What contactbench calibrate wrote.")
+    Path, typer.Argument(metavar="CALIBRATION", help="What contactbench calibrate fit wrote.")
 ]
 
 
 @calibrate_app.command(
     example=(
-        "calibrate poses.csv --euler xyz --out calibration.json --report calibration.html",
-        "calibrate wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json",
+        "calibrate fit poses.csv --euler xyz --out calibration.json --report calibration.html",
+        "calibrate fit wrenches.csv --robot-poses robot.csv --delay auto --out calibration.json",
     ),
 )
-def calibrate(
+def fit(
     poses: PosesArgument,
     out: Annotated[Path, typer.Option(help="Calibration file to write, JSON.")],
     report: Annotated[Path | None, typer.Option(help="Also write a report for people, HTML.")] = None,
@@ -137,8 +117,6 @@ def calibrate(
 ) -> None:
     """Calibrate bias, weight and centre of mass from still, contact-free poses.
 
-    Calibrate bias, weight and centre of mass from still, contact-free poses.
-
     POSES has a row for each pose: fx,fy,fz,mx,my,mz, the mean raw reading (N, N·m about the sensor
     origin, sensor frame S), and the orientation of the sensor in the world as qw,qx,qy,qz, or otherwise
     as the options say. Optional columns: name, t, count, sfx,sfy,sfz,smx,smy,smz (standard deviations of
@@ -146,11 +124,11 @@ def calibrate(
     named. With t (s), a drift of the sensor during the session is found.
 
     POSES may be a recording instead, MCAP or CSV with the column t: the still poses in it are found as by
-    contactbench captures. A sensor and a robot that were recorded into two CSV files are put together
+    contactbench calibrate captures. A sensor and a robot that were recorded into two CSV files are put together
     with --robot-poses.
 
     Exit code 1: the calibration must not be used; it says why, and what to do. The file is written all
-    the same, so that next-pose can tell which pose to take.
+    the same, so that calibrate next can tell which pose to take.
     """
     if mount is not None and estimate_mount:
         raise typer.BadParameter("--mount and --estimate-mount contradict each other: give one.")
@@ -164,7 +142,7 @@ def calibrate(
         "down_W": down_direction(down),
         "task": contact_task(tip, contact_force),
     }
-    from contactbench.pipeline.calibration import calibrate as fit
+    from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import (
         Source,
@@ -175,12 +153,12 @@ def calibrate(
     table = _poses(poses, written_as, R_ES, robot_poses, delay)
     mounted = None
     if estimate_mount:
-        from contactbench.pipeline.calibration.mounting import estimate_mount as fit_mount
+        from contactbench.pipeline.calibration.mount import estimate_mount as fit_mount
 
         mounted = fit_mount(table.poses, **said)
         calibration = mounted.calibration
     else:
-        calibration = fit(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
+        calibration = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
     created = creation_time()
     source = Source.of(poses)
     save_calibration(calibration, out, source=source, created=created, mount=_mount_record(mounted, R_ES))
@@ -198,7 +176,7 @@ def _poses(
     file: Path, written_as: Convention | None, R_ES: Any, robot_poses: Path | None, delay: str | None
 ) -> PoseTable:
     """Read poses or find them in a recording, and tell how, with what was left out."""
-    from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
+    from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 
     with Bar("looking for still poses") as bar:
         table = read_any_poses(
@@ -342,9 +320,7 @@ def _trusted(value: float, sigma: float, unknown: float) -> str:
 
 
 @calibrate_app.command(
-    example=(
-        "diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002"
-    ),
+    example=("calibrate diagnose poses.csv --euler xyz --mass 0.62 --noise-force 0.05 --noise-torque 0.002"),
 )
 def diagnose(
     poses: PosesArgument,
@@ -365,10 +341,7 @@ def diagnose(
         float, typer.Option("--tool-length", help="From the sensor to the tip, mm.")
     ] = 300.0,
 ) -> None:
-    """Tell whether poses are in the conventions that were said.
-
-    Tell whether poses are written in the conventions that the options say, or which mistake explains
-    them.
+    """Tell whether poses are written in the conventions that the options say, or which mistake explains them.
 
     Tries transposed rotations, other Euler orders, degrees and radians, N·mm, kgf, pounds, reversed
     signs, swapped channels, shifted rows, another frame, a turned sensor and a re-zero half way; says how
@@ -418,8 +391,8 @@ def _show_diagnosis(found: Diagnosis) -> None:
         say(sentence)
 
 
-@calibrate_app.command("verify-still", example="verify-still calibration.json held-out.csv --euler xyz")
-def verify_still(
+@check_app.command(example="calibrate check still calibration.json held-out.csv --euler xyz")
+def still(
     calibration: CalibrationArgument,
     poses: PosesArgument,
     euler: EulerOption = None,
@@ -433,15 +406,15 @@ def verify_still(
 ) -> None:
     """Check a calibration on still, contact-free poses that it has not seen.
 
-    POSES is written as for calibrate. Exit code 1: the residuals are too large for contact sensing, or
+    POSES is written as for calibrate fit. Exit code 1: the residuals are too large for contact sensing, or
     larger than the calibration's uncertainty and the noise explain.
     """
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
-    from contactbench.pipeline.calibration.verify import verify_still as check
+    from contactbench.pipeline.calibration.verify import verify_still
 
     fitted, R_ES = _calibration(calibration, mount)
     table = _poses(poses, written_as, R_ES, robot_poses, delay)
-    found = check(fitted, table.poses)
+    found = verify_still(fitted, table.poses)
     for sentence in found.verdict.reasons:
         say(sentence, "" if found.passed else "red")
     answer({**found.to_json(), "notes": list(table.notes), "warnings": list(table.warnings)})
@@ -449,7 +422,9 @@ def verify_still(
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
-@calibrate_app.command(example="compensate calibration.json recording.csv --euler xyz --out wrenches.csv")
+@calibrate_app.command(
+    example="calibrate compensate calibration.json recording.csv --euler xyz --out wrenches.csv"
+)
 def compensate(
     calibration: CalibrationArgument,
     recording: Annotated[
@@ -469,7 +444,7 @@ def compensate(
     """Take bias and weight off every reading of a recording.
 
     RECORDING has the columns t,fx,fy,fz,mx,my,mz (raw readings, N, N·m, sensor frame S) and the
-    orientation at the same time, written as for calibrate; - is standard input. The output has
+    orientation at the same time, written as for calibrate fit; - is standard input. The output has
     t,fx,fy,fz,mx,my,mz, what the tissue does to the probe, ready for contactbench locate. It is written
     as a whole or not at all.
     """
@@ -510,16 +485,13 @@ def _calibration(file: Path, mount: str | None) -> tuple[Calibration, Any]:
         return record.calibration, mount_rotation(mount)
     return record.calibration, None if record.mount is None else record.mount.R_SE.T
 
+
 _FEWEST_POSES = 3
 
 
-
-
 @calibrate_app.command(
-    "next-pose",
-    example=(
-        "next-pose calibration.json --robot elfin3 --joints 0,-17,69,0,52,0"
-    ),
+    "next",
+    example=("calibrate next calibration.json --robot elfin3 --joints 0,-17,69,0,52,0"),
 )
 def next_pose(
     calibration: CalibrationArgument,
@@ -531,9 +503,7 @@ def next_pose(
     floor: FloorOption = 0.0,
     max_tilt: TiltOption = 180.0,
 ) -> None:
-    """Say which pose would improve a calibration most.
-
-    Say which pose would improve a calibration most, and by how much, before it is taken.
+    """Say which pose would improve a calibration most, and by how much, before it is taken.
 
     Judged by the error at the contact, not by the parameters. With --robot and --joints only poses within
     its joint limits, clear of itself and the floor; nearer ones of those that are nearly as good.
@@ -566,10 +536,8 @@ def next_pose(
 
 
 @calibrate_app.command(
-    "plan-poses",
-    example=(
-        "plan-poses 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"
-    ),
+    "plan",
+    example=("calibrate plan 6 --robot elfin3 --joints 0,-17,69,0,52,0 --out plan.csv"),
 )
 def plan_poses(
     count: Annotated[int, typer.Argument(metavar="COUNT", help="How many, at least 3.")],
@@ -637,8 +605,8 @@ def plan_poses(
 
 @calibrate_app.command(
     example=(
-        "captures recording.mcap --delay auto --out poses.csv",
-        "captures wrenches.csv --robot-poses robot.csv --delay auto --out poses.csv",
+        "calibrate captures recording.mcap --delay auto --out poses.csv",
+        "calibrate captures wrenches.csv --robot-poses robot.csv --delay auto --out poses.csv",
     ),
 )
 def captures(
@@ -658,25 +626,23 @@ def captures(
     robot_poses: RobotPosesOption = None,
     delay: DelayOption = None,
 ) -> None:
-    """Find in a recording where the sensor stood still.
+    """Find in a recording where the sensor stood still, and write the poses for calibrate fit.
 
-    Find in a recording where the sensor stood still, and write the poses for calibrate.
-
-    RECORDING is what contactbench record wrote of a sensor and a robot, or a table with the columns
+    RECORDING is what contactbench record start wrote of a sensor and a robot, or a table with the columns
     t,fx,fy,fz,mx,my,mz (s, raw readings, N, N·m, sensor frame S) and the orientation at the same time,
-    written as for calibrate; - is a table on standard input. With --robot-poses the orientation is in a
+    written as for calibrate fit; - is a table on standard input. With --robot-poses the orientation is in a
     second table, with times of its own on the same clock. Poses are then interpolated to the wrenches,
     never across more than 0.25 s. Captures that were bumped or did not settle are left out, with the
     reason. A preliminary calibration also shows steady touches.
 
-    calibrate, diagnose and verify-still take all of these as well, and do this by themselves.
+    fit, diagnose and check still take all of these as well, and do this by themselves.
 
     Exit code 1: fewer than three poses were found.
     """
     refuse_overwriting(out, [file for file in (recording, calibration, robot_poses) if file is not None])
     written_as = convention(euler, rotation_vector, robot, radians=radians, inverse=inverse)
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_recording import capture_any
+    from contactbench.pipeline.calibration.files.capture_file import capture_any
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     model = None if calibration is None else load_calibration(calibration).model

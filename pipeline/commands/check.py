@@ -1,4 +1,4 @@
-"""``contactbench check ...``: a known weight and a known point, before contacts are trusted."""
+"""``contactbench calibrate check ...``: a known weight and a known point, before contacts are trusted."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from contactbench.pipeline.commands.options import (
     numbers,
     refuse_overwriting,
 )
-from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say
+from contactbench.pipeline.console import Noun, answer, say
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -26,18 +26,20 @@ if TYPE_CHECKING:
 _NOT_PASSED = 1
 _STYLES = {"passed": "green", "undecided": "yellow", "failed": "red"}
 
-check_app = Noun("Check a calibration against a known weight and a known point: what its own residuals cannot show.")
+check_app = Noun(
+    "Check a calibration on still poses, a known weight and a known point: what its residuals cannot show."
+)
 
-CalibrationOption = Annotated[Path, typer.Option(help="What contactbench calibrate wrote.")]
+CalibrationOption = Annotated[Path, typer.Option(help="What contactbench calibrate fit wrote.")]
 OutOption = Annotated[
     Path | None,
-    typer.Option(help="Also write the result to this file, JSON, for config export and a session."),
+    typer.Option(help="Also write the result to this file, JSON, for bundle export and a session."),
 ]
 
 
 @check_app.command(
     example=(
-        "check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv --mass 1.0 "
+        "calibrate check weight --calibration calibration.json --unloaded empty.csv --loaded hung.csv --mass 1.0 "
         "--mass-sigma 0.0005 --certificate DKD-1234 --out known_weight.json"
     ),
 )
@@ -65,12 +67,10 @@ def weight(
     mount: MountOption = None,
     out: OutOption = None,
 ) -> None:
-    """Compare a known weight with what the sensor reads.
-
-    Hang a known weight on the tool, and compare it with what the sensor reads.
+    """Hang a known weight on the tool, and compare it with what the sensor reads.
 
     UNLOADED and LOADED are still readings without the weight and with it: recordings, or tables of poses
-    as for calibrate. Take both in the same orientation; more orientations test more channels. This finds
+    as for calibrate fit. Take both in the same orientation; more orientations test more channels. This finds
     forces in kgf, lbf or mN, a wrong scale or sign, swapped channels, and torques in N·mm.
 
     Exit code 1: the weight is not what it should be, or the uncertainty is too large to tell.
@@ -97,7 +97,7 @@ def weight(
 
 @check_app.command(
     example=(
-        "check touch --probe probe.ply --calibration calibration.json --point 20,0,185 press.mcap --out "
+        "calibrate check touch --probe probe.ply --calibration calibration.json --point 20,0,185 press.mcap --out "
         "known_touch.json"
     ),
 )
@@ -122,9 +122,7 @@ def touch(
     mount: MountOption = None,
     out: OutOption = None,
 ) -> None:
-    """Compare a known point with where a press on it is located.
-
-    Press one known point of the probe, and compare it with where the contact is located.
+    """Press one known point of the probe, and compare it with where the contact is located.
 
     RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw
     readings) and orientations; every steady press in it is taken to be of the point. Press with a finger,

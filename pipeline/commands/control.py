@@ -1,20 +1,18 @@
-"""Frames of a closed loop on standard output, for who watches it from another process."""
+"""``contactbench bench control ...``: motion control by touch, in simulation."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-import typer
-from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+
 import typer
+
 from contactbench.pipeline.commands.options import MountOption, numbers
-from contactbench.pipeline.console import Noun, answer, as_json, Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say, show_tables
+from contactbench.pipeline.control.frames import BEGIN, END, FRAME, beginning_of, frame_of, line_of
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.control.command import Command
-    from contactbench.pipeline.control.loop import Loop
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
@@ -23,7 +21,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.control.settings import Variant
     from contactbench.pipeline.control.trace import Trace
     from contactbench.pipeline.simulation.scenes import PlatformMotion
-
 
 
 class Frames:
@@ -60,7 +57,10 @@ class Frames:
         except OSError:
             self._gone = True
 
-control_app = Noun("Motion control by touch, in simulation: tune it for a probe, run a bundle on a virtual robot.")
+
+control_app = Noun(
+    "Motion control by touch, in simulation: tune it for a probe, run a bundle on a virtual robot."
+)
 
 _NOT_GOOD_ENOUGH = 1
 _BEGIN_S = 4.0  # by then it tracks
@@ -93,7 +93,7 @@ def _variant_of(text: str) -> Variant:
     return chosen[0]
 
 
-@control_app.command(example="control tune --probe convex --stiffness 2000 --out gains")
+@control_app.command(example="bench control tune --probe convex --stiffness 2000 --out gains")
 def tune(
     probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
     stiffness: Annotated[
@@ -108,14 +108,11 @@ def tune(
     seed: Annotated[int, typer.Option(help="Of load, calibration and noise of the trials.")] = 0,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Folder to write.")] = Path("control-gains"),
 ) -> None:
-    """Choose gains.
-
-    Choose gains for a probe: the highest that leave wanted margins on tissue from five times softer to
-    five times stiffer.
+    """Choose gains for a probe, the highest that leave wanted margins on softer and stiffer tissue.
 
     The loop that is looked at has the averaged readings, the delay of a period, the servo's path, and the
-    controller that runs; the gains are then tried in simulation. Writes gains.json for config export
-    --settings, tables and a plot of the margins. Exit code 1: a trial in simulation swung, or lost the
+    controller that runs; the gains are then tried in simulation. Writes gains.json for `bundle export
+    --settings`, tables and a plot of the margins. Exit code 1: a trial in simulation swung, or lost the
     tissue.
     """
     import math
@@ -140,15 +137,13 @@ def tune(
         print_json(result.to_json())
     else:
         show_tables(*(sheet.table() for sheet in result.sheets), result.report.table())
-    say(f"Written to {out}: gains.json is for config export --settings.")
+    say(f"Written to {out}: gains.json is for `bundle export --settings`.")
     if not result.report.passed:
         raise typer.Exit(_NOT_GOOD_ENOUGH)
 
 
 @control_app.command(
-    example=(
-        "control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv"
-    ),
+    example=("bench control run runtime.zip --robot virtual://arm --motion vertical --out trace.csv"),
 )
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
@@ -182,16 +177,14 @@ def run(
     ] = False,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="CSV file of the course.")] = None,
 ) -> None:
-    """Run a bundle's controller on a virtual robot.
+    """Run a bundle's controller on a virtual robot over a phantom that moves.
 
-    Load a bundle and run its controller on a virtual robot over a phantom that moves: approach, contact,
-    track, and back at the end.
+    The robot approaches, makes contact, tracks, and goes back at the end.
 
     Everything comes from the bundle: probe, calibration, noise, gates, gains, limits. Motion is never
     sent to a real robot. Ctrl-C has it go back and end. Exit code 1: the force passed the limit, it gave
     up by itself, or did not end in a safe state; 2: the bundle or the robot is refused.
     """
-    from contactbench.pipeline.commands.control_frames import Frames
     from contactbench.pipeline.commands.record import ended_by_signals
     from contactbench.pipeline.config.runtime import RuntimeConfig
     from contactbench.pipeline.config.runtime.mounts import mount_of_angles

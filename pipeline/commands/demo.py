@@ -19,9 +19,7 @@ def demo(
     touches: Annotated[int, typer.Option(help="Drawn touches per probe, at least 10.")] = 1_000,
     seed: Annotated[int, typer.Option(help="Of chance: the same seed gives the same CSV files.")] = 0,
 ) -> None:
-    """Do the main job on the bundled probes.
-
-    Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
+    """Calibrate, prepare, press markers on a virtual bench, locate, and check against the known truth.
 
     Needs no hardware and no files. Writes recordings, meshes, contacts, reports, a runtime bundle, a
     table of errors and a picture. Exit code 1: the errors are larger than noise explains, a verification

@@ -1,27 +1,22 @@
-"""Where ``contactbench heatmap`` gets its contacts from: a recording, a table, a verification, or a session."""
+"""``contactbench heatmap ...``: where on the probe it was touched."""
 
 from __future__ import annotations
 
 import tempfile
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING
-import typer
-from contactbench.pipeline.commands.options import mount_rotation
-from contactbench.pipeline.console import Noun, answer, Bar, say
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
+
 import typer
-from contactbench.pipeline.commands.options import MountOption, refuse_overwriting
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+
+from contactbench.pipeline.commands.options import MountOption, mount_rotation, refuse_overwriting
+from contactbench.pipeline.console import Bar, Noun, answer, say
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from contactbench.pipeline.heatmap.contacts import Contacts
-    from contactbench.pipeline.mesh.sidecar import ProbeFile
     import numpy as np
     from numpy.typing import NDArray
 
@@ -98,7 +93,7 @@ def found_contacts(
     min_force: float,
 ) -> Contacts:
     """Return the contacts, located if they are a recording's."""
-    from contactbench.pipeline.calibration.files.capture_recording import is_recording
+    from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.heatmap.contacts import read_contacts
 
     if is_recording(files.contacts):
@@ -155,7 +150,8 @@ def _is_json(file: Path) -> bool:
     except (OSError, ValueError):
         return False
 
-heatmap_app = Noun()
+
+heatmap_app = Noun("Show where on the probe it was touched: as a picture, a mesh or a film, or in a window.")
 
 _SUFFIXES = (".png", ".ply", ".glb")
 _FILMS = (".mp4", ".gif")
@@ -180,11 +176,9 @@ class NormalisationName(StrEnum):
 
 
 @heatmap_app.command(
-    example=(
-        "heatmap scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png"
-    ),
+    example=("heatmap draw scan.mcap --probe p.ply --calibration c.json --quantity force --out map.png"),
 )
-def heatmap(
+def draw(
     contacts: Annotated[
         Path,
         typer.Argument(
@@ -202,7 +196,7 @@ def heatmap(
         typer.Option(help="Probe that contactbench prepared, .ply [in a session: its newest]."),
     ] = None,
     calibration: Annotated[
-        Path | None, typer.Option(help="For a recording: what contactbench calibrate wrote.")
+        Path | None, typer.Option(help="For a recording: what contactbench calibrate fit wrote.")
     ] = None,
     quantity: Annotated[QuantityName, typer.Option(help="What to show.")] = QuantityName.density,
     bandwidth: Annotated[
@@ -252,12 +246,10 @@ def heatmap(
         typer.Option(help="Of a film: only the last seconds are shown [what was touched stays], s."),
     ] = None,
 ) -> None:
-    """Show where on the probe what happened.
-
-    Show on the probe's surface where it was touched: how often, how hard, how surely, how wrongly.
+    """Show on the probe's surface where it was touched: how often, how hard, how surely, how wrongly.
 
     CONTACTS is a recording (.mcap; with --calibration), what contactbench locate wrote (.csv), what
-    contactbench verify wrote (.json), or the folder of a session: its newest recording or, for errors,
+    contactbench verify touches wrote (.json), or the folder of a session: its newest recording or, for errors,
     verification. Errors are those of accepted touches, or of samples whose force is steady. Each contact
     is spread by a Gaussian of the distance along the surface; beyond three bandwidths there is no data.
     The integral of a density over the surface is the number of contacts, their seconds, or contacts per
@@ -274,7 +266,6 @@ def heatmap(
     judged = quantity is QuantityName.error and markers is None
     given = [file for file in (contacts, probe, calibration, wrenches, markers) if file is not None]
     refuse_overwriting(out, given)
-    from contactbench.pipeline.commands.heatmap_inputs import chosen, found_contacts, probe_in_sensor_frame
     from contactbench.pipeline.heatmap.windowing import Selection, windowed
 
     metres = None if bandwidth is None else bandwidth / 1000
@@ -294,9 +285,8 @@ def heatmap(
     else:
         _write(made, out)
     _say(made, out, left_out)
-    if as_json:
-        facts = {"out": str(out), **made.facts(), "left_out": left_out, "warnings": notes}
-        print_json({**facts, "noise": _noise(found)})
+    facts = {"out": str(out), **made.facts(), "left_out": left_out, "warnings": notes}
+    answer({**facts, "noise": _noise(found)})
 
 
 def _check_weight(file: Path, found: Contacts, selection: Selection) -> None:
@@ -430,7 +420,7 @@ def _errors(
     if not (steady & near).any():
         raise HeatmapError(
             f"no settled sample is within {most:g} mm of a marker: check --markers (mm, sensor frame S), or give what"
-            " `contactbench verify` wrote."
+            " `contactbench verify touches` wrote."
         )
     return errors, steady & near
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import numbers
-from contactbench.pipeline.console import Noun, answer, as_json, Bar, JsonOption, print_json, say
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,9 +48,7 @@ _UNITS_PER_METRE = {Units.mm: 1000.0, Units.m: 1.0, Units.cm: 100.0, Units.inch:
 
 
 @locate_app.command(
-    example=(
-        "locate --probe probe.stl --units mm --mount 0,0,45,0,0,90 wrenches.csv --out contacts.csv"
-    ),
+    example=("locate --probe probe.stl --units mm --place 0,0,45,0,0,90 wrenches.csv --out contacts.csv"),
 )
 def locate(
     wrenches: Annotated[Path, typer.Argument(metavar="WRENCHES", help="CSV file, or - for standard input.")],
@@ -62,7 +60,7 @@ def locate(
         Units | None,
         typer.Option(help="Unit of the mesh's numbers [what the file says, or guessed from its size]."),
     ] = None,
-    mount: Annotated[
+    place: Annotated[
         str | None,
         typer.Option(
             metavar="X,Y,Z,RX,RY,RZ",
@@ -133,7 +131,7 @@ def locate(
     Exit code 1: no single touch explains most of the wrenches. The most likely mistake is named.
     """
     _check_usage(out, method, track)
-    placed = None if mount is None else numbers(mount, 6, "--mount")
+    placed = None if place is None else numbers(place, 6, "--place")
     limits = None if saturation is None else tuple(numbers(saturation, 6, "--saturation"))
     from contactbench.pipeline.contact import Gates, WrenchNoise
     from contactbench.pipeline.contact.stream import locate_file, refuse_overwriting
@@ -214,7 +212,7 @@ def _load(path: Path, units: Units | None, mount: Sequence[float] | None) -> tup
         if known.history and known.frame != "S":
             sentences.append(
                 "The probe was never aligned with the sensor, so contacts are found in the mesh's own frame: run"
-                " `contactbench probe align`, or give --mount."
+                " `contactbench probe align`, or give --place."
             )
     return probe, [f"{path}: {sentence}" for sentence in sentences]
 

@@ -1,23 +1,17 @@
-"""What the ``probe`` commands share: their options, and what those mean."""
+"""``contactbench probe ...``: a probe's mesh, from a file of a scanner or a CAD program."""
 
 from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+
 import typer
+
+from contactbench.pipeline.commands.markers import markers_app
 from contactbench.pipeline.commands.options import numbers, refuse_overwriting
-from contactbench.pipeline.console import Noun, answer, Bar, say
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-import typer
-from contactbench.pipeline.commands.options import numbers, refuse_overwriting
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
-from pathlib import Path
-from typing import Annotated
-import typer
-from contactbench.pipeline.commands.options import numbers, refuse_overwriting
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.commands.regions import regions_app
+from contactbench.pipeline.console import Bar, Noun, answer, say, show_tables
 from contactbench.pipeline.durable import make_folder
 
 if TYPE_CHECKING:
@@ -32,7 +26,6 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.preparation.alignment import Alignment, TouchAlignment
-
 
 
 class UnitsOrAuto(StrEnum):
@@ -62,6 +55,13 @@ class EngineName(StrEnum):
     fast = "fast-simplification"
     meshlab = "meshlab"
     best = "best"
+
+
+probe_app = Noun(
+    "Make a probe of a mesh: inspect, shell, align, simplify, or all in one go; its regions and markers."
+)
+probe_app.add_typer(regions_app, name="regions")
+probe_app.add_typer(markers_app, name="markers")
 
 MeshArgument = Annotated[
     Path, typer.Argument(metavar="FILE", help="Mesh: .stl, .ply, .obj, .off, .3mf, .glb or .gltf.")
@@ -113,10 +113,21 @@ def open_mesh(file: Path, units: UnitsOrAuto, out: Path | None = None) -> ProbeF
         check_target(out)
     from contactbench.pipeline.preparation.steps import import_mesh
 
+    refuse_to_guess(file, units)
     content = import_mesh(file, units.value)
     for note in content.notes:
         say(f"warning: {note}", "yellow")
     return content
+
+
+def refuse_to_guess(file: Path, units: UnitsOrAuto) -> None:
+    """Refuse to make a probe of numbers whose unit nobody can tell; MeshError with the sizes to choose from."""
+    from contactbench.pipeline.mesh import MeshError
+    from contactbench.pipeline.mesh.load import read_mesh
+
+    guess = None if units is not UnitsOrAuto.auto else read_mesh(file).guess
+    if guess is not None and guess.must_be_given:
+        raise MeshError(f"{file}: the unit cannot be told. {guess.reason}")
 
 
 def closings(names: list[ClosingName] | None) -> Closing | list[Closing]:
@@ -186,16 +197,18 @@ def share(bar: Bar) -> Callable[[float], None]:
     return lambda share: bar(round(1000 * share), 1000)
 
 
+@probe_app.command(example="probe align shell.ply --place 0,0,45,0,0,90 --out aligned.ply")
 def align(
     file: MeshArgument,
     out: OutOption,
     units: UnitsOption = UnitsOrAuto.auto,
-    mount: Annotated[
+    place: Annotated[
         str | None,
         typer.Option(
+            "--place",
             metavar="X,Y,Z,RX,RY,RZ",
             help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. With --touches:"
-            " where the mount is now.",
+            " where the probe is now.",
         ),
     ] = None,
     alignment: Annotated[Path | None, typer.Option(help="Or: what --save wrote, .json.")] = None,
@@ -249,13 +262,18 @@ def align(
     ] = False,
     save: Annotated[Path | None, typer.Option(help="Write the alignment itself, .json.")] = None,
 ) -> None:
-    """Move a mesh from its own frame P into the sensor frame S."""
+    """Move a mesh from its own frame P into the sensor frame S.
+
+    By one of: typed numbers, matching points, the face that sits on the sensor, the principal axes, or
+    touches of marked points. Exit code 1: touches do not bear out a better place than the present one,
+    which is kept.
+    """
     from contactbench.pipeline.mesh.sidecar import save_probe_file
     from contactbench.pipeline.preparation.alignment import Advice
     from contactbench.pipeline.preparation.steps import align_step, refuse_aligned
 
     _check_files(file, out, save, (alignment, points, touches))
-    way = _one_way(mount, alignment, points, frame, flange_face, axes, touches)
+    way = _one_way(place, alignment, points, frame, flange_face, axes, touches)
     _refuse_strangers(
         way,
         {
@@ -278,10 +296,10 @@ def align(
             0.002 if noise_torque is None else noise_torque,
         )
         hit = 0.3 if placement is None else placement
-        by_touch = _by_touches(content, touches, mount, alignment, noise, hit)
+        by_touch = _by_touches(content, touches, place, alignment, noise, hit)
         found = by_touch.fitted
-    elif way == "--mount":
-        found = chosen_mount(mount, alignment)
+    elif way == "--place":
+        found = chosen_place(place, alignment)
     else:
         found = _by_shape(content, points, frame, flange_face, toward, clock or 0.0, tip, offset or 0.0)
     assert found is not None  # noqa: S101  (one way was given)
@@ -300,7 +318,7 @@ def align(
 
 
 def _one_way(
-    mount: str | None,
+    place: str | None,
     alignment: Path | None,
     points: Path | None,
     frame: str | None,
@@ -317,12 +335,12 @@ def _one_way(
         "--touches": touches is not None,
     }
     ways = [option for option, there in given.items() if there]
-    if touches is None and (mount is not None or alignment is not None):
-        ways.append("--mount")
+    if touches is None and (place is not None or alignment is not None):
+        ways.append("--place")
     if len(ways) != 1:
         raise typer.BadParameter(
-            "give one way to align: --mount, --alignment, --points, --frame, --flange-face, --axes, or --touches"
-            " with --mount."
+            "give one way to align: --place, --alignment, --points, --frame, --flange-face, --axes, or --touches"
+            " with --place."
         )
     return ways[0]
 
@@ -344,8 +362,8 @@ def _check_files(file: Path, out: Path, save: Path | None, read: Sequence[Path |
             raise typer.BadParameter(f"--save {save} is where the probe goes: choose another name.")
 
 
-def chosen_mount(mount: str | None, alignment: Path | None) -> Alignment | None:
-    """Return the alignment that ``--mount`` or ``--alignment`` gives, if one was given.
+def chosen_place(place: str | None, alignment: Path | None) -> Alignment | None:
+    """Return the alignment that ``--place`` or ``--alignment`` gives, if one was given.
 
     Raises
     ------
@@ -354,10 +372,10 @@ def chosen_mount(mount: str | None, alignment: Path | None) -> Alignment | None:
     """
     from contactbench.pipeline.preparation.alignment import AlignmentError, from_angles, from_json
 
-    if mount is not None and alignment is not None:
-        raise typer.BadParameter("--mount and --alignment contradict each other: give one.")
-    if mount is not None:
-        values = numbers(mount, 6, "--mount")
+    if place is not None and alignment is not None:
+        raise typer.BadParameter("--place and --alignment contradict each other: give one.")
+    if place is not None:
+        values = numbers(place, 6, "--place")
         return from_angles(values[:3], values[3:])
     if alignment is None:
         return None
@@ -371,7 +389,7 @@ def chosen_mount(mount: str | None, alignment: Path | None) -> Alignment | None:
 def _by_touches(
     content: ProbeFile,
     touches: Path,
-    mount: str | None,
+    place: str | None,
     alignment: Path | None,
     noise: tuple[float, float],
     placement: float,
@@ -379,9 +397,9 @@ def _by_touches(
     from contactbench.pipeline.contact import WrenchNoise
     from contactbench.pipeline.preparation.alignment import align_touches, read_touches
 
-    start = chosen_mount(mount, alignment)
+    start = chosen_place(place, alignment)
     if start is None:
-        raise typer.BadParameter("--touches starts from where the mount is now: give --mount or --alignment.")
+        raise typer.BadParameter("--touches starts from where the probe is now: give --place or --alignment.")
     with Bar("cross-validating", counted=True) as bar:
         return align_touches(
             content.probe,
@@ -468,8 +486,6 @@ def _facts(found: Alignment, by_touch: TouchAlignment | None, out: Path | None) 
         }
     return facts
 
-probe_app = Noun("Prepare a probe's mesh: inspect, shell, align, simplify, ladder, or all in one go.")
-
 
 @probe_app.command(example="probe inspect housing.stl")
 def inspect(file: MeshArgument, units: UnitsOption = UnitsOrAuto.auto) -> None:
@@ -521,16 +537,6 @@ def shell(
     answer({"out": str(out), **made.to_json(), "sentences": list(made.sentences)})
     if made.faults:
         raise typer.Exit(1)
-
-probe_app.command(
-    "align",
-    help=(
-        "Move a mesh from its own frame P into the sensor frame S.\n\n"
-        "By one of: typed numbers, matching points, the face that sits on the sensor, the principal axes, or touches"
-        " of marked points. Exit code 1: touches do not bear out a better mount than the present one, which is kept."
-    ),
-    epilog="Example: contactbench probe align shell.ply --mount 0,0,45,0,0,90 --out aligned.ply",
-)(align)
 
 
 @probe_app.command(example="probe simplify aligned.ply --facets 2000 --region-ratio 8 --out probe.ply")
@@ -588,9 +594,7 @@ def ladder(
     engine: EngineOption = EngineName.auto,
     region_ratio: RatioOption = 1.0,
 ) -> None:
-    """Weigh accuracy against speed over a range of facet counts.
-
-    Weigh accuracy against speed over a range of facet counts, and recommend one.
+    """Weigh accuracy against speed over a range of facet counts, and recommend one.
 
     The same touches, with the sensor's noise, are located on the full mesh and on each simplified one.
     Writes ladder.json, ladder.csv, ladder.svg and ladder.png. Exit code 1: no simplified mesh keeps the
@@ -632,7 +636,7 @@ def ladder(
         raise typer.Exit(1)
 
 
-@probe_app.command(example="probe prepare housing.stl --mount 0,0,45,0,0,90 --out probe.ply")
+@probe_app.command(example="probe prepare housing.stl --place 0,0,45,0,0,90 --out probe.ply")
 def prepare(
     file: MeshArgument,
     out: OutOption,
@@ -640,9 +644,10 @@ def prepare(
     close: CloseOption = None,
     alpha: AlphaOption = None,
     gap: GapOption = None,
-    mount: Annotated[
+    place: Annotated[
         str | None,
         typer.Option(
+            "--place",
             metavar="X,Y,Z,RX,RY,RZ",
             help="Pose of the mesh in S: mm, and degrees about the fixed axes x, then y, then z. Left out: the mesh"
             " stays in its own frame.",
@@ -658,21 +663,19 @@ def prepare(
     engine: EngineOption = EngineName.auto,
     region_ratio: RatioOption = 1.0,
 ) -> None:
-    """Read, close, align, simplify, and write the probe.
-
-    All in one go: read, close, align, simplify, and write the probe with its history.
+    """All in one go: read, close, align, simplify, and write the probe with its history.
 
     Regions that the file holds are kept. Exit code 1: the result is not sound (open, crossing, folded or
     inside out); nothing is written then.
     """
-    from contactbench.pipeline.commands.align import chosen_mount
     from contactbench.pipeline.mesh.sidecar import check_target, save_probe_file
     from contactbench.pipeline.preparation.prepare import prepare as prepare_file
 
     refuse_overwriting(out, [file])
     check_target(out)
+    refuse_to_guess(file, units)
     plan = planned(facets, max_deviation, max_contact_error, forces, region_ratio)
-    placed = chosen_mount(mount, alignment)
+    placed = chosen_place(place, alignment)
     with Bar("preparing", counted=True) as bar:
         done = prepare_file(
             file,

@@ -1,4 +1,4 @@
-"""``contactbench record, ports``: what a sensor gives, into a file; and where sensors may hang."""
+"""``contactbench record ...``: what a sensor and a robot give, into a file; and what is in such files."""
 
 from __future__ import annotations
 
@@ -11,24 +11,22 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+
 import typer
-from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-import typer
+
 from contactbench.pipeline.commands.options import RobotOption, refuse_overwriting
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, print_json, say
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
+    from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
     from contactbench.pipeline.recording.recorder import Recorder
     from contactbench.pipeline.streams import Pair
-    from contactbench.pipeline.recording import FlangeTrack, Recording, WrenchTrack
 
 
-record_app = Noun()
+record_app = Noun("Record a sensor and a robot; look into recordings, and convert them.")
 
 _LOOK_S = 0.05  # how soon the end of a replay is noticed
 _STEPS = 500  # samples between looks at Ctrl-C
@@ -37,8 +35,8 @@ _MOST_KINDS = 50
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 
 
-@record_app.command(example="record sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60")
-def record(
+@record_app.command(example="record start sri+serial:///dev/ttyUSB0 --out poses.mcap --seconds 60")
+def start(
     address: Annotated[str, typer.Argument(metavar="ADDRESS", help="Of the sensor.")],
     out: Annotated[Path, typer.Option(help="Recording to write, .mcap; one that is there is not touched.")],
     pose: Annotated[
@@ -100,7 +98,7 @@ def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:
     if recorder.error is not None:
         raise recorder.error
     _tell(out, given, recorder, kept)
-    if as_json:
+    if as_json():
         facts = {device: _facts(health) for device, health in given.items()}
         suspicions = [what for _, what in recorder.suspicions]
         print_json(
@@ -113,12 +111,9 @@ def _end(out: Path, given: Mapping[str, Health], recorder: Recorder) -> None:
         )
 
 
-@record_app.command(example="ports")
+@record_app.command(example="record ports")
 def ports() -> None:
-    """List the serial ports of this machine.
-
-    List the serial ports of this machine, with a guess at what hangs on each.
-    """
+    """List the serial ports of this machine, with a guess at what hangs on each."""
     from contactbench.pipeline.devices.transport import list_ports
 
     found = list_ports()
@@ -126,9 +121,8 @@ def ports() -> None:
         say(f"{port.path}: {port.description}" + (f"; try {port.url}" if port.url else ""))
     if not found:
         say("There is no serial port: plug the sensor in, or give a network address.")
-    if as_json:
-        rows = [{"path": p.path, "description": p.description, "url": p.url} for p in found]
-        print_json({"ports": rows})
+    rows = [{"path": p.path, "description": p.description, "url": p.url} for p in found]
+    answer({"ports": rows})
 
 
 def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Changes | None = None) -> None:
@@ -148,7 +142,7 @@ def wait(pair: Pair, seconds: float | None, *ends: threading.Event, changes: Cha
 
 def broken(pair: Pair) -> bool:
     """Tell whether a stream has ended before its end: it failed, or its recording cannot be read on."""
-    from contactbench.pipeline.devices.drive import State
+    from contactbench.pipeline.devices.stream import State
 
     return any(
         stream.health.failure is not None or (stream.done.is_set() and stream.health.state is State.LOST)
@@ -272,7 +266,6 @@ def _facts(health: Health) -> dict[str, Any]:
     usual, worst = health.lateness or (None, None)
     return {**health_facts(health), "lateness_p99_s": usual, "lateness_max_s": worst}
 
-recording_app = Noun("Look into recordings of sensors and robots, and convert them.")
 
 _LATE_S = 0.1
 _FLAGS = {
@@ -287,11 +280,9 @@ _FLAGS = {
 FileArgument = Annotated[Path, typer.Argument(metavar="FILE", help="Recording, an MCAP file.")]
 
 
-@record_app.command(example="recording info touches.mcap")
+@record_app.command(example="record info touches.mcap")
 def info(file: FileArgument) -> None:
-    """Say what is in a recording.
-
-    Say what is in a recording: devices, topics, samples, rates, and whether the file is whole.
+    """Say what is in a recording: devices, topics, samples, rates, and whether the file is whole.
 
     Counts lost and unusable samples, those that the sensor flagged, those whose time is a guess because
     the device's count or clock had just leapt, and those that arrived more than 0.1 s after they were
@@ -320,8 +311,7 @@ def info(file: FileArgument) -> None:
             "note": found.info.note,
             "started_ns": found.info.started_ns,
             "devices": [
-                {name: getattr(device, name) for name in device.__slots__}
-                for device in found.info.devices
+                {name: getattr(device, name) for name in device.__slots__} for device in found.info.devices
             ],
             "topics": topics,
             "events": len(found.events),
@@ -332,7 +322,7 @@ def info(file: FileArgument) -> None:
         raise typer.Exit(1)
 
 
-@record_app.command(example="recording convert touches.mcap --out touches.csv")
+@record_app.command(example="record convert touches.mcap --out touches.csv")
 def convert(
     file: FileArgument,
     out: Annotated[Path, typer.Option(help="File to write: .csv or .npz.")],
@@ -342,7 +332,7 @@ def convert(
 ) -> None:
     """Write a recording as .csv or .npz.
 
-    CSV: one topic, as locate and captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
+    CSV: one topic, as locate and calibrate captures read it: t,fx,fy,fz,mx,my,mz (s, N, N·m) and, where one robot
     was recorded too, qw,qx,qy,qz,px,py,pz of its flange at the same moments; readings that the device
     says are no good, or without a pose beside them, are left out. NPZ: everything, as it is.
 
@@ -368,11 +358,9 @@ def convert(
         raise typer.Exit(1)
 
 
-@record_app.command(example="recording delay poses.mcap")
+@record_app.command(example="record delay poses.mcap")
 def delay(file: FileArgument) -> None:
-    """Estimate how much later the sensor is heard than the robot.
-
-    Estimate how much later the sensor is heard than the robot, from a stretch in which it was turned.
+    """Estimate how much later the sensor is heard than the robot, from a stretch in which it was turned.
 
     Needs no mount and no calibration: the weight must turn with the flange, touching nothing. Exit code
     1: the motion does not show it, or shows it doubtfully.
@@ -401,7 +389,7 @@ def delay(file: FileArgument) -> None:
         raise typer.Exit(1)
 
 
-@record_app.command("import-ros2", example="recording import-ros2 bag_0.mcap --out touches.mcap")
+@record_app.command("import-ros2", example="record import-ros2 bag_0.mcap --out touches.mcap")
 def import_bag(
     bag: Annotated[Path, typer.Argument(metavar="BAG", help="ROS 2 bag, an MCAP file.")],
     out: Annotated[Path, typer.Option(help="Recording to write; must not exist.")],

@@ -1,34 +1,24 @@
-"""What the ``region`` commands share: their arguments, loading, saving, and saying what became of the regions."""
+"""``contactbench probe regions ...``: the parts of a probe that are meant to be touched."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
+
 import typer
-from contactbench.pipeline.commands.options import numbers
-from contactbench.pipeline.console import Noun, answer, as_json, print_json, running_command, say
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-import typer
-from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import JsonOption, print_json, say
-import math
-from typing import TYPE_CHECKING, Annotated
-import typer
-from contactbench.pipeline.commands.options import numbers
-from contactbench.pipeline.console import JsonOption, say
+
+from contactbench.pipeline.commands.options import numbers, refuse_overwriting
+from contactbench.pipeline.console import Noun, as_json, print_json, running_command, say
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel
+    from contactbench.pipeline.mesh.regions import FacetGraph, RegionModel, Transferred
     from contactbench.pipeline.mesh.regions.undo_file import KeptSteps
-    from contactbench.pipeline.mesh.regions import Transferred
-    import numpy as np
-    from numpy.typing import NDArray
 
 
 MeshArgument = Annotated[
@@ -225,23 +215,20 @@ def metres(text: str, option: str) -> NDArray[np.float64]:
 
     return np.array(numbers(text, 3, option)) / 1000
 
+
 regions_app = Noun(
     "Mark the parts of a probe that are meant to be touched, in order of priority.\n\n"
-        "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names, colours, and which of"
-        " them nothing can touch). Each command changes both in one step, which `probe regions undo` takes back. Lengths are in"
-        " mm, in the sensor frame S."
-        " Exit code 1: facets were chosen, but none changed."
-    )
+    "Regions live in the probe's .ply (a rank per facet) and in the .json beside it (names, colours, and which of them"
+    " nothing can touch). Each command changes both in one step, which `probe regions undo` takes back. Lengths are in"
+    " mm, in the sensor frame S. Exit code 1: facets were chosen, but none changed."
+)
 
 ColourOption = Annotated[str | None, typer.Option(metavar="#RRGGBB", help="[the next of a palette]")]
 
 
 @regions_app.command("list", example="probe regions list probe.ply")
 def list_regions(mesh: MeshArgument) -> None:
-    """Show the regions of a probe.
-
-    Show the regions of a probe: priority, name, colour, facets, area, and whether nothing can touch it.
-    """
+    """Show the regions of a probe: priority, name, colour, facets, area, and whether nothing can touch it."""
     session = Session(mesh)
     show(mesh, session.probe, session.model)
 
@@ -260,10 +247,7 @@ def add(
 
 @regions_app.command(example="probe regions remove probe.ply Lens")
 def remove(mesh: MeshArgument, region: RegionArgument) -> None:
-    """Remove a region.
-
-    Remove a region; its facets belong to none, and the priorities behind it move up.
-    """
+    """Remove a region; its facets belong to none, and the priorities behind it move up."""
     session = Session(mesh)
     rank = session.rank(region)
     count = int(session.mask(rank).sum())
@@ -303,9 +287,7 @@ def mark(
         bool, typer.Option("--untouchable/--touchable", help="Whether nothing can touch it.")
     ],
 ) -> None:
-    """Say whether nothing can touch a region.
-
-    Say whether nothing can touch a region, such as one that a clamp or a drape hides.
+    """Say whether nothing can touch a region, such as one that a clamp or a drape hides.
 
     A contact there counts as 1000 times less likely, and the places that remain are told apart better.
     """
@@ -327,9 +309,7 @@ def reorder(
 
 @regions_app.command(example="probe regions undo probe.ply")
 def undo(mesh: MeshArgument) -> None:
-    """Take back the last region command on a probe.
-
-    Take back the last region command on a probe; up to 100, one after the other.
+    """Take back the last region command on a probe; up to 100, one after the other.
 
     Both files are byte for byte what they were before it. The steps are kept beside the probe, in its
     .undo file; they end where something else changes the probe. Exit code 1: there is nothing to undo.
@@ -339,10 +319,7 @@ def undo(mesh: MeshArgument) -> None:
 
 @regions_app.command(example="probe regions redo probe.ply")
 def redo(mesh: MeshArgument) -> None:
-    """Do again what was undone last.
-
-    Do again what undo took back last. Exit code 1: there is nothing to redo.
-    """
+    """Do again what undo took back last. Exit code 1: there is nothing to redo."""
     Session(mesh).turn("redo")
 
 
@@ -351,10 +328,9 @@ def export(
     mesh: MeshArgument,
     out: Annotated[Path, typer.Option(help="File to write, .json or .csv.")],
 ) -> None:
-    """Write the regions to a file of their own.
+    """Write the regions to a file of their own, .json or .csv.
 
-    Write the regions to a file of their own: .json (names, colours, marks, facets; fits this mesh only)
-    or .csv (face,region).
+    JSON holds names, colours, marks and facets, and fits this mesh only; CSV holds face,region.
     """
     from contactbench.pipeline.mesh.regions import RegionError, save_regions
     from contactbench.pipeline.mesh.sidecar import sidecar_of
@@ -396,10 +372,9 @@ def transfer(
         float | None, typer.Option(help="Facets further than this from OLD get none, mm [2 % of the size].")
     ] = None,
 ) -> None:
-    """Carry the regions of one mesh over to another.
+    """Carry the regions of one mesh over to another of the same surface.
 
-    Carry the regions of one mesh over to another of the same surface: simplified, made a shell, or
-    exported again.
+    The other may be simplified, made a shell, or exported again.
 
     Both are in S. Each facet of NEW takes the region of the nearest facet of OLD that faces the same way.
     NEW's own regions are replaced. Exit code 1: a region vanished.
@@ -441,7 +416,6 @@ def _say_transferred(result: Transferred) -> None:
         say(part.sentence, "red" if part.vanished else "")
     for sentence in result.warnings:
         say(f"warning: {sentence}", "yellow")
-
 
 
 _NEAR = 0.02  # of the probe's size: as far off the surface a point may be that is meant to be on it
@@ -514,10 +488,7 @@ def flood(
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Give a region the facets around a point, up to creases.
-
-    Give REGION the facets around a point, as far as no edge is sharper than --crease.
-    """
+    """Give REGION the facets around a point, as far as no edge is sharper than --crease."""
     from contactbench.pipeline.mesh.regions import flood as fill
 
     where = metres(at, "--at")
@@ -540,9 +511,7 @@ def brush(
     erase: EraseOption = False,
     protect: ProtectOption = False,
 ) -> None:
-    """Paint a region with a round brush.
-
-    Paint REGION with a round brush, along the surface through the points nearest to --at.
+    """Paint REGION with a round brush, along the surface through the points nearest to --at.
 
     --at is given once for a dab, several times for a stroke. A point further from the surface than the
     radius, or 2 % of the size if that is more, is refused.
@@ -568,10 +537,7 @@ def grow(
     rings: RingsOption = None,
     distance: DistanceOption = None,
 ) -> None:
-    """Let a region grow at its border.
-
-    Let REGION grow at its border, by rings of facets or a distance. Other regions stay as they are.
-    """
+    """Let REGION grow at its border, by rings of facets or a distance. Other regions stay as they are."""
     from contactbench.pipeline.mesh.regions import grow as extend
 
     session = Session(mesh)
@@ -602,10 +568,9 @@ def smooth(
     region: RegionArgument,
     rings: Annotated[int, typer.Option(help="What is narrower than about this many facets goes.")] = 2,
 ) -> None:
-    """Straighten the border of a region.
+    """Straighten the border of REGION, fill its holes and remove its specks.
 
-    Straighten the border of REGION, fill its holes and remove its specks; its area stays. Other regions
-    stay as they are.
+    Its area and other regions stay as they are.
     """
     from contactbench.pipeline.mesh.regions import smooth as straighten
 

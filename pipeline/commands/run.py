@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from contactbench.pipeline.commands.record import Changes, broken, ended_by_signals
-from contactbench.pipeline.console import Noun, answer, say
+from contactbench.pipeline.console import Noun, say
 
 if TYPE_CHECKING:
     import threading
     from collections.abc import Callable
 
     from contactbench.pipeline.config.runtime import RuntimeConfig
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.runtime import Run
     from contactbench.pipeline.runtime.outlet import Target
@@ -34,13 +34,12 @@ _SETTLED_S = 2.0  # a rate is known after that
 
 @run_app.command(
     example=(
-        "run runtime.zip --sensor sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2 --udp "
-        "127.0.0.1:9000"
+        "run runtime.zip --source sri+serial:///dev/ttyUSB0 --pose elfin+tcp://10.0.0.2 --udp 127.0.0.1:9000"
     ),
 )
 def run(
     bundle: Annotated[Path, typer.Argument(metavar="BUNDLE", help="Folder or zip file of a runtime config.")],
-    sensor: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the force/torque sensor, or a replay.")],
+    source: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the force/torque sensor, or a replay.")],
     pose: Annotated[
         str,
         typer.Option(
@@ -67,10 +66,9 @@ def run(
         bool, typer.Option("--allow-remote", help="Datagrams may go to another machine, unprotected.")
     ] = False,
 ) -> None:
-    """Run a runtime config on live streams.
+    """Run a bundle on live streams: say at every sample where the probe is touched.
 
-    Load a bundle and say at every sample where the probe is touched, until Ctrl-C, for some seconds, or
-    to the end of a replay.
+    It ends with Ctrl-C, after some seconds, or with a replay.
 
     Contacts are lines of JSON, on standard output unless --out, --mcap or --udp is given; act only on
     those whose accepted is true. A sample takes the orientation at its own time, between two poses or
@@ -100,7 +98,7 @@ def run(
     told = Changes()
     poses = DeviceAddress.parse(pose)
     pair = open_pair(
-        sensor,
+        source,
         poses,
         lambda samples: runner.wrenches(samples),
         lambda samples: runner.poses(samples),

@@ -1,52 +1,36 @@
-"""``contactbench session record``: a sensor's raw stream, straight into a session."""
+"""``contactbench session ...``: every action, sample and result of a bench session in one folder."""
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-import typer
-from contactbench.pipeline.commands.record import Changes, ended_by_signals, wait
-from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say
-from pathlib import Path
-from typing import Annotated
-import typer
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
-import json
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
+
 import typer
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say
+
+from contactbench.pipeline.commands.record import Changes, ended_by_signals, wait
+from contactbench.pipeline.console import Bar, Noun, answer, say
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
-    from contactbench.pipeline.session import Session
-    from contactbench.pipeline.session.live import LiveRecording
     from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session.live import LiveRecording
     from contactbench.pipeline.session.state import Result
 
 
 FolderArgument = Annotated[Path, typer.Argument(metavar="DIR", help="Folder of the session.")]
 
-_HELP = (
-    "Record a force/torque sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.\n\n"
-    "The raw streams are on the disk half a second later; when it ends, the recording becomes an input of the kind"
-    " recording, with the counters of its streams. Should this process or the power die, `contactbench session repair`"
-    " adopts what was recorded. Nothing but what it takes to stream is sent: no sensor is zeroed.\n\n"
-    "Exit code 1: not one sample came from one of them."
-)
+session_app = Noun("Keep every action, sample and result of a bench session in one folder.")
+
+_WRONG = 1
 
 
-def add_record_command(app: typer.Typer) -> None:
-    """Add ``record`` to the commands of a session."""
-    epilog = "Example: contactbench session record bench-1 --sensor sri+tcp://192.168.0.108:4008 --seconds 60"
-    app.command(help=_HELP, epilog=epilog)(record)
-
-
+@session_app.command(example="session record bench-1 --source sri+tcp://192.168.0.108:4008 --seconds 60")
 def record(
     folder: FolderArgument,
-    sensor: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the sensor, as for record.")],
+    source: Annotated[str, typer.Option(metavar="ADDRESS", help="Of the sensor, as for record start.")],
     pose: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Of a robot: also record its flange.")
     ] = None,
@@ -60,7 +44,13 @@ def record(
     ] = None,
     note: Annotated[str, typer.Option(help="A few words to keep with it.")] = "",
 ) -> None:
-    """Record a sensor into a session."""
+    """Record a sensor, and a robot beside it, into a session, until Ctrl-C or for some seconds.
+
+    The raw streams are on the disk half a second later; when it ends, the recording becomes an input of
+    the kind recording, with the counters of its streams. Should this process or the power die,
+    `contactbench session repair` adopts what was recorded. Nothing but what it takes to stream is sent:
+    no sensor is zeroed. Exit code 1: not one sample came from one of them.
+    """
     if seconds is not None and not 0 < seconds < 1e6:
         raise typer.BadParameter(f"--seconds {seconds:g}: give a number above 0.")
     from contactbench.pipeline.session import Session
@@ -68,7 +58,7 @@ def record(
     with Session.open(folder) as session:
         for words in session.notes:
             say(f"warning: {words}", "yellow")
-        live, streams = _record(session, sensor, pose, seconds, serial, name, note)
+        live, streams = _record(session, source, pose, seconds, serial, name, note)
         error = live.recorder.error
         came = all(health.samples and health.failure is None for health in streams.values())
         path = _keep(live, streams)
@@ -81,7 +71,7 @@ def record(
 
 def _record(
     session: Session,
-    sensor: str,
+    source: str,
     pose: str | None,
     seconds: float | None,
     serial: str | None,
@@ -95,7 +85,7 @@ def _record(
     changes = Changes()
     live: LiveRecording
     pair = open_pair(
-        sensor,
+        source,
         pose,
         lambda samples: live.recorder.samples(samples),
         lambda samples: live.recorder.poses(samples),
@@ -164,22 +154,8 @@ def _stream_facts(live: LiveRecording, streams: dict[str, Health]) -> dict[str, 
         "dropped": live.recorder.dropped,
     }
 
-_WRONG = 1
 
-
-def add_keeping_commands(app: typer.Typer) -> None:
-    """Add them to the commands of a session."""
-    app.command("verify", epilog="Example: contactbench session verify bench-1")(verify)
-    app.command("repair", epilog="Example: contactbench session repair bench-1")(repair)
-    app.command("salvage", epilog="Example: contactbench session salvage bench-1 --out bench-1-new")(salvage)
-    app.command(
-        "export-archive", epilog="Example: contactbench session export-archive bench-1 --out bench-1.zip"
-    )(export)
-    app.command(
-        "import-archive", epilog="Example: contactbench session import-archive bench-1.zip --out bench-1"
-    )(unpack)
-
-
+@session_app.command(example="session verify bench-1")
 def verify(folder: FolderArgument) -> None:
     """Check the hash chain, every record, and size and content of every file. Exit code 1: something is wrong."""
     from contactbench.pipeline.session.check import check
@@ -197,6 +173,7 @@ def verify(folder: FolderArgument) -> None:
         raise typer.Exit(_WRONG)
 
 
+@session_app.command(example="session repair bench-1")
 def repair(folder: FolderArgument) -> None:
     """Cut an unfinished or damaged record off the journal's end, and adopt recordings that ended abruptly.
 
@@ -214,6 +191,7 @@ def repair(folder: FolderArgument) -> None:
         raise typer.Exit(_WRONG)
 
 
+@session_app.command(example="session salvage bench-1 --out bench-1-new")
 def salvage(
     folder: FolderArgument,
     out: Annotated[
@@ -246,6 +224,7 @@ def salvage(
         raise typer.Exit(_WRONG)
 
 
+@session_app.command("export-archive", example="session export-archive bench-1 --out bench-1.zip")
 def export(
     folder: FolderArgument,
     out: Annotated[Path, typer.Option(help="Zip file to write.")],
@@ -264,6 +243,7 @@ def export(
         raise typer.Exit(_WRONG)
 
 
+@session_app.command("import-archive", example="session import-archive bench-1.zip --out bench-1")
 def unpack(
     archive: Annotated[Path, typer.Argument(metavar="ZIP", help="What export-archive wrote.")],
     out: Annotated[Path, typer.Option(help="Folder to make.")],
@@ -274,10 +254,6 @@ def unpack(
     import_archive(archive, out)
     say(f"{out}: a whole session.")
     answer({"out": str(out)})
-
-session_app = Noun("Keep every action, sample and result of a bench session in one folder.")
-
-_WRONG = 1
 
 
 @session_app.command(example="session new bench-1")
@@ -291,14 +267,14 @@ def new(folder: FolderArgument) -> None:
     answer({"session": str(folder), "id": identity})
 
 
-@session_app.command(example="session add bench-1 poses.csv --kind poses --sensor M8128-0042")
+@session_app.command(example="session add bench-1 poses.csv --kind poses --serial M8128-0042")
 def add(
     folder: FolderArgument,
     file: Annotated[Path, typer.Argument(metavar="FILE", help="File to copy into the session.")],
     kind: Annotated[
         str, typer.Option(help="What it is: mesh, poses, recording, ...; a mesh replaces the one before.")
     ],
-    sensor: Annotated[
+    serial: Annotated[
         str | None, typer.Option(help="Serial number of the sensor that it was recorded with.")
     ] = None,
     companion: Annotated[
@@ -319,7 +295,7 @@ def add(
     beside, about = companions_of(file, companion or []), about_of(file)
     with _writing(folder) as session:
         before = _stale_titles(session)
-        record = session.add_input(file, kind, name=name, sensor=sensor, companions=beside, about=about)
+        record = session.add_input(file, kind, name=name, sensor=serial, companions=beside, about=about)
         newly = _stale_titles(session) - before
     ref, *others = files_of(record.action)
     say(f"{file} is kept as {ref.path}.")
@@ -499,9 +475,7 @@ def note(
 
 @session_app.command(
     "set",
-    example=(
-        "session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]"
-    ),
+    example=("session set bench-1 devices.serial=M8128-0042 calibration.tip=[0,0,120]"),
 )
 def set_parameters(
     folder: FolderArgument,
@@ -525,10 +499,10 @@ def set_parameters(
     answer({"records": [record.number for record in records], "stale": newly})
 
 
-@session_app.command(example="session rezero bench-1 --sensor M8128-0042 --reason 'new cable'")
+@session_app.command(example="session rezero bench-1 --serial M8128-0042 --reason 'new cable'")
 def rezero(
     folder: FolderArgument,
-    sensor: Annotated[str, typer.Option(help="Serial number of the sensor.")],
+    serial: Annotated[str, typer.Option(help="Serial number of the sensor.")],
     reason: Annotated[str, typer.Option(help="Why, in a few words.")],
 ) -> None:
     """Record that a sensor's zero was moved, by hand or by its box; what rests on older recordings becomes stale.
@@ -537,9 +511,9 @@ def rezero(
     """
     with _writing(folder) as session:
         before = _stale_titles(session)
-        record = session.rezeroed(sensor, reason)
+        record = session.rezeroed(serial, reason)
         newly = sorted(_stale_titles(session) - before)
-    say(f"Noted by {record.entry.by or '-'} at {record.entry.at}: {sensor} was re-zeroed.")
+    say(f"Noted by {record.entry.by or '-'} at {record.entry.at}: {serial} was re-zeroed.")
     for title in newly:
         say(f"{title} is stale now: `contactbench session info` says why.", "yellow")
     answer({"record": record.number, "by": record.entry.by, "at": record.entry.at, "stale": newly})
@@ -575,6 +549,3 @@ def _writing(folder: Path) -> Session:
 
 def _stale_titles(session: Session) -> set[str]:
     return {" ".join(slot) for slot, reasons in session.stale().items() if reasons}
-
-add_record_command(session_app)
-add_keeping_commands(session_app)

@@ -1,10 +1,12 @@
-"""``contactbench verify`` and ``contactbench markers ...``: tell whether the contact point is right."""
+"""``contactbench verify ...``: tell whether the contact point is right."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
+
 import typer
+
 from contactbench.pipeline.commands.options import (
     EulerOption,
     InverseOption,
@@ -15,12 +17,7 @@ from contactbench.pipeline.commands.options import (
     numbers,
     refuse_overwriting,
 )
-from contactbench.pipeline.console import Noun, answer, JsonOption, print_json, say, show_tables
-from pathlib import Path
-from typing import Annotated
-import typer
-from contactbench.pipeline.commands.options import refuse_overwriting
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import Noun, answer, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,22 +30,18 @@ if TYPE_CHECKING:
 
 _FAILED = 1
 
-verify_app = Noun()
-markers_app = Noun("Make markers for a probe, and move them onto its surface.")
-
-ProbeArgument = Annotated[Path, typer.Argument(metavar="PROBE", help="The probe, aligned with the sensor.")]
-MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z_mm, sensor frame.")]
+verify_app = Noun("Judge contact points by touches of markers, and write what was found as a page.")
 
 
 @verify_app.command(
     example=(
-        "verify --probe probe.ply --calibration calibration.json --markers markers.csv touches.mcap"
+        "verify touches --probe probe.ply --calibration calibration.json --markers markers.csv touches.mcap"
     ),
 )
-def verify(
+def touches(
     recording: Annotated[Path, typer.Argument(metavar="RECORDING", help="Touches: .mcap or .csv.")],
     probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
-    calibration: Annotated[Path, typer.Option(help="What contactbench calibrate wrote.")],
+    calibration: Annotated[Path, typer.Option(help="What contactbench calibrate fit wrote.")],
     markers: Annotated[Path, typer.Option(help="CSV file: name,x_mm,y_mm,z_mm, sensor frame.")],
     force: Annotated[
         list[str] | None,
@@ -91,12 +84,10 @@ def verify(
     seed: Annotated[int, typer.Option(help="Seed of the bootstrap.")] = 0,
     out: Annotated[Path | None, typer.Option(help="Also write everything to this file, JSON.")] = None,
 ) -> None:
-    """Judge contact points by touches of markers.
-
-    Find the touches of markers in a recording, and judge how far the contact points are off.
+    """Find the touches of markers in a recording, and judge how far the contact points are off.
 
     RECORDING is an .mcap file with one sensor and one robot, or a CSV file with t,fx,fy,fz,mx,my,mz (raw
-    readings) and orientations, as for compensate. Every press is accepted or rejected, with the reason.
+    readings) and orientations, as for calibrate compensate. Every press is accepted or rejected, with the reason.
     The file of --out is the same for the same input, but for the times of solves (times, and what the
     verdict says of them).
 
@@ -142,52 +133,6 @@ def verify(
     answer(found.to_json())
     if not found.verdict.passed:
         raise typer.Exit(_FAILED)
-
-
-@markers_app.command(example="markers generate probe.ply --all --count 17 --out markers.csv")
-def generate(
-    probe: ProbeArgument,
-    out: MarkersOut,
-    region: Annotated[int | None, typer.Option(help="Only on the region of this rank.")] = None,
-    everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
-    count: Annotated[int, typer.Option(help="How many, spread evenly.")] = 17,
-    grid: Annotated[float | None, typer.Option(help="Instead: on a grid of this pitch, mm.")] = None,
-) -> None:
-    """Place markers on a probe, spread evenly or on a grid; the same ones on every call."""
-    if (region is None) != everywhere:
-        raise typer.BadParameter("say where: --region N or --all, one of them.")
-    refuse_overwriting(out, [probe])
-    from contactbench.pipeline.verification import grid_markers, spread_markers
-    from contactbench.pipeline.verification.result import load_surface
-
-    surface = load_surface(probe)
-    made = (
-        spread_markers(surface, count, region) if grid is None else grid_markers(surface, grid / 1e3, region)
-    )
-    made.save(out)
-    say(f"{len(made)} markers written to {out}.", "green")
-    answer({"markers": len(made), "file": str(out)})
-
-
-@markers_app.command(example="markers snap measured.csv --probe probe.ply --out markers.csv")
-def snap(
-    markers: Annotated[Path, typer.Argument(metavar="MARKERS", help="CSV file: name,x_mm,y_mm,z_mm.")],
-    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
-    out: MarkersOut,
-    limit: Annotated[float, typer.Option(help="Refuse markers further from the surface, mm.")] = 5.0,
-) -> None:
-    """Move markers to the nearest points of a probe's surface, and tell how far each was from it."""
-    refuse_overwriting(out, [markers, probe])
-    from contactbench.pipeline.verification import load_markers
-    from contactbench.pipeline.verification import snap as snapped
-    from contactbench.pipeline.verification.result import load_surface
-
-    found = snapped(load_markers(markers), load_surface(probe), limit / 1e3)
-    found.markers.save(out)
-    moved = dict(zip(found.markers.names, (1e3 * found.distances).tolist(), strict=True))
-    for name, distance in moved.items():
-        say(f"{name}: moved by {distance:.3f} mm")
-    answer({"markers": len(moved), "file": str(out), "moved_mm": moved})
 
 
 def _left_out(text: str) -> tuple[str, str]:
@@ -274,31 +219,26 @@ def _size(value: float | None) -> str:
     return "–" if value is None else f"{value:.2f}"
 
 
-
 @verify_app.command(
-    example=(
-        "report --verification v.json --calibration c.json --probe p.ply --out report.html"
-    ),
+    example=("verify report --verification v.json --calibration c.json --probe p.ply --out report.html"),
 )
 def report(
-    verification: Annotated[Path, typer.Option(help="What contactbench verify --out wrote.")],
+    verification: Annotated[Path, typer.Option(help="What contactbench verify touches --out wrote.")],
     probe: Annotated[Path, typer.Option(help="The probe that was verified, .ply.")],
     out: Annotated[Path, typer.Option(help="File to write: .html or .pdf.")],
-    calibration: Annotated[Path | None, typer.Option(help="What contactbench calibrate wrote.")] = None,
+    calibration: Annotated[Path | None, typer.Option(help="What contactbench calibrate fit wrote.")] = None,
     known_weight: Annotated[
-        Path | None, typer.Option(help="What contactbench check weight --out wrote.")
+        Path | None, typer.Option(help="What contactbench calibrate check weight --out wrote.")
     ] = None,
     known_touch: Annotated[
-        Path | None, typer.Option(help="What contactbench check touch --out wrote.")
+        Path | None, typer.Option(help="What contactbench calibrate check touch --out wrote.")
     ] = None,
     operator: Annotated[str, typer.Option(help="Who verified.")] = "",
     serial: Annotated[
         list[str] | None, typer.Option(metavar="DEVICE=NUMBER", help="A serial number; may be repeated.")
     ] = None,
 ) -> None:
-    """Write what a verification found as a page.
-
-    Write what a verification found as one page that anybody can read: HTML, or PDF on A4.
+    """Write what a verification found as one page that anybody can read: HTML, or PDF on A4.
 
     The HTML file needs nothing beside itself. A PDF needs WeasyPrint: pip install 'contactbench[pdf]'.
     """

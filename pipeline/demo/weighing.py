@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import PoseNoise
-from contactbench.pipeline.calibration.files.capture_recording import capture_recording
+from contactbench.pipeline.calibration.files.capture_file import capture_recording
 from contactbench.pipeline.calibration.files.pose_csv import write_poses
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses

@@ -35,7 +35,6 @@ _GUESS_S = 0.2
 # Without a count, a lost sample makes all later ones seem a period late: believed after so many batches.
 _LOST_BATCHES, _LOST_S, _LOST_PERIODS = 6, 0.08, 0.75
 _SLOWEST = 0.5  # share of the rate at which times go on while they wait for a line that came down
-_RECENT, _FEWEST = 64, 5  # batches that show the spread of delays
 
 
 class _Source(IntEnum):
@@ -76,20 +75,11 @@ class SampleClock:
         self._arrived = self._time = self._anchored = -math.inf
         self._late, self._behind = _Stay(), _Stay()
         self._leaps: deque[float] = deque(maxlen=_LEAPS)
-        self._delays: deque[float] = deque(maxlen=_RECENT)
 
     @property
     def leapt(self) -> bool:
         """Whether times are a guess: the line began anew within the last 0.2 s, and not at the stream's start."""
         return self._arrived - self._anchored <= _GUESS_S
-
-    @property
-    def fit_s(self) -> float | None:
-        """Half the range of the middle 68 % of the recent delays, s; None before there are five batches."""
-        delays = sorted(self._delays)
-        if len(delays) < _FEWEST:
-            return None
-        return (delays[int(0.84 * len(delays))] - delays[int(0.16 * len(delays))]) / 2
 
     def forget(self) -> None:
         """Begin anew with the next batch: the device was connected again."""
@@ -117,7 +107,6 @@ class SampleClock:
         places = self._advance(samples)
         line = self._follow(places, arrival)
         line.add(places[-1], arrival)
-        self._delays.append(line.delay(places[-1], arrival))
         times = self._times(line, places, arrival)
         self._arrived, self._time, self._place = arrival, times[-1], places[-1]
         return [_stamped(each, time, arrival, self.leapt) for each, time in zip(samples, times, strict=True)]
@@ -180,7 +169,6 @@ class SampleClock:
         self._line = line = _Line(place, arrival, period)
         self._anchored = -math.inf if self._arrived == -math.inf else arrival
         self._anew, self._late, self._behind = False, _Stay(), _Stay()
-        self._delays.clear()
         return line
 
     def _times(self, line: _Line, places: list[float], arrival: float) -> list[float]:

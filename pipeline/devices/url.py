@@ -63,22 +63,32 @@ class _Kind:
     rate: float | None = None
     frame: int = 0
     options: tuple[str, ...] = ()
+    wrenches: bool = False
+    poses: bool = False
 
 
 _KINDS = {
-    (Protocol.SRI, Carrier.SERIAL): _Kind(baud=115_200, rate=200.0, frame=31, options=("baud", "rate")),
-    (Protocol.SRI, Carrier.TCP): _Kind(port=4008, rate=200.0, options=("rate",)),
-    (Protocol.BOTA, Carrier.SERIAL): _Kind(baud=460_800, rate=200.0, frame=37, options=("baud", "rate")),
-    (Protocol.ROBOTIQ, Carrier.SERIAL): _Kind(baud=19_200, rate=100.0, frame=16, options=("baud",)),
-    (Protocol.RDT, Carrier.UDP): _Kind(port=49_152, options=("profile", "rate", "cpf", "cpt")),
-    (Protocol.ELFIN, Carrier.TCP): _Kind(port=10_003, rate=50.0, options=("rate",)),
-    (Protocol.UR, Carrier.TCP): _Kind(port=30_004, rate=125.0, options=("rate", "tool")),
-    (Protocol.REPLAY, Carrier.FILE): _Kind(options=("speed", "topic")),
-    (Protocol.POSES, Carrier.FILE): _Kind(options=("speed", "robot")),
-    (Protocol.STILL, Carrier.TYPED): _Kind(
-        rate=10.0, options=("rate", "rpy", "quaternion", "joints", "robot")
+    (Protocol.SRI, Carrier.SERIAL): _Kind(
+        wrenches=True, baud=115_200, rate=200.0, frame=31, options=("baud", "rate")
     ),
-    (Protocol.VIRTUAL, Carrier.SIMULATED): _Kind(rate=200.0, options=BENCH_OPTIONS),
+    (Protocol.SRI, Carrier.TCP): _Kind(wrenches=True, port=4008, rate=200.0, options=("rate",)),
+    (Protocol.BOTA, Carrier.SERIAL): _Kind(
+        wrenches=True, baud=460_800, rate=200.0, frame=37, options=("baud", "rate")
+    ),
+    (Protocol.ROBOTIQ, Carrier.SERIAL): _Kind(
+        wrenches=True, baud=19_200, rate=100.0, frame=16, options=("baud",)
+    ),
+    (Protocol.RDT, Carrier.UDP): _Kind(wrenches=True, port=49_152, options=("profile", "rate", "cpf", "cpt")),
+    (Protocol.ELFIN, Carrier.TCP): _Kind(poses=True, port=10_003, rate=50.0, options=("rate",)),
+    (Protocol.UR, Carrier.TCP): _Kind(poses=True, port=30_004, rate=125.0, options=("rate", "tool")),
+    (Protocol.REPLAY, Carrier.FILE): _Kind(wrenches=True, poses=True, options=("speed", "topic")),
+    (Protocol.POSES, Carrier.FILE): _Kind(poses=True, options=("speed", "robot")),
+    (Protocol.STILL, Carrier.TYPED): _Kind(
+        poses=True, rate=10.0, options=("rate", "rpy", "quaternion", "joints", "robot")
+    ),
+    (Protocol.VIRTUAL, Carrier.SIMULATED): _Kind(
+        wrenches=True, poses=True, rate=200.0, options=BENCH_OPTIONS
+    ),
 }
 _SOCKETS = (Carrier.TCP, Carrier.UDP)
 _BARE = (Carrier.FILE, Carrier.TYPED, Carrier.SIMULATED)  # their scheme names no carrier
@@ -240,15 +250,17 @@ class DeviceAddress:
     @property
     def gives_wrenches(self) -> bool:
         """Whether it can be opened as a force/torque sensor."""
-        return self.protocol in _SENSORS
+        return _KINDS[self.protocol, self.carrier].wrenches
 
     @property
     def gives_poses(self) -> bool:
         """Whether it can be opened as a source of poses."""
-        return self.protocol not in _SENSORS or self.protocol in (Protocol.REPLAY, Protocol.VIRTUAL)
+        return _KINDS[self.protocol, self.carrier].poses
 
 
-_SENSORS = (Protocol.SRI, Protocol.BOTA, Protocol.ROBOTIQ, Protocol.RDT, Protocol.REPLAY, Protocol.VIRTUAL)
+def carriers_of(protocol: Protocol) -> tuple[Carrier, ...]:
+    """Return what can carry a protocol, the usual one first."""
+    return tuple(carrier for known, carrier in _KINDS if known is protocol)
 
 
 def _short(value: object) -> str:

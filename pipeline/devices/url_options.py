@@ -111,31 +111,14 @@ _FASTEST_BENCH_HZ = 1000.0
 
 @dataclass(frozen=True)
 class BenchOptions:
-    """
-    What a virtual bench is made of; names are looked up by who opens it.
+    """What a virtual bench is made of; names are looked up by who opens it."""
 
-    Attributes
-    ----------
-    probe : str
-        Name of a bundled probe.
-    mesh : str or None
-        File of a probe to take instead, in metres and S.
-    sensor : str
-        Name of a preset.
-    seed : int
-        Of the noise.
-    pose_rate : float
-        Poses a second.
-    script : str or None
-        File of timed commands.
-    """
-
-    probe: str = "t-shape"
-    mesh: str | None = None
-    sensor: str = "paper"
-    seed: int = 0
-    pose_rate: float = 50.0
-    script: str | None = None
+    probe: str = "t-shape"  # name of a bundled probe
+    mesh: str | None = None  # file of a probe to take instead, in metres and S
+    sensor: str = "paper"  # name of a preset
+    seed: int = 0  # of the noise
+    pose_rate: float = 50.0  # poses a second
+    script: str | None = None  # file of timed commands
 
     def values(self) -> dict[str, object]:
         """Return the options as they are written in an address."""

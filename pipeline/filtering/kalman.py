@@ -15,17 +15,10 @@ _BLOCK = 16384  # rows at a time: a whole recording needs no second copy, and a 
 
 @dataclass(frozen=True)
 class KalmanFigures:
-    """What a Kalman filter with identity transition does once its gain has settled.
+    """What a Kalman filter with identity transition does once its gain has settled."""
 
-    Parameters
-    ----------
-    rate : float
-        Samples a second, Hz.
-    q, r : float
-        Variance added between two samples, and variance of a sample, at this rate; unit².
-    """
-
-    rate: float
+    rate: float  # Samples a second, Hz
+    # Variance added between two samples, and variance of a sample, at this rate; unit²
     q: float
     r: float
 

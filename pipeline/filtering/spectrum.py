@@ -30,24 +30,12 @@ _MAINS_TOLERANCE = 0.004  # 0.2 Hz in 50 Hz: a grid under stress
 
 @dataclass(frozen=True, eq=False)
 class Spectrum:
-    """Power spectral density by Welch's method: the mean over half-overlapping Hann windows.
+    """Power spectral density by Welch's method: the mean over half-overlapping Hann windows."""
 
-    Parameters
-    ----------
-    frequencies : array (m,)
-        Hz, from 0 to half the rate.
-    density : array (m, c)
-        One-sided density of each channel, unit²/Hz: it integrates to the variance.
-    resolution : float
-        Hz: lines nearer to each other than this merge, and slower motion is not seen.
-    segments : int
-        How many segments were averaged.
-    """
-
-    frequencies: Floats
-    density: Floats
-    resolution: float
-    segments: int
+    frequencies: Floats  # Hz, from 0 to half the rate
+    density: Floats  # One-sided density of each channel, unit²/Hz: it integrates to the variance
+    resolution: float  # Hz: lines nearer to each other than this merge, and slower motion is not seen
+    segments: int  # How many segments were averaged
 
     @property
     def degrees_of_freedom(self) -> float:
@@ -60,36 +48,18 @@ class Spectrum:
 
 @dataclass(frozen=True)
 class CutoffSuggestion:
-    """A cut-off frequency for a low-pass of order 2, and why.
+    """A cut-off frequency for a low-pass of order 2, and why."""
 
-    Parameters
-    ----------
-    cutoff_hz : float or None
-        Above it the spectrum of no channel can be told from noise, Hz; None: filter nothing.
-    channel_cutoffs_hz : tuple of (float or None)
-        The same for each channel.
-    has_signal : bool
-        Whether anything was found above the noise; if not, `cutoff_hz` is the lowest that can be resolved.
-    lines_hz : tuple of float
-        Isolated lines of mains hum, Hz, which were left out of account.
-    noise_sigma : tuple of float
-        Standard deviation of the noise of each channel, given or estimated.
-    noise_removed : float
-        Share of the standard deviation of white noise that the filter takes away, 0 to 1.
-    lag : float
-        Delay of the filter for slow motion, s.
-    explanation : str
-        All this in plain sentences.
-    """
-
+    # Above it the spectrum of no channel can be told from noise, Hz; None: filter nothing
     cutoff_hz: float | None
-    channel_cutoffs_hz: tuple[float | None, ...]
+    channel_cutoffs_hz: tuple[float | None, ...]  # The same for each channel
+    # Whether anything was found above the noise; if not, `cutoff_hz` is the lowest that can be resolved
     has_signal: bool
-    lines_hz: tuple[float, ...]
-    noise_sigma: tuple[float, ...]
-    noise_removed: float
-    lag: float
-    explanation: str
+    lines_hz: tuple[float, ...]  # Isolated lines of mains hum, Hz, which were left out of account
+    noise_sigma: tuple[float, ...]  # Standard deviation of the noise of each channel, given or estimated
+    noise_removed: float  # Share of the standard deviation of white noise that the filter takes away, 0 to 1
+    lag: float  # Delay of the filter for slow motion, s
+    explanation: str  # All this in plain sentences
 
 
 def spectrum(samples: ArrayLike, rate: float) -> Spectrum:

@@ -42,6 +42,8 @@ _COMPRESSED = {
     "EXT_meshopt_compression": "meshopt",
     "KHR_meshopt_compression": "meshopt",
 }
+# Extensions that change neither where a vertex is nor which facets there are, or whose change is read.
+_HARMLESS = ("KHR_mesh_quantization", "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp")
 _PLAIN = "export it again as GLB without compression, or as STL or 3MF"
 
 
@@ -61,19 +63,10 @@ class _File:
 
 def read_gltf(data: bytes) -> RawMesh:
     """
-    Read the content of a GLB file, or of a glTF text that holds its own data; the meshes of its scene become one.
+    Read the content of a GLB file, or of a glTF text that holds its own data; its scene becomes one mesh, y up.
 
-    Materials, lines, points, skeletons, animations and other shapes to morph into are not looked at.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Metres, if whoever wrote it kept to the format. y is up in it.
+    Shapes to morph into count as much as the file's weights say. Materials, lines, points, skeletons and animations
+    are not looked at.
 
     Raises
     ------
@@ -82,12 +75,18 @@ def read_gltf(data: bytes) -> RawMesh:
     """
     file = _open(data)
     _refuse_compressed(file.text, "extensionsRequired")
+    for name in _list(file.text, "extensionsRequired"):
+        if not str(name).startswith("KHR_materials_") and name not in _HARMLESS:
+            raise MeshError(
+                f"the glTF scene needs the extension {str(name)[:60]}, which is not read: export it again without it,"
+                " or as STL or 3MF."
+            )
     # A number that is none, or overflows here, is refused, with its row, like every other.
     with np.errstate(over="ignore", invalid="ignore"):
         for node, transform in _nodes(file.text):
             file.posed = file.posed or "skin" in node
             if "mesh" in node:
-                _place(file, _entry(file.text, "meshes", node["mesh"]), transform)
+                _place(file, node, _entry(file.text, "meshes", node["mesh"]), transform)
     if not file.facets:
         raise MeshError("the glTF scene holds no triangles: export the part again, as a surface.")
     notes = (
@@ -156,7 +155,8 @@ def _parse(text: bytes) -> dict[str, Any]:
     if len(text) > _LARGEST_TEXT:
         raise MeshError("the description of the glTF scene is over 16 MiB: export the probe alone, as GLB.")
     try:
-        parsed = json.loads(text)
+        # Blanks fill up the chunk; some programs take zeros.
+        parsed = json.loads(text.rstrip(b"\0 "))
     except (ValueError, RecursionError) as error:  # also numbers of thousands of digits
         raise MeshError(
             f"the description of the glTF scene is not sound JSON ({str(error)[:100]}): export it again as GLB."
@@ -241,8 +241,11 @@ def _local(node: dict[str, Any]) -> npt.NDArray[np.float64]:
     return local
 
 
-def _place(file: _File, mesh: dict[str, Any], transform: npt.NDArray[np.float64]) -> None:
-    """Add the triangles of one mesh, moved."""
+def _place(
+    file: _File, node: dict[str, Any], mesh: dict[str, Any], transform: npt.NDArray[np.float64]
+) -> None:
+    """Add the triangles of one mesh, morphed and moved."""
+    weights = _list(node if "weights" in node else mesh, "weights")
     for primitive in _list(mesh, "primitives"):
         if not isinstance(primitive, dict):
             raise _wrong("primitives")
@@ -255,7 +258,7 @@ def _place(file: _File, mesh: dict[str, Any], transform: npt.NDArray[np.float64]
         attributes = primitive.get("attributes")
         if not isinstance(attributes, dict) or "POSITION" not in attributes:
             raise _wrong("attributes")
-        positions = _accessor(file, attributes["POSITION"], "VEC3", tuple(_KINDS)).astype(np.float64)
+        positions = _morphed(file, primitive, attributes["POSITION"], weights)
         if "indices" in primitive:
             corners = _accessor(file, primitive["indices"], "SCALAR", _INDEX_KINDS)[:, 0].astype(np.int64)
         else:
@@ -276,6 +279,21 @@ def _place(file: _File, mesh: dict[str, Any], transform: npt.NDArray[np.float64]
         file.faces.append(faces + start)
 
 
+def _morphed(
+    file: _File, primitive: dict[str, Any], number: Any, weights: list[Any]
+) -> npt.NDArray[np.float64]:
+    positions = _accessor(file, number, "VEC3", tuple(_KINDS)).astype(np.float64)
+    for target, weight in zip(_list(primitive, "targets"), weights, strict=False):
+        if not isinstance(target, dict) or not isinstance(weight, (int, float)) or not abs(weight) < 1e9:
+            raise _wrong("weights")
+        if weight and "POSITION" in target:
+            change = _accessor(file, target["POSITION"], "VEC3", tuple(_KINDS))
+            if len(change) != len(positions):
+                raise _wrong("targets")
+            positions += weight * change
+    return positions
+
+
 def _triangles(corners: npt.NDArray[np.int64], mode: int) -> npt.NDArray[np.int64]:
     if mode == _TRIANGLES:
         if len(corners) % 3:
@@ -294,35 +312,62 @@ def _triangles(corners: npt.NDArray[np.int64], mode: int) -> npt.NDArray[np.int6
 def _accessor(file: _File, number: Any, shape: str, kinds: tuple[int, ...]) -> npt.NDArray[Any]:
     """Give the (n, 1) or (n, 3) numbers of an accessor."""
     accessor = _entry(file.text, "accessors", number)
-    if "sparse" in accessor:
-        raise MeshError(f"the glTF scene has sparse accessors, which are not read: {_PLAIN}.")
-    if "bufferView" not in accessor:
-        _refuse_compressed(file.text, "extensionsUsed")
-        raise MeshError("an accessor of the glTF scene has no data: export it again.")
-    kind = accessor.get("componentType")
+    kind, count = accessor.get("componentType"), _whole(accessor, "count")
     if kind not in kinds or accessor.get("type") != shape:
         raise _wrong("accessors")
-    view = _entry(file.text, "bufferViews", accessor["bufferView"])
+    width = _WIDTHS[shape]
+    if "sparse" in accessor:
+        # Some of the numbers stand in for those of the view, or for zeros.
+        values = _sparse(file, accessor["sparse"], accessor, kind, count, width)
+    elif "bufferView" in accessor:
+        values = _view(file, accessor, kind, count, width)
+    else:
+        _refuse_compressed(file.text, "extensionsUsed")
+        raise MeshError("an accessor of the glTF scene has no data: export it again.")
+    if accessor.get("normalized") is True and values.dtype.kind in "iu":
+        return np.maximum(values / float(np.iinfo(values.dtype).max), -1.0)
+    return values
+
+
+def _sparse(
+    file: _File, sparse: Any, accessor: dict[str, Any], kind: int, count: int, width: int
+) -> npt.NDArray[Any]:
+    if not isinstance(sparse, dict) or not all(
+        isinstance(sparse.get(k), dict) for k in ("indices", "values")
+    ):
+        raise _wrong("sparse")
+    # Nothing of the file bounds the count where all the rest is zero.
+    refuse_too_many(count // 3)
+    if "bufferView" in accessor:
+        dense = _view(file, accessor, kind, count, width).copy()
+    else:
+        dense = np.zeros((count, width), _KINDS[kind])
+    some, which = _whole(sparse, "count"), sparse["indices"].get("componentType")
+    if which not in _INDEX_KINDS:
+        raise _wrong("sparse")
+    rows = _view(file, sparse["indices"], which, some, 1)[:, 0]
+    if rows.max() >= count:
+        raise _wrong("sparse")
+    dense[rows] = _view(file, sparse["values"], kind, some, width)
+    return dense
+
+
+def _view(file: _File, place: dict[str, Any], kind: int, count: int, width: int) -> npt.NDArray[Any]:
+    """Give the (count, width) numbers from a place in a view of a buffer on."""
+    view = _entry(file.text, "bufferViews", place.get("bufferView"))
     if isinstance(view.get("extensions"), dict):
         _refuse_compressed({"extensions": list(view["extensions"])}, "extensions")
     content = _buffer(file, view.get("buffer"))
-    dtype, width = np.dtype(_KINDS[kind]), _WIDTHS[shape]
-    count, begin, length = (
-        _whole(accessor, "count"), _whole(view, "byteOffset", 0), _whole(view, "byteLength"),
-    )  # fmt: skip
+    dtype = np.dtype(_KINDS[kind])
+    begin, length = _whole(view, "byteOffset", 0), _whole(view, "byteLength")
     step = _whole(view, "byteStride", 0) or dtype.itemsize * width
-    offset = _whole(accessor, "byteOffset", 0)
+    offset = _whole(place, "byteOffset", 0)
     last = offset + (count - 1) * step + dtype.itemsize * width
     if count < 1 or step > 1024 or begin + length > len(content) or last > length:
         raise MeshError(
             "an accessor of the glTF scene reaches beyond its data: the file is damaged or cut short, export it again."
         )
-    values: npt.NDArray[Any] = np.ndarray(
-        (count, width), dtype, content, begin + offset, (step, dtype.itemsize)
-    )
-    if accessor.get("normalized") is True and dtype.kind in "iu":
-        return np.maximum(values / float(np.iinfo(dtype).max), -1.0)
-    return values
+    return np.ndarray((count, width), dtype, content, begin + offset, (step, dtype.itemsize))
 
 
 def _buffer(file: _File, number: int | None) -> bytes:

@@ -57,10 +57,13 @@ _RIGID = 1e-6
 _FARTHEST_MOUNT_M = 10.0
 _LARGEST_FILE = 2**29
 
+# Each takes the bytes of a whole file; facets stay in its order.
 _READERS: dict[str, Callable[[bytes], RawMesh]] = {
     ".stl": read_stl, ".ply": read_ply, ".obj": read_obj, ".off": read_off, ".3mf": read_threemf,
     ".glb": read_gltf, ".gltf": read_gltf,
 }  # fmt: skip
+
+_IN_METRES = (".glb", ".gltf")
 
 # Files of CAD programs, which hold curved surfaces and no triangles.
 _CAD = {".step": "STEP", ".stp": "STEP", ".p21": "STEP", ".iges": "IGES", ".igs": "IGES"}
@@ -88,7 +91,7 @@ class MeshFile:
     @property
     def notes(self) -> tuple[str, ...]:
         """What was repaired while it was read, and what is doubtful about its unit, in sentences."""
-        doubt = () if self.guess is None or self.guess.certain else (self.guess.reason,)
+        doubt = () if self.guess is None or self.guess.certain else (self.guess.doubt,)
         return (*self.raw.notes, *doubt)
 
 
@@ -113,7 +116,8 @@ def load_probe(
     units : {"mm", "m", "cm", "in", "auto"}
         What the file's numbers are. Most files do not say. "auto" guesses from the size and the file's comments,
         and warns where that is not certain: numbers that make a probe in inches and in centimetres, say. A 3MF file
-        states its unit, which must not differ; one of `save_probe` is in metres, whatever is given.
+        states its unit; where another is given, that counts, and is told. A file of `save_probe` is in metres,
+        whatever is given.
     mount : (4, 4) array_like, optional
         T_SP, the rigid transform from the mesh's frame P to the sensor frame S, translation in metres:
         p_S = T_SP @ p_P, after the units are converted. Left out, P is taken to be S.
@@ -130,8 +134,8 @@ def load_probe(
     ------
     MeshError
         The file is missing, not a complete mesh, or holds bad numbers; the size is under 5 mm or over 2 m
-        with these units, or with all of them; the file states other units than given; no facet has an area; the
-        mount is not rigid. The message names the file.
+        with these units, or with all of them; no facet has an area; the mount is not rigid. The message names the
+        file.
 
     Notes
     -----
@@ -180,19 +184,20 @@ def read_mesh(path: str | os.PathLike[str], units: Units | Literal["auto"] = "au
         raw, notes = _read(file)
         check_faces(raw.faces, len(raw.vertices))
         raw = _without_stray(raw)
+        _refuse_not_finite(raw.vertices)
         check_vertices(raw.vertices)
-        return _with_units(raw, notes, units)
+        return _with_units(raw, notes, units, "m" if file.suffix.lower() in _IN_METRES else None)
     except MeshError as error:
         raise MeshError(f"{file}: {error}") from error
 
 
-def _with_units(raw: RawMesh, notes: bytes, units: Units | Literal["auto"]) -> MeshFile:
-    if raw.stated is not None and not raw.settled and units not in (raw.stated, "auto"):
-        raise MeshError(
-            f"the file states that its numbers are {NAMES[raw.stated]}, but units={units!r} was given: pass"
-            f" {raw.stated!r} or 'auto'."
-        )
-    if units != "auto" and raw.stated is None:
+def _with_units(
+    raw: RawMesh, notes: bytes, units: Units | Literal["auto"], defined: Units | None
+) -> MeshFile:
+    if units != "auto" and not raw.settled:
+        if raw.stated not in (None, units):
+            told = f"The file states {NAMES[raw.stated]}, but {NAMES[units]} were asked for and are used."
+            raw = replace(raw, notes=(*raw.notes, told))
         return MeshFile(raw, None, units)
     used = raw.vertices[raw.faces.ravel()]
     guess = guess_units(
@@ -200,8 +205,20 @@ def _with_units(raw: RawMesh, notes: bytes, units: Units | Literal["auto"]) -> M
         notes=notes,
         farthest=float(np.abs(used).max()),
         stated=raw.stated,
+        defined=defined,
     )
     return MeshFile(raw, guess, guess.units)
+
+
+def _refuse_not_finite(vertices: npt.NDArray[np.float64]) -> None:
+    bad: npt.NDArray[np.bool_] = ~np.all(np.isfinite(vertices), axis=1)
+    if bad.any():
+        row, count = int(np.argmax(bad)), np.count_nonzero(bad)
+        place = ", ".join(f"{value:g}" for value in vertices[row])
+        all_ = f"1 of {len(bad)} vertices is" if count == 1 else f"{count} of {len(bad)} vertices are"
+        raise MeshError(
+            f"vertex {row + 1} is ({place}); {all_} not finite. Repair the file or export it again."
+        )
 
 
 def _without_stray(raw: RawMesh) -> RawMesh:
@@ -348,7 +365,7 @@ def _check_units(size: float, units: Units) -> None:
         low, high = LIKELY_M
         likely = [unit for unit in NAMES if unit != units and low <= in_metres(size, unit) <= high]
         if not likely:
-            return f"with units={units!r} that cannot be a probe. Check the part that was exported."
-        return f"did the file hold {NAMES[likely[0]]}? pass units={likely[0]!r} instead of {units!r}."
+            return f"no probe has that size in {NAMES[units]}. Check the part that was exported."
+        return f"are the numbers {NAMES[likely[0]]}? Give --units {likely[0]} instead of {units}."
 
     refuse_size(in_metres(size, units), remedy)

@@ -7,7 +7,7 @@ import re
 from array import array
 
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, decimal_points, plain_text, points
+from contactbench.pipeline.mesh.parse import NUMBER, RawMesh, broken, decimal_points, plain_text, points
 from contactbench.pipeline.mesh.polygons import Polygons
 
 _POSITION = re.compile(rb"v" + (rb"\s+(" + NUMBER + rb")") * 3 + rb"(?!\S)")
@@ -21,16 +21,6 @@ def read_obj(data: bytes) -> RawMesh:
 
     Materials, textures, normals, colours, weights, lines, points and files that the text refers to are not looked
     at.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the file's order.
 
     Raises
     ------
@@ -56,8 +46,10 @@ def read_obj(data: bytes) -> RawMesh:
 def _position(line: bytes, number: int) -> tuple[bytes, ...]:
     match = _POSITION.match(line)
     if match is None:
-        raise MeshError(
-            f"line {number} of the OBJ text is a vertex without three numbers: export the file again."
+        raise broken(
+            f"line {number} of the OBJ text",
+            line,
+            f"line {number} of the OBJ text is a vertex without three numbers: export the file again.",
         )
     return match.groups()
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import io
 import re
 from array import array
+from contextlib import suppress
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
     RawMesh,
+    broken,
     decimal_points,
     plain_text,
     points,
@@ -35,16 +38,6 @@ def read_off(data: bytes) -> RawMesh:
 
     Colours, normals, texture coordinates, comments and what follows the last facet are not looked at.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the file's order.
-
     Raises
     ------
     MeshError
@@ -52,24 +45,36 @@ def read_off(data: bytes) -> RawMesh:
         vertex that does not exist.
     """
     text, notes = decimal_points(plain_text(data), _NUMBERS)
+    try:
+        return _read(text, notes)
+    except MeshError:
+        laid_out = _one_a_row(text)
+        if laid_out is not None:
+            # What is wrong with it is told of the lines of the file.
+            with suppress(MeshError):
+                return _read(laid_out, notes)
+        raise
+
+
+def _read(text: bytes, notes: tuple[str, ...]) -> RawMesh:
     rows = _rows(text)
     vertex_count, facet_count = _head(rows)
     refuse_too_many(facet_count)
     # A row takes two bytes at least: an absurd count is refused before anything is made of it.
-    if 2 * (vertex_count + facet_count) > len(data):
+    if 2 * (vertex_count + facet_count) > len(text):
         raise _too_short(vertex_count, facet_count)
     coordinates, polygons = array("d"), Polygons("OFF")
     for _ in range(vertex_count):
         number, row = next(rows, (0, b""))
         match = _THREE.match(row)
         if match is None:
-            raise _bad_row(number, "a vertex of three numbers", vertex_count, facet_count)
+            raise _bad_row(number, row, "a vertex of three numbers", vertex_count, facet_count)
         coordinates.extend(map(float, match.groups()))
     for _ in range(facet_count):
         number, row = next(rows, (0, b""))
         polygon = _polygon(row)
         if polygon is None:
-            raise _bad_row(number, "a facet that lists its vertices", vertex_count, facet_count)
+            raise _bad_row(number, row, "a facet that lists its vertices", vertex_count, facet_count)
         polygons.add(polygon, number)
     number, row = next(rows, (0, b""))
     if _polygon(row):
@@ -90,6 +95,29 @@ def _rows(text: bytes) -> Iterator[tuple[int, bytes]]:
         row = raw.partition(b"#")[0].strip()
         if row:
             yield number, row
+
+
+def _one_a_row(text: bytes) -> bytes | None:
+    """Lay out numbers that stand on other lines than usual; None unless they are just as many as announced."""
+    words = (word for _, row in _rows(text) for word in row.split())
+    head = list(islice(words, 4))
+    if len(head) < 4 or head[0].upper() != b"OFF" or not all(map(_COUNT.fullmatch, head[1:])):
+        return None
+    vertex_count, facet_count = int(head[1]), int(head[2])
+    out = bytearray(b" ".join(head) + b"\n")
+    for number in range(vertex_count + facet_count):
+        size = 3
+        if number >= vertex_count:
+            first = next(words, b"")
+            if _COUNT.fullmatch(first) is None:
+                return None
+            out += first + b" "
+            size = int(first)
+        row = list(islice(words, size))
+        if len(row) != size:
+            return None
+        out += b" ".join(row) + b"\n"
+    return bytes(out) if next(words, None) is None else None
 
 
 def _head(rows: Iterator[tuple[int, bytes]]) -> tuple[int, int]:
@@ -126,10 +154,14 @@ def _polygon(row: bytes) -> list[int] | None:
     return [int(corner) for corner in corners]
 
 
-def _bad_row(number: int, what: str, vertex_count: int, facet_count: int) -> MeshError:
+def _bad_row(number: int, row: bytes, what: str, vertex_count: int, facet_count: int) -> MeshError:
     if not number:
         return _too_short(vertex_count, facet_count)
-    return MeshError(f"line {number} of the OFF text is not {what}: it is damaged, export it again.")
+    return broken(
+        f"line {number} of the OFF text",
+        row,
+        f"line {number} of the OFF text is not {what}: it is damaged, export it again.",
+    )
 
 
 def _too_short(vertex_count: int, facet_count: int) -> MeshError:

@@ -31,6 +31,7 @@ LARGEST_FACETS = 4_000_000
 NUMBER = rb"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|(?i:nan|inf(?:inity)?))"
 
 _COMMA_NUMBER = re.compile(rb"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+_COMMA = re.compile(rb"[+-]?[\d.]*,[\d.,]*(?:[eE][+-]?\d+)?")
 # One thousand two hundred, or 1.2 with three decimals: nobody can tell.
 _THOUSANDS = re.compile(rb"[+-]?[1-9]\d{0,2},\d{3}")
 
@@ -110,6 +111,17 @@ def decimal_points(text: bytes, row: re.Pattern[bytes]) -> tuple[bytes, tuple[st
         return text, ()
     note = "The file's numbers have decimal commas, which were read as decimal points."
     return row.sub(lambda found: found.group().replace(b",", b"."), text), (note,)
+
+
+def broken(where: str, row: bytes, why: str) -> MeshError:
+    """Say why a row of text cannot be read; its commas, where it has any, are the cause."""
+    comma = next((word.decode("latin-1")[:20] for word in row.split() if _COMMA.fullmatch(word)), None)
+    if comma is None:
+        return MeshError(why)
+    return MeshError(
+        f"{where} has the number {comma!r}, whose comma may stand for a decimal point or set thousands apart: export"
+        " the file again with decimal points."
+    )
 
 
 def points(coordinates: array[float]) -> npt.NDArray[np.float64]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from contactbench.pipeline.mesh.parse import RawMesh
 from contactbench.pipeline.mesh.ply_body import read_binary, read_text
-from contactbench.pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, read_header
+from contactbench.pipeline.mesh.ply_header import SETTLED, UNTOUCHABLE, ignored, read_header
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -23,16 +23,6 @@ def read_ply(data: bytes) -> RawMesh:
     """
     Read the content of a PLY file; polygons become triangles that share their polygon's region.
 
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the file's order.
-
     Raises
     ------
     MeshError
@@ -40,16 +30,26 @@ def read_ply(data: bytes) -> RawMesh:
     """
     header = read_header(data)
     body = read_binary(header, data) if header.order else read_text(header, data)
+    labels, notes = body.labels, header.notes + body.notes
+    if not header.settled:
+        foreign = [name for name, values in labels.items() if not _may_be_ours(name, values)]
+        labels = {name: values for name, values in labels.items() if name not in foreign}
+        notes += tuple(map(ignored, foreign))
     return RawMesh(
         body.vertices,
         body.faces,
-        body.labels.get("region"),
+        labels.get("region"),
         settled=header.settled,
-        invented=body.labels.get("invented"),
+        invented=labels.get("invented"),
         stated="m" if header.settled else None,
         untouchable=header.untouchable,
-        notes=body.notes,
+        notes=notes,
     )
+
+
+def _may_be_ours(name: str, values: npt.NDArray[np.int64]) -> bool:
+    most = np.iinfo(np.int32).max if name == "region" else 1
+    return bool(((values >= 0) & (values <= most)).all())
 
 
 def encode_ply(

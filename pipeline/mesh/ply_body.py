@@ -7,13 +7,21 @@ import re
 import struct
 from array import array
 from dataclasses import dataclass
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.parse import NUMBER, decimal_points, plain_text, points, refuse_too_many
-from contactbench.pipeline.mesh.ply_header import INDICES, INTEGERS, KINDS, STRIPS
+from contactbench.pipeline.mesh.parse import (
+    NUMBER,
+    broken,
+    decimal_points,
+    plain_text,
+    points,
+    refuse_too_many,
+)
+from contactbench.pipeline.mesh.ply_header import INDICES, INTEGERS, KINDS, LABELS, STRIPS
 from contactbench.pipeline.mesh.polygons import strip_triangles, triangulate
 
 if TYPE_CHECKING:
@@ -21,10 +29,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.ply_header import Element, Header
-
-# Integers per facet that have a meaning here.
-LABELS = ("region", "invented")
+    from contactbench.pipeline.mesh.ply_header import Element, Header, Property
 
 _ONE_NUMBER = re.compile(NUMBER)
 _ONE_INTEGER = re.compile(rb"[+-]?\d{1,18}")
@@ -288,7 +293,10 @@ def read_text(header: Header, data: bytes) -> Body:
         Fewer rows than announced, or a row that does not hold the numbers it should.
     """
     body, notes = decimal_points(plain_text(data[header.length :]), _ROW)
-    rows, announced = sum(1 for _ in _rows(body)), sum(element.count for element in header.elements)
+    announced = sum(element.count for element in header.elements)
+    rows = sum(1 for _ in _rows(body))
+    if rows != announced and (laid_out := _one_a_row(header, body)) is not None:
+        body, rows = laid_out, announced
     if rows < announced:
         raise MeshError(
             f"the PLY header announces {header.contents}, but {rows} rows follow it: the file is cut short or"
@@ -317,6 +325,7 @@ def read_text(header: Header, data: bytes) -> Body:
                     labels[name].extend(map(int, fields.get(name, ())))
                 facets += max(len(fields[INDICES]) - 2, 0)
                 refuse_too_many(facets)
+        notes += fields_of.notes
     present = {name: np.frombuffer(values, np.int64) for name, values in labels.items() if values}
     lists = _Lists(np.frombuffer(corners, np.int64), np.frombuffer(sizes, np.int64))
     return _body(points(coordinates), lists, present, strips, notes)
@@ -326,11 +335,40 @@ def _rows(body: bytes) -> Iterator[bytes]:
     return (row for row in io.BytesIO(body) if not row.isspace())
 
 
+def _one_a_row(header: Header, body: bytes) -> bytes | None:
+    """Lay out rows that stand on other lines than usual; None unless the numbers are just as many as announced."""
+    words = (word for row in _rows(body) for word in row.split())
+    out = bytearray()
+    for element in header.elements:
+        for _ in range(element.count):
+            row: list[bytes] = []
+            for prop in element.properties:
+                length = 1
+                if prop.count_kind:
+                    row += islice(words, 1)
+                    if not row or not _ONE_INTEGER.fullmatch(row[-1]):
+                        return None
+                    length = max(int(row[-1]), 0)
+                before = len(row)
+                row += islice(words, length)
+                if len(row) - before != length:
+                    return None
+            out += b" ".join(row) + b"\n"
+    return bytes(out) if next(words, None) is None else None
+
+
+def _is_integer(prop: Property) -> bool:
+    """Whether only an integer will do in a text: numbers that nobody looks at may be written in any way."""
+    return prop.kind in INTEGERS and prop.name in (INDICES, *LABELS)
+
+
 class _RowReader:
     """Numbers per property of one text row after another, triangles quickly."""
 
     def __init__(self, element: Element) -> None:
         self._element = element
+        # A row with a list may be as long as one that is damaged.
+        self._surplus = 0 if any(prop.count_kind for prop in element.properties) else None
         self._places: dict[str, slice] = {}
         self._quick: re.Pattern[bytes] | None = None
         parts: list[bytes] = []
@@ -339,7 +377,7 @@ class _RowReader:
             if prop.count_kind and prop.name != INDICES:
                 return
             length = 3 if prop.count_kind else 1
-            number = rb"([+-]?\d{1,18})" if prop.kind in INTEGERS else rb"(" + NUMBER + rb")"
+            number = rb"([+-]?\d{1,18})" if _is_integer(prop) else rb"(" + NUMBER + rb")"
             parts += [rb"3"] * bool(prop.count_kind) + [number] * length
             self._places[prop.name] = slice(place, place + length)
             place += length
@@ -347,14 +385,32 @@ class _RowReader:
 
     def __call__(self, row: bytes, number: int) -> dict[str, Sequence[bytes]]:
         match = self._quick and self._quick.fullmatch(row)
-        if match:
+        if match and not self._surplus:
+            self._surplus = 0
             groups = match.groups()
             return {name: groups[place] for name, place in self._places.items()}
-        return _fields(self._element, row.split(), number)
+        words = row.split()
+        fields, used = _fields(self._element, words, number)
+        if self._surplus is None:
+            self._surplus = len(words) - used
+        # As many in every row are a column that the header forgot; in one row they are damage.
+        if self._surplus != len(words) - used:
+            raise _bad_row(self._element, words, number)
+        return fields
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was left out, in sentences."""
+        if not self._surplus:
+            return ()
+        name, count = self._element.name, self._surplus
+        return (
+            f"Rows of the PLY element '{name}' end in numbers that the header lacks; left out (a row: {count}).",
+        )
 
 
-def _fields(element: Element, row: list[bytes], number: int) -> dict[str, Sequence[bytes]]:
-    """Numbers per property of one text row."""
+def _fields(element: Element, row: list[bytes], number: int) -> tuple[dict[str, Sequence[bytes]], int]:
+    """Numbers per property of one text row, and how many of its words they take."""
     fields: dict[str, Sequence[bytes]] = {}
     position = 0
     for prop in element.properties:
@@ -362,22 +418,22 @@ def _fields(element: Element, row: list[bytes], number: int) -> dict[str, Sequen
         if prop.count_kind:
             counted = row[position : position + 1]
             if not counted or not _ONE_INTEGER.fullmatch(counted[0]):
-                raise _bad_row(element, number)
+                raise _bad_row(element, row, number)
             length = int(counted[0])
             position += 1
         values = row[position : position + max(length, 0)]
         position += length
-        pattern = _ONE_INTEGER if prop.kind in INTEGERS else _ONE_NUMBER
+        pattern = _ONE_INTEGER if _is_integer(prop) else _ONE_NUMBER
         if len(values) != length or not all(map(pattern.fullmatch, values)):
-            raise _bad_row(element, number)
+            raise _bad_row(element, row, number)
         fields[prop.name] = values
-    if position != len(row):
-        raise _bad_row(element, number)
-    return fields
+    return fields, position
 
 
-def _bad_row(element: Element, number: int) -> MeshError:
-    return MeshError(
+def _bad_row(element: Element, row: list[bytes], number: int) -> MeshError:
+    return broken(
+        f"row {number} of the PLY element '{element.name}'",
+        b" ".join(row),
         f"row {number} of the PLY element '{element.name}' does not hold the numbers that the header"
-        " announces: the file is damaged, export it again."
+        " announces: the file is damaged, export it again.",
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from contactbench.pipeline.mesh.errors import MeshError
 
@@ -14,6 +14,9 @@ SETTLED = "contactbench probe 1"
 UNTOUCHABLE = "untouchable regions"
 
 INDICES = "vertex_indices"
+
+# Integers per facet that have a meaning here.
+LABELS = ("region", "invented")
 
 # Strips of triangles, each ended by -1, take the place of the facets in files of some scanners.
 STRIPS = "tristrips"
@@ -81,6 +84,8 @@ class Header:
         Bytes of the header; the body follows.
     untouchable : tuple of int
         Regions that nothing can touch; only of a file that `save_probe` wrote.
+    notes : tuple of str
+        What was left out, in sentences.
     """
 
     order: str
@@ -88,6 +93,7 @@ class Header:
     settled: bool
     length: int
     untouchable: tuple[int, ...] = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def contents(self) -> str:
@@ -127,7 +133,7 @@ def read_header(data: bytes) -> Header:
     elements: list[tuple[str, int, list[Property]]] = []
     for number, line in enumerate(lines, start=2):
         match line.split():
-            case ["format", kind, "1.0"] if kind in ORDERS:
+            case ["format", kind, "1.0" | "1.1"] if kind in ORDERS:
                 order = ORDERS[kind]
             case ["element", name, count] if re.fullmatch("[0-9]{1,18}", count):
                 elements.append((name, int(count), []))
@@ -146,9 +152,42 @@ def read_header(data: bytes) -> Header:
     if order is None:
         raise MeshError("the PLY header has no 'format' line: the file is damaged, export it again.")
     # Elements without rows take no bytes.
-    rows = tuple(Element(name, count, tuple(columns)) for name, count, columns in elements if count)
+    rows = tuple(Element(name, count, _told_apart(columns)) for name, count, columns in elements if count)
+    notes: list[str] = []
+    if not settled:
+        rows = tuple(_without_labels(element, notes) for element in rows)
     _check(rows)
-    return Header(order, rows, settled, end.end(), tuple(sorted(untouchable)))
+    return Header(order, rows, settled, end.end(), tuple(sorted(untouchable)), tuple(notes))
+
+
+def ignored(label: str) -> str:
+    """Say that a property of somebody else's file, which has the name of one of ours, is left alone."""
+    return f"The PLY face property '{label}' does not hold what contactbench writes there, and was ignored."
+
+
+def _told_apart(columns: list[Property]) -> tuple[Property, ...]:
+    """Name properties anew that have the name of one before and mean nothing here."""
+    names = [column.name for column in columns]
+    return tuple(
+        replace(column, name=f"{column.name} {place}")
+        if column.name in names[:place] and column.name not in (*"xyz", INDICES, *LABELS)
+        else column
+        for place, column in enumerate(columns)
+    )
+
+
+def _without_labels(element: Element, notes: list[str]) -> Element:
+    """Name facet properties anew that cannot be labels of ours, and say so."""
+    columns = list(element.properties)
+    for place, column in enumerate(columns):
+        if element.name == "face" and column.name in LABELS and not _is_label(column):
+            columns[place] = replace(column, name=f"{column.name} {place}")
+            notes.append(ignored(column.name))
+    return replace(element, properties=tuple(columns))
+
+
+def _is_label(column: Property) -> bool:
+    return column.count_kind is None and column.kind in INTEGERS
 
 
 def _are_ranks(words: list[str]) -> bool:
@@ -189,12 +228,12 @@ def _check(elements: tuple[Element, ...]) -> None:
         raise MeshError("the PLY file holds no facets (a point cloud?): export it again as a surface.")
     if not corners.count_kind or corners.kind not in INTEGERS:
         raise MeshError("the PLY property 'vertex_indices' is not a list of integers: export the file again.")
-    for name in ("region", "invented"):
+    for name in LABELS:
         _check_label(facets.get(name))
 
 
 def _check_label(prop: Property | None) -> None:
-    if prop is not None and (prop.count_kind or prop.kind not in INTEGERS):
+    if prop is not None and not _is_label(prop):
         use = "0 for no region, 1 for the first priority" if prop.name == "region" else "0 or 1"
         raise MeshError(
             f"the PLY face property '{prop.name}' is {'a list' if prop.count_kind else prop.kind}: save it as"

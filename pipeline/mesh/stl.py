@@ -12,6 +12,7 @@ from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import (
     NUMBER,
     RawMesh,
+    broken,
     decimal_points,
     plain_text,
     points,
@@ -23,17 +24,25 @@ if TYPE_CHECKING:
 
 _HEADER, _RECORD = 84, 50
 
+# Other bytes than facets, taken as numbers, are far larger than a part's.
+_ALIKE = 100
+
 # Normal and attribute bytes are left alone: the corners alone say what the facet is.
 _FACET_RECORD = np.dtype([("normal", "<f4", (3,)), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
 _VERTEX = rb"\s+vertex" + (rb"\s+(" + NUMBER + rb")") * 3
 # The normal may be anything, or not there; usually the line ends after it.
 _FACET = re.compile(
-    rb"facet\b(?:[^\n]*\n|(?:\s+[^\s]+){0,4}?\s)\s*outer\s+loop" + _VERTEX * 3 + rb"\s+endloop\s+endfacet\b",
+    rb"facet\b(?:[^\n]*\n|(?:\s+[^\s]+){0,4}?\s)\s*outer\s*loop"
+    + _VERTEX * 3
+    # Some programs write a colour there.
+    + rb"\s+endloop(?:\s+color(?:\s+"
+    + NUMBER
+    + rb"){3,4})?\s+endfacet\b",
     re.I,
 )
 # A name may be any words, so its line is left out, unless the first facet stands on it too.
-_NAME = re.compile(rb"^[ \t]*(end)?solid\b(?![^\n]*\bouter[ \t]+loop\b)[^\n]*", re.I | re.M)
+_NAME = re.compile(rb"^[ \t]*(end)?solid\b(?![^\n]*\bouter[ \t]*loop\b)[^\n]*", re.I | re.M)
 _KEYWORD = re.compile(rb"\bfacet\b", re.I)
 _NUMBERS = re.compile(rb"(?<=vertex)\b[^\n]*", re.I)
 
@@ -41,16 +50,6 @@ _NUMBERS = re.compile(rb"(?<=vertex)\b[^\n]*", re.I)
 def read_stl(data: bytes) -> RawMesh:
     """
     Read the content of an STL file; several solids become one mesh.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Three vertices of its own per facet, as the format has it.
 
     Raises
     ------
@@ -65,16 +64,36 @@ def read_stl(data: bytes) -> RawMesh:
     text = plain_text(data)
     # Some programs fill the last block of a text with zeros.
     text = text.rstrip(b"\0\x1a \t\n") + b"\n"
-    if text.lstrip()[:5].lower() == b"solid" and b"\0" not in text:
+    # Some programs leave out the line with the name.
+    if text.lstrip()[:5].lower() in (b"solid", b"facet") and b"\0" not in text:
         return _read_text(text)
     whole, extra = divmod(len(data) - _HEADER, _RECORD)
     if announced == 0 and whole > 0 and extra == 0:
         note = f"The STL header announces no facets; the file has room for {whole}, which were read."
         return _read_binary(data, whole, (note,))
     if announced > 0 and end < len(data):
+        more = _whole_facets(data, announced)
+        if more:
+            note = (
+                f"The STL header announces {announced} facets, but {more} more whole facets follow, which were read"
+                " too. Check that nothing of the part is missing."
+            )
+            return _read_binary(data, announced + more, (note,))
         note = f"Bytes after the last facet of the STL file were left out (bytes: {len(data) - end})."
         return _read_binary(data, announced, (note,))
     raise _broken_binary(data)
+
+
+def _whole_facets(data: bytes, announced: int) -> int:
+    """Count the facets that follow those announced; 0 where what follows is something else, such as zeros or words."""
+    count = (len(data) - _HEADER) // _RECORD
+    with np.errstate(invalid="ignore", over="ignore"):
+        corners = np.frombuffer(data, _FACET_RECORD, count, _HEADER)["corners"].astype(np.float64)
+        known, more = np.split(corners, [announced])
+        a, b, c = np.moveaxis(more, 1, 0)
+        flat = ~(np.cross(b - a, c - a) != 0).any(axis=1)
+        alike = np.abs(more) <= _ALIKE * np.abs(known).max()
+    return len(more) if len(more) and alike.all() and not flat.all() else 0
 
 
 def _read_binary(data: bytes, facet_count: int, notes: tuple[str, ...] = ()) -> RawMesh:
@@ -130,13 +149,16 @@ def _read_text(text: bytes) -> RawMesh:
 
 def _broken_facet(text: bytes, ended: bool) -> MeshError:
     keywords = _KEYWORD.finditer(text)
-    broken = next((found for found in keywords if not _FACET.match(text, found.start())), None)
-    if broken is None:
+    wrong = next((found for found in keywords if not _FACET.match(text, found.start())), None)
+    if wrong is None:
         return MeshError("the STL text holds facets within facets: export the file again.")
     if not ended and next(keywords, None) is None:
         return MeshError("the STL text ends within a facet: it is cut short, copy or export it again.")
-    line = text.count(b"\n", 0, broken.start()) + 1
-    return MeshError(
+    line = text.count(b"\n", 0, wrong.start()) + 1
+    end = text.lower().find(b"endfacet", wrong.end())
+    return broken(
+        f"the facet on line {line} of the STL text",
+        text[wrong.start() : end if end >= 0 else None],
         f"the facet on line {line} of the STL text is not three 'vertex x y z'"
-        " between 'outer loop' and 'endloop': repair that facet or export the file again."
+        " between 'outer loop' and 'endloop': repair that facet or export the file again.",
     )

@@ -11,7 +11,7 @@ import io
 import zipfile
 import zlib
 from array import array
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -20,12 +20,21 @@ from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.parse import RawMesh, points, refuse_too_many
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     import numpy.typing as npt
 
     from contactbench.pipeline.mesh.units import Units
 
 _MODEL = "3d/3dmodel.model"
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/"
+
+# What an extension adds that a model requires is part of its shape, but for these: parts in several models, colours,
+# and names for triangles.
+_READ = ("/3dmanufacturing/production/", "/3dmanufacturing/material/", "/3dmanufacturing/trianglesets/")
+
+# Objects of these types carry the part while it is printed, and are broken off.
+_SUPPORTS = ("support", "solidsupport")
 
 # Models shrink to a tenth; a file that grows more than this is made to fill a memory.
 _MOST_GROWTH = 100
@@ -59,6 +68,7 @@ class _Placed:
 
 @dataclass
 class _Object:
+    kind: str
     coordinates: array[float] = field(default_factory=lambda: array("d"))
     corners: array[int] = field(default_factory=lambda: array("q"))
     components: list[_Placed] = field(default_factory=list)
@@ -70,6 +80,8 @@ class _Model:
     objects: dict[str, _Object] = field(default_factory=dict)
     items: list[_Placed] = field(default_factory=list)
     current: _Object | None = None
+    spaces: dict[str, str] = field(default_factory=dict)
+    unprinted: int = 0
 
 
 @dataclass
@@ -80,6 +92,7 @@ class _Package:
     entries: dict[str, zipfile.ZipInfo]
     left: int
     models: dict[str, _Model] = field(default_factory=dict)
+    supports: int = 0
 
     def model(self, path: str) -> _Model:
         key = _key(path)
@@ -92,22 +105,14 @@ def read_threemf(data: bytes) -> RawMesh:
     """
     Read the content of a 3MF file: every item of its build, placed as the build says, as one mesh.
 
-    Materials, colours, beams and slices are not looked at.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-
-    Returns
-    -------
-    RawMesh
-        Facets in the order of the build; `stated` is the unit.
+    Supports and items that are not to be printed are left out, which is told. Materials, colours, and beams and slices
+    that the file does not require, are not looked at.
 
     Raises
     ------
     MeshError
-        Not a 3MF archive, damaged, unpacking to more than it may, or without facets.
+        Not a 3MF archive, damaged, unpacking to more than it may, without facets, or with an extension required that is
+        not read.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -140,7 +145,20 @@ def _build(package: _Package) -> RawMesh:
     for item in model.items:
         _collect(package, root, item, (np.eye(3), np.zeros(3)), copies, depth=0)
     refuse_too_many(sum(len(part.corners) // 3 for part, _ in copies))
-    return _join(copies, model.unit)
+    return replace(_join(copies, model.unit), notes=tuple(_notes(package, model)))
+
+
+def _notes(package: _Package, model: _Model) -> Iterator[str]:
+    if package.supports:
+        yield f"Supports of the 3MF file were left out (objects: {package.supports})."
+    if model.unprinted:
+        yield f"Items that the 3MF file does not print were left out (items: {model.unprinted})."
+    others = sorted({other.unit for other in package.models.values()} - {model.unit})
+    if others:
+        yield (
+            f"Parts of the 3MF file state another unit ({', '.join(others)[:_QUOTED]}) than its build ({model.unit}),"
+            " whose unit was used for all: check their size."
+        )
 
 
 def _parse(package: _Package, path: str) -> _Model:
@@ -150,6 +168,9 @@ def _parse(package: _Package, path: str) -> _Model:
     model = _Model()
     parser = expat.ParserCreate(namespace_separator="\n")
     parser.StartDoctypeDeclHandler = _refuse_doctype
+    parser.StartNamespaceDeclHandler = lambda prefix, space: model.spaces.setdefault(
+        prefix or "", space or ""
+    )
     parser.StartElementHandler = lambda name, attributes: _start(model, name, attributes)
     with package.archive.open(_entry(package, path)) as stream:
         try:
@@ -216,18 +237,33 @@ def _element(model: _Model, tag: str, attributes: dict[str, str]) -> None:
     match tag:
         case "model":
             model.unit = attributes.get("unit", "millimeter").lower()
+            _refuse_required(model, attributes.get("requiredextensions", ""))
         case "object":
-            model.current = model.objects.setdefault(attributes["id"], _Object())
+            model.current = model.objects.setdefault(
+                attributes["id"], _Object(attributes.get("type", "model"))
+            )
         case "vertex" if model.current:
             model.current.coordinates.extend(float(attributes[axis]) for axis in "xyz")
         case "triangle" if model.current:
             model.current.corners.extend(int(attributes[corner]) for corner in ("v1", "v2", "v3"))
         case "component" if model.current:
             model.current.components.append(_placed(attributes))
+        case "item" if attributes.get("printable") in ("0", "false"):
+            model.unprinted += 1
         case "item":
             model.items.append(_placed(attributes))
         case _:
             pass
+
+
+def _refuse_required(model: _Model, prefixes: str) -> None:
+    for prefix in prefixes.split():
+        space = model.spaces.get(prefix, prefix)
+        if not any(known in space for known in _READ):
+            raise MeshError(
+                f"the 3MF file needs the extension {space[:_QUOTED]!r}, which is not read: export the part as plain"
+                " triangles, as 3MF or STL."
+            )
 
 
 def _placed(attributes: dict[str, str]) -> _Placed:
@@ -255,6 +291,9 @@ def _collect(
     part = package.model(model).objects.get(placed.name)
     if part is None:
         raise MeshError(f"the 3MF model places the object {placed.name[:40]!r}, which it does not hold.")
+    if part.kind in _SUPPORTS:
+        package.supports += 1
+        return
     (A, t), (B, s) = above, placed.transform
     transform = (B @ A, s @ A + t)
     copies.append((part, transform))

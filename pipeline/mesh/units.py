@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import LARGEST_M, SMALLEST_M
@@ -24,20 +24,21 @@ _USUAL: tuple[Units, ...] = ("mm", "m", "cm", "in")
 LIKELY_M = (0.03, 0.6)
 _TYPICAL_M = 0.07
 
-# Metres up to which a thing of that extent is called so.
-_CALLED = (
-    (0.0005, "a speck of dust"), (0.005, "a grain of rice"), (0.03, "a button"), (0.6, "a probe"),
-    (2.0, "a table"), (6.0, "a car"), (200.0, "a house"), (1000.0, "a street"), (float("inf"), "a town"),
-)  # fmt: skip
+_NAMED: dict[Units, str] = {
+    "mm": r"mm|millimet(?:er|re)s?", "cm": r"cm|centimet(?:er|re)s?", "in": r"inch(?:es)?", "m": r"met(?:er|re)s?",
+}  # fmt: skip
+_WORD = "|".join(_NAMED.values())
 
-_WORDS = (
-    ("mm", rb"mm|millimet(?:er|re)s?"),
-    ("cm", rb"cm|centimet(?:er|re)s?"),
-    ("in", rb"inch(?:es)?"),
-    ("m", rb"met(?:er|re)s?"),
-)
-# "in" and "m" alone are a word and a letter, so they count only where a unit is announced.
-_ANNOUNCED = re.compile(rb"\b(?:file[ _-]?)?units?[ \t]*(?:[:=]|\bis\b|\bare\b)?[ \t]*(mm|cm|m|in)\b", re.I)
+# A unit in a comment may be that of a tolerance or a screw: only a declaration tells what the numbers are. "in" and "m"
+# alone are a word and a letter, so they count only right after it.
+_DECLARED = re.compile(
+    r"(?<![a-z])(?:(?:length|linear|file)[ _-]?)?units?(?:[ _-]of[ _-](?:length|measure(?:ment)?))?"
+    r"(?:[ \t]*[:=(][ \t]*|[ \t]+(?:is|are)[ \t]+(?:in[ \t]+)?|[ \t]+in[ \t]+|[ \t]+)"
+    rf"({_WORD}|(?:m|in)(?![ \t]*[a-z0-9]))(?![a-z])"
+    r"|(?<![a-z])(?:exported|saved|written|modelled|drawn|lengths?|dimensions?|coordinates?|vertices|numbers|values)"
+    rf"[ \t]+(?:is[ \t]+|are[ \t]+)?(?:given[ \t]+)?in[ \t]+({_WORD})(?![a-z])",
+    re.I | re.ASCII,
+)  # fmt: skip
 _NOTED = 2**16
 
 
@@ -56,12 +57,25 @@ class UnitGuess:
         In sentences; where not certain they end in the question.
     alternatives : tuple of units
         Others that are possible, the more usual first.
+    usual : tuple of units
+        Those that make a probe of usual size. More than one, and not certain: nobody but the user can tell.
     """
 
     units: Units
     certain: bool
     reason: str
     alternatives: tuple[Units, ...]
+    usual: tuple[Units, ...] = ()
+
+    @property
+    def doubt(self) -> str:
+        """What to say to whoever goes on with the guess; empty where it is certain."""
+        return "" if self.certain else f"{self.reason} {NAMES[self.units].capitalize()} are assumed."
+
+    @property
+    def must_be_given(self) -> bool:
+        """Whether several units are as likely, so that a probe must not be made of a guess."""
+        return not self.certain and len(self.usual) > 1
 
 
 def notes_in(data: bytes, suffix: str) -> bytes:
@@ -73,8 +87,7 @@ def notes_in(data: bytes, suffix: str) -> bytes:
     data : bytes
         The whole file.
     suffix : str
-        ".stl", ".ply", ".obj" or ".off"; another has no such part. ".glb" and ".gltf" are in metres by their
-        format, which many programs forget.
+        ".stl", ".ply", ".obj" or ".off"; another has no such part.
 
     Returns
     -------
@@ -90,14 +103,17 @@ def notes_in(data: bytes, suffix: str) -> bytes:
             return b"\n".join(re.findall(rb"^(?:comment|obj_info)\b(.*)$", header, re.M))
         case ".obj" | ".off":
             return b"\n".join(re.findall(rb"#(.*)", head))
-        case ".glb" | ".gltf":
-            return b"unit: m"
         case _:
             return b""
 
 
 def guess_units(
-    span: float, *, notes: bytes = b"", farthest: float = 0.0, stated: Units | None = None
+    span: float,
+    *,
+    notes: bytes = b"",
+    farthest: float = 0.0,
+    stated: Units | None = None,
+    defined: Units | None = None,
 ) -> UnitGuess:
     """
     Guess the unit of a mesh file's numbers.
@@ -111,7 +127,9 @@ def guess_units(
     farthest : float
         Largest absolute coordinate in the file's numbers: a probe lies within some metres of its origin.
     stated : {"mm", "m", "cm", "in"}, optional
-        The unit that the format itself states.
+        The unit that the file itself states.
+    defined : {"mm", "m", "cm", "in"}, optional
+        The unit that every file of the format should have, which many programs forget.
 
     Returns
     -------
@@ -130,24 +148,30 @@ def guess_units(
             f"the numbers span {span:.4g}, which is no probe in millimetres, metres, centimetres or inches (5 mm"
             " to 2 m). Check the part that was exported."
         )
-    noted = _noted(notes)
-    if noted in possible:
-        others = tuple(unit for unit in possible if unit != noted)
-        reason = f"The file speaks of {NAMES[noted]}, and {_says(span, noted)}."
-        return UnitGuess(noted, True, reason, others)
     likely = [unit for unit in possible if LIKELY_M[0] <= in_metres(span, unit) <= LIKELY_M[1]]
     # Where millimetres and metres are out of the question, the size of the usual probe decides.
     likely.sort(key=lambda unit: (unit not in _USUAL[:2], abs(math.log(in_metres(span, unit) / _TYPICAL_M))))
     near = [unit for unit in likely if in_metres(farthest, unit) <= 5 * LARGEST_M]
     ranked = [*near, *(u for u in likely if u not in near), *(u for u in possible if u not in likely)]
-    contradiction = "" if noted is None else f" It speaks of {NAMES[noted]}, which cannot be."
+    usual = tuple(near or likely)
+    declared = {defined} if defined else _declared(notes)
+    declared = {defined} if defined else _declared(notes)
+    if len(declared) == 1:
+        (unit,) = declared
+        others = tuple(other for other in ranked if other != unit)
+        if unit in likely or (unit in possible and not likely):
+            return UnitGuess(unit, True, f"{_declares(unit, defined)}, and {_says(span, unit)}.", others)
+        said = f" {_declares(unit, defined)}, but {_unlikely(span, unit, unit in possible)}."
+        return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
+    said = ""
+    if declared:
+        said = f" The file declares several units: {', '.join(NAMES[unit] for unit in NAMES if unit in declared)}."
     # Few programs write centimetres or inches; alone the size is too little to believe it. And nothing is as sure as
     # that where another unit makes a small probe, or the hub of a needle.
     smaller = any(in_metres(span, unit) < LIKELY_M[0] for unit in possible)
-    certain = len(near or likely) == 1 and ranked[0] in ("mm", "m") and noted is None and not smaller
-    if certain:
-        return UnitGuess(ranked[0], True, _contrast(span, ranked[0]), tuple(ranked[1:]))
-    return UnitGuess(ranked[0], False, _question(span, ranked) + contradiction, tuple(ranked[1:]))
+    if len(usual) == 1 and ranked[0] in ("mm", "m") and not declared and not smaller:
+        return UnitGuess(ranked[0], True, _contrast(span, ranked), tuple(ranked[1:]))
+    return UnitGuess(ranked[0], False, _question(span, ranked) + said, tuple(ranked[1:]), usual)
 
 
 def in_metres(length: float, units: Units) -> float:
@@ -156,43 +180,60 @@ def in_metres(length: float, units: Units) -> float:
     return length * numerator / denominator
 
 
-def _noted(notes: bytes) -> Units | None:
-    """Find the one unit that notes speak of; None where they speak of none, or of several."""
-    announced = _ANNOUNCED.search(notes)
-    if announced:
-        word = announced.group(1).decode("ascii").lower()
-        return next(unit for unit in get_args(Units) if unit == word)
-    found = [
+def _declared(notes: bytes) -> set[Units]:
+    """Find the units that notes declare."""
+    words = [first or second for first, second in _DECLARED.findall(notes.decode("latin-1"))]
+    return {
         unit
-        for unit, words in _WORDS
-        if re.search(rb"(?<![A-Za-z])(?:" + words + rb")(?![A-Za-z])", notes, re.I)
-    ]
-    return next((unit for unit in get_args(Units) if [unit] == found), None)
+        for unit, names in _NAMED.items()
+        if any(word.lower() == unit or re.fullmatch(names, word, re.I) for word in words)
+    }
+
+
+def _declares(unit: Units, defined: Units | None) -> str:
+    return f"glTF is defined in {NAMES[unit]}" if defined else f"The file declares {NAMES[unit]}"
+
+
+def _unlikely(span: float, unit: Units, possible: bool) -> str:
+    size = _size(span, unit)
+    if not possible:
+        return f"{size} is impossible"
+    return (
+        f"{size} is small for a probe"
+        if in_metres(span, unit) < LIKELY_M[0]
+        else f"{size} is large for a probe"
+    )
 
 
 def _says(span: float, unit: Units) -> str:
-    return f"{_number(span)} {unit} is {_called(in_metres(span, unit))}"
+    return f"{_size(span, unit)} is a probe"
 
 
-def _contrast(span: float, unit: Units) -> str:
-    other: Units = "m" if unit == "mm" else "mm"
-    return f"The numbers span {_number(span)}: {_says(span, unit)}, {_says(span, other)}."
+def _contrast(span: float, ranked: list[Units]) -> str:
+    others = "".join(
+        f"; it is {_millimetres(span, unit)} long if they are {NAMES[unit]}" for unit in ranked[1:]
+    )
+    return f"The numbers span {_number(span)}: {_says(span, ranked[0])}{others}."
 
 
 def _question(span: float, ranked: list[Units]) -> str:
-    lengths = [f"{in_metres(span, unit) * 1000:.4g} mm" for unit in ranked[:3]]
-    first, *others = (f"{length} if they are {NAMES[u]}" for length, u in zip(lengths, ranked, strict=False))
+    first, *others = (f"{_millimetres(span, unit)} if they are {NAMES[unit]}" for unit in ranked[:3])
     choices = "".join(f", {other}" for other in others) if others else ", an unusual size"
+    options = ", ".join(ranked[:3])
+    options = " or ".join(options.rsplit(", ", 1))
     return (
         f"The numbers span {_number(span)}: the longest side is {first}{choices}."
-        f" {NAMES[ranked[0]].capitalize()} are assumed; measure the probe, and say the units if it is not"
-        f" {lengths[0]} long."
+        f" Measure the probe and give --units {options}."
     )
+
+
+def _millimetres(span: float, unit: Units) -> str:
+    return f"{in_metres(span, unit) * 1000:.4g} mm"
+
+
+def _size(span: float, unit: Units) -> str:
+    return f"{_number(span)} {unit}"
 
 
 def _number(span: float) -> str:
     return f"{span:.4g}" if span < 1e5 else f"{span:.0f}"
-
-
-def _called(metres: float) -> str:
-    return next(name for limit, name in _CALLED if metres <= limit)

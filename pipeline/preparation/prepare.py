@@ -96,8 +96,10 @@ class Preparation:
             else ("The mesh is in its own frame: align it with the sensor before it is used.",)
         )
         wrong = () if self.ready else ("NOT READY: " + " ".join(self.faults),)
+        short = self.simplified.sentences[:1] if self.simplified.short else ()
         said = (
             *wrong,
+            *short,
             *self.content.notes,
             *(sentence for sentence in self.shell.sentences if sentence not in self.faults),
             *self.simplified.sentences,
@@ -272,7 +274,7 @@ def finish(
         cancelled=cancelled,
     )
     made, whole = content.probe, placed.probe
-    soundness = check_soundness(
+    soundness = simplified.soundness or check_soundness(
         made.vertices, made.faces, (whole.vertices, whole.faces), invented=made.invented
     )
     return Preparation(content, dense.shell, simplified, soundness, carried)

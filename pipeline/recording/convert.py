@@ -111,33 +111,6 @@ def write_npz(file: Path, recording: Recording, topic: str | None = None) -> Non
         np.savez(stream, **arrays)  # type: ignore[arg-type]
 
 
-def load_npz(file: Path) -> dict[str, Any]:
-    """
-    Return what `write_npz` wrote: tracks as dictionaries by topic, `about` and `events`.
-
-    Raises
-    ------
-    RecordingError
-        It is no such file.
-    """
-    try:
-        with np.load(file, allow_pickle=False) as stored:
-            decoded = {name: json.loads(stored[name].tobytes()) for name in ("topics", "about", "events")}
-            tracks = {
-                topic: {
-                    name.partition("/")[2]: stored[name]
-                    for name in stored.files
-                    if name.partition("/")[0] == str(number)
-                }
-                for number, topic in enumerate(decoded["topics"])
-            }
-    except (OSError, ValueError, KeyError, TypeError, EOFError) as error:
-        raise RecordingError(
-            f"{file}: this is no converted recording ({error}): convert it again."
-        ) from error
-    return {"about": decoded["about"], "events": decoded["events"], **tracks}
-
-
 def _chosen(recording: Recording, topic: str | None) -> str:
     if topic is not None:
         _check_topic(recording, topic)

@@ -40,26 +40,15 @@ _SURE = 3.0  # sigmas: a smaller delay may as well be none
 
 @dataclass(frozen=True)
 class Delay:
-    """
-    The sensor's clock against the robot's.
+    """The sensor's clock against the robot's."""
 
-    Attributes
-    ----------
-    seconds : float or None
-        By how much later the wrench of a moment is heard than its pose: use the pose at ``t - seconds`` for the wrench
-        at t. None where the motion does not show it.
-    sigma : float or None
-        Its standard deviation from the noise of the forces, s; poses far apart in time add up to half as much.
-    sentence : str
-        The same in words, doubts included.
-    doubt : str
-        Why the delay should not be used unseen: sentences; empty where nothing speaks for it.
-    """
-
+    # By how much later the wrench of a moment is heard than its pose: use the pose at ``t - seconds`` for the
+    # wrench at t. None where the motion does not show it.
     seconds: float | None
+    # Its standard deviation from the noise of the forces, s; poses far apart in time add up to half as much.
     sigma: float | None
-    sentence: str
-    doubt: str = ""
+    sentence: str  # the same in words, doubts included
+    doubt: str = ""  # why the delay should not be used unseen: sentences; empty where nothing speaks for it
 
     @property
     def usable(self) -> tuple[float, str]:

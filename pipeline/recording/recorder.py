@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from contactbench.pipeline.devices.drive import Health
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording.writer import RecordingWriter
 
 FLUSH_S = 0.5

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from itertools import groupby
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.devices.stream import Sample, SourceStream
+from contactbench.pipeline.devices.url import STEPWISE
 from contactbench.pipeline.recording.errors import RecordingError
 from contactbench.pipeline.recording.messages import Event
 from contactbench.pipeline.recording.reader import RecordingReader
@@ -16,10 +20,12 @@ from contactbench.pipeline.recording.stream import McapStream, Message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
-    from pathlib import Path
     from types import TracebackType
 
-    from contactbench.pipeline.recording.info import DeviceKind, RecordingInfo
+    from contactbench.pipeline.devices.pose_source import Track
+    from contactbench.pipeline.devices.stream import Health
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.recording.info import DeviceInfo, DeviceKind, RecordingInfo
 
 _SLICE_S = 0.02  # samples of this time are given together, as a line would
 # An endless track of poses would fill any gap, such as that of a clock which jumped by years.
@@ -214,6 +220,99 @@ class Replay:
         if not self.done.is_set():
             self._on_end()
             self.done.set()
+
+
+class Player:
+    """
+    The source of one or two streams: a recording that is read once for both.
+
+    Parameters
+    ----------
+    sensor, poses : DeviceAddress or None
+        Addresses of the streams; at least one.
+    track : callable, optional
+        Poses to give instead of recorded ones; see `PacedPoses`.
+
+    Raises
+    ------
+    RecordingError
+        It cannot be read, or does not hold what is asked for.
+    """
+
+    def __init__(
+        self, sensor: DeviceAddress | None, poses: DeviceAddress | None, track: Track | None = None
+    ) -> None:
+        path, speed = next((Path(each.path), each.speed) for each in (sensor, poses) if each is not None)
+        wrench_topic = None if sensor is None else find_topic(path, "wrench", sensor.topic)
+        flange_topic = None
+        if poses is not None and track is None:
+            flange_topic = find_topic(path, "flange", poses.topic)
+        self.stepwise = speed == STEPWISE
+        self.replay = Replay(
+            path,
+            None if sensor is None else self._give,
+            None if poses is None else self._give,
+            speed=speed or math.inf,
+            wrench_topic=wrench_topic,
+            flange_topic=flange_topic,
+            beside=track,
+            on_end=self._end,
+        )
+        kinds = {WrenchSample: sensor, FlangeSample: poses}
+        self._lock = threading.Lock()
+        self._streams: dict[type, SourceStream[Any]] = {}
+        self._open = {kind for kind, where in kinds.items() if where is not None}
+        self._waiting = set(self._open)
+        topics = (wrench_topic, flange_topic)
+        self.devices: dict[str, DeviceInfo] = {
+            device.kind: device for device in reversed(self.replay.info.devices) if device.topic in topics
+        }
+
+    @property
+    def time(self) -> float:
+        """As `Source`."""
+        return self.replay.time
+
+    def join(self, stream: SourceStream[Any]) -> None:
+        """Take a stream that was started, and begin with the last: none misses what another gets."""
+        with self._lock:
+            already = not self._waiting
+            self._waiting.discard(stream.kind)
+            if already or self._waiting or self.stepwise:
+                return
+        self.replay.start()
+
+    def leave(self, stream: SourceStream[Any]) -> None:
+        """Note that a stream was stopped, and close the recording with the last."""
+        with self._lock:
+            self._open.discard(stream.kind)
+            if self._open:
+                return
+        self.replay.stop()
+
+    def step(self, count: int) -> int:
+        """As `Source`."""
+        return self.replay.step(count)
+
+    def stream(
+        self,
+        address: DeviceAddress,
+        kind: type[Sample],
+        on_samples: Callable[[Sequence[Sample]], None],
+        on_change: Callable[[Health], None] | None = None,
+    ) -> SourceStream[Sample]:
+        """Return the stream of one kind of samples, not yet started."""
+        device = self.devices.get("wrench" if kind is WrenchSample else "flange")
+        rate = None if device is None else device.rate
+        self._streams[kind] = made = SourceStream(address, self, kind, on_samples, on_change, rate=rate)
+        return made
+
+    def _give(self, samples: Sequence[WrenchSample] | Sequence[FlangeSample]) -> None:
+        self._streams[type(samples[0])].take(samples, self.replay.warnings)
+
+    def _end(self) -> None:
+        for stream in self._streams.values():
+            stream.end(self.replay.error, self.replay.warnings)
 
 
 def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:

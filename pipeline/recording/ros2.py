@@ -28,26 +28,15 @@ _FEW = 2  # moments at the ends of a bag may be cut in half
 
 @dataclass(frozen=True)
 class Wanted:
-    """
-    What to import; what is left out is chosen where there is one of a kind.
-
-    Attributes
-    ----------
-    wrench_topic, pose_topic : str or None
-    robot : Robot or None
-        Makes poses of joints.
-    base, flange : str or None
-        Frames of transforms; both or none.
-    header_stamps : bool
-        Times are those in the messages' headers, not when they were received.
-    """
+    """What to import; what is left out is chosen where there is one of a kind."""
 
     wrench_topic: str | None = None
     pose_topic: str | None = None
-    robot: Robot | None = None
+    robot: Robot | None = None  # makes poses of joints
+    # Frames of transforms; both or none.
     base: str | None = None
     flange: str | None = None
-    header_stamps: bool = False
+    header_stamps: bool = False  # times are those in the messages' headers, not when they were received
 
 
 @dataclass(frozen=True)

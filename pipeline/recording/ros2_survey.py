@@ -40,40 +40,13 @@ class Topic:
 
 @dataclass(frozen=True)
 class Survey:
-    """
-    What is in a bag.
+    """What is in a bag."""
 
-    Attributes
-    ----------
-    topics : tuple of Topic
-        Those that have messages.
-    begin : int
-        Time of the first message, ns.
-    pairs : frozenset of (str, str)
-        Parent and child of all transforms.
-    moving : frozenset of (str, str)
-        Topic and child of those transforms that change.
-    wrench_frames : mapping of topic to str
-        The frame that the first wrench of a topic names.
-    """
-
-    topics: tuple[Topic, ...]
-    begin: int
-    pairs: frozenset[tuple[str, str]]
-    moving: frozenset[tuple[str, str]]
-    wrench_frames: Mapping[str, str]
-
-
-def list_topics(path: Path) -> tuple[Topic, ...]:
-    """
-    Return the topics of any MCAP file that have messages.
-
-    Raises
-    ------
-    RecordingError
-        It cannot be read, or is no MCAP file.
-    """
-    return survey(path).topics
+    topics: tuple[Topic, ...]  # those that have messages
+    begin: int  # time of the first message, ns
+    pairs: frozenset[tuple[str, str]]  # parent and child of all transforms
+    moving: frozenset[tuple[str, str]]  # topic and child of those transforms that change
+    wrench_frames: Mapping[str, str]  # the frame that the first wrench of a topic names
 
 
 def survey(path: Path) -> Survey:

@@ -23,29 +23,21 @@ from contactbench.pipeline.robot.model import Kinematics, fixed_axes
 class Clearance:
     """What the arm carries, and how far it has to keep away from what.
 
-    Parameters
-    ----------
-    p_ET_E : (3,) floats
-        Tip of the tool in the flange frame, m; the tool is the capsule from the flange to there. All zeros:
-        no tool.
-    tool_radius : float
-        Radius of that capsule, m: sensor, adapter and probe must fit inside.
-    z_min : float
-        Height in B that links and tool stay above, m: 0 is a table that the base stands on, a negative
-        number the floor below a column. -inf: no floor, as for an arm that hangs from the ceiling.
-    distance : float
-        Smallest gap between any two capsules, and between a capsule and `z_min`, m. It also pays for what
-        the capsules get wrong.
-
     Raises
     ------
     InputError
         A length is not finite (`z_min` may be -inf) or out of range.
     """
 
+    # (3,) tip of the tool in the flange frame, m; the tool is the capsule from the flange to there. All
+    # zeros: no tool.
     p_ET_E: Triple = (0.0, 0.0, 0.2)
-    tool_radius: float = 0.05
+    tool_radius: float = 0.05  # Radius of that capsule, m: sensor, adapter and probe must fit inside
+    # Height in B that links and tool stay above, m: 0 is a table that the base stands on, a negative number
+    # the floor below a column. -inf: no floor, as for an arm that hangs from the ceiling.
     z_min: float = 0.0
+    # Smallest gap between any two capsules, and between a capsule and `z_min`, m. It also pays for what the
+    # capsules get wrong.
     distance: float = 0.02
 
     def __post_init__(self) -> None:

@@ -18,30 +18,6 @@ TOOL = "tool"  # the capsule that a clearance check adds; no link may be called 
 class Joint:
     """One revolute joint; it turns about the z axis of its own frame.
 
-    Parameters
-    ----------
-    name : str
-        What messages call it.
-    origin_xyz : (3,) floats
-        Origin of the joint frame in the frame of the joint before it (the first: in the base frame B), m.
-    origin_rpy : (3,) floats
-        Its rotation there: turns about the fixed x, then y, then z axis, rad (the convention of URDF).
-    lower, upper : float
-        Joint limits, rad.
-    velocity : float
-        Largest speed, rad/s.
-    effort : float
-        Largest torque, N·m.
-    child_mass : float
-        Mass of the link that the joint moves, kg.
-    acceleration : float
-        Largest acceleration, rad/s²; inf where none is known.
-    centre_xyz : (3,) floats
-        Centre of that mass in the joint's frame, m.
-    inertia : (6,) floats, optional
-        Of that mass about its centre, along the axes of the joint's frame: xx, yy, zz, xy, xz, yz, kg·m². Left out, a
-        ball of 0.1 m.
-
     Raises
     ------
     InputError
@@ -49,16 +25,21 @@ class Joint:
         positive, or no body has such an inertia.
     """
 
-    name: str
+    name: str  # What messages call it
+    # (3,) origin of the joint frame in the frame of the joint before it (the first: in the base frame B), m
     origin_xyz: Triple
+    # (3,) its rotation there: turns about the fixed x, then y, then z axis, rad (the convention of URDF)
     origin_rpy: Triple
+    # Joint limits, rad
     lower: float
     upper: float
-    velocity: float
-    effort: float
-    child_mass: float
-    acceleration: float = np.inf
-    centre_xyz: Triple = (0.0, 0.0, 0.0)
+    velocity: float  # Largest speed, rad/s
+    effort: float  # Largest torque, N·m
+    child_mass: float  # Mass of the link that the joint moves, kg
+    acceleration: float = np.inf  # Largest acceleration, rad/s²; inf where none is known
+    centre_xyz: Triple = (0.0, 0.0, 0.0)  # (3,) centre of that mass in the joint's frame, m
+    # (6,) of that mass about its centre, along the axes of the joint's frame: xx, yy, zz, xy, xz, yz, kg·m².
+    # Left out, a ball of 0.1 m.
     inertia: tuple[float, float, float, float, float, float] | None = None
 
     def __post_init__(self) -> None:
@@ -89,28 +70,18 @@ class Joint:
 class Capsule:
     """A link's envelope: every point nearer than `radius` to a line segment fixed in the link.
 
-    Parameters
-    ----------
-    name : str
-        What messages call it.
-    body : int
-        0 for the base, otherwise the number (from 1) of the joint that moves it.
-    start_xyz, end_xyz : (3,) floats
-        Ends of the segment in the frame of that joint (the base: in B), m. They must differ.
-    radius : float
-        m.
-
     Raises
     ------
     InputError
         A number is not finite, the ends coincide, or the radius is not positive.
     """
 
-    name: str
-    body: int
+    name: str  # What messages call it
+    body: int  # 0 for the base, otherwise the number (from 1) of the joint that moves it
+    # each (3,): Ends of the segment in the frame of that joint (the base: in B), m. They must differ.
     start_xyz: Triple
     end_xyz: Triple
-    radius: float
+    radius: float  # m
 
     def __post_init__(self) -> None:
         where = f"capsule {self.name}"
@@ -124,31 +95,21 @@ class Capsule:
 class RobotDescription:
     """A serial arm of revolute joints.
 
-    Parameters
-    ----------
-    name : str
-        The arm's name.
-    joints : tuple of Joint
-        From the base to the flange.
-    flange_xyz, flange_rpy : (3,) floats
-        The flange frame E in the frame of the last joint; m, rad, convention as in `Joint`.
-    capsules : tuple of Capsule
-        Envelope of the links, for clearance alone: kinematics never look at it.
-    never_touch : tuple of pairs of str
-        Capsules that overlap or come close by construction, though the links themselves cannot meet. Pairs
-        on the same link or on neighbouring links need no entry.
-
     Raises
     ------
     InputError
         No joint, a name twice, a capsule on a joint that is not there, or a pair of unknown capsules.
     """
 
-    name: str
-    joints: tuple[Joint, ...]
+    name: str  # The arm's name
+    joints: tuple[Joint, ...]  # From the base to the flange
+    # each (3,): The flange frame E in the frame of the last joint; m, rad, convention as in `Joint`
     flange_xyz: Triple
     flange_rpy: Triple = (0.0, 0.0, 0.0)
+    # Envelope of the links, for clearance alone: kinematics never look at it
     capsules: tuple[Capsule, ...] = ()
+    # Capsules that overlap or come close by construction, though the links themselves cannot meet. Pairs on
+    # the same link or on neighbouring links need no entry.
     never_touch: tuple[tuple[str, str], ...] = ()
 
     def __post_init__(self) -> None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from types import TracebackType
     from typing import Self
 
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session.actions import Record
     from contactbench.pipeline.session.store import Session

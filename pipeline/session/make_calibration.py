@@ -84,7 +84,7 @@ def captures(
     same run before it was interrupted, come first. `tell` gets what was noticed and left out, sentence by sentence.
     """
     from contactbench.pipeline.calibration.files.calibration_file import load_calibration
-    from contactbench.pipeline.calibration.files.capture_recording import capture_any
+    from contactbench.pipeline.calibration.files.capture_file import capture_any
     from contactbench.pipeline.calibration.files.pose_csv import write_poses
 
     given = read_parameters(CapturesParameters, parameters)
@@ -173,9 +173,9 @@ def calibration(
     from contactbench.pipeline.calibration import ContactTask, PoseNoise, calibrate
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
-    from contactbench.pipeline.calibration.files.capture_recording import is_recording
+    from contactbench.pipeline.calibration.files.capture_file import is_recording
     from contactbench.pipeline.calibration.files.pose_csv import is_recorded_table, read_poses
-    from contactbench.pipeline.calibration.mounting import estimate_mount
+    from contactbench.pipeline.calibration.mount import estimate_mount
 
     given = read_parameters(CalibrationParameters, parameters)
     if given.mount is not None and given.estimate_mount:

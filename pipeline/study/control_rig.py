@@ -15,8 +15,8 @@ from contactbench.pipeline.control.loop import arm_of
 from contactbench.pipeline.control.sensing import Intake
 from contactbench.pipeline.simulation.scenes import ArmScene, MovedScene, Payload, PlatformScene, Tissue
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.study.reproduce.setup import draw_bench
-from contactbench.pipeline.study.reproduce.touching import model_of, truth_of
+from contactbench.pipeline.study.marker_touches import model_of, truth_of
+from contactbench.pipeline.study.paper_setup import draw_bench
 
 if TYPE_CHECKING:
     from contactbench.pipeline.control.settings import ControlSettings

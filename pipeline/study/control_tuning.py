@@ -29,8 +29,8 @@ from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from contactbench.pipeline.study.preparation.report import Figure, Report
-from contactbench.pipeline.study.reproduce.sheets import Sheet, write_bytes, write_text
+from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.sheets import Sheet, write_bytes, write_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable

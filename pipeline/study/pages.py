@@ -1,33 +1,36 @@
 """
 The results page: a chapter for each study, made from the study's Parquet file alone.
 
-A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.results`). The module ``page``
-of a study's package
-has ``make(results, folder)``: it writes PNG files into the folder and returns the chapter as Markdown, which names them
-by their bare file names and begins with a heading of the second level. Here they are put together as one page.
+A study is a folder with ``results.parquet`` (see `contactbench.pipeline.study.results`). Its module in `CHAPTERS` has
+``make(results, folder)``: it writes PNG files into the folder and returns the chapter as Markdown, which names them by
+their bare file names and begins with a heading of the second level. Here they are put together as one page.
 """
 
 from __future__ import annotations
 
 import re
+import shlex
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.durable import make_folder, write_durably
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.results import read_results
+from contactbench.pipeline.study.results import environment, read_results, write_results
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from contactbench.pipeline.study.results import Results
 
 PAGE, TOGETHER = "page.md", "results.md"
-# Kind of a study -> the package whose module `page` tells about it.
-PACKAGES = {
-    name: f"contactbench.pipeline.study.{name}"
-    for name in ("sweep", "stability", "ablation", "rivals", "confidence")
+# Kind of a study -> the module that makes its chapter.
+CHAPTERS = {
+    "sweep": "sweep.page",
+    "stability": "stability",
+    "ablation": "ablation.page",
+    "rivals": "rivals.page",
+    "confidence": "confidence.page",
 }
 _BUSY = 1.5  # processes for each core: beyond, times are those of a shared machine
 _PICTURE = re.compile(r"(!\[[^\]]*\]\()([A-Za-z0-9_.-]+\.png\))")
@@ -53,12 +56,43 @@ def make_page(folder: Path) -> str:
         There are no results, or of a study that is not known.
     """
     results = read_results(folder)
-    if results.kind not in PACKAGES:
-        raise InputError(f"{folder}: a study of kind {results.kind!r}: known are {', '.join(PACKAGES)}.")
-    chapter = import_module(f"{PACKAGES[results.kind]}.page").make(results, folder)
+    if results.kind not in CHAPTERS:
+        raise InputError(f"{folder}: a study of kind {results.kind!r}: known are {', '.join(CHAPTERS)}.")
+    chapter = import_module(f"contactbench.pipeline.study.{CHAPTERS[results.kind]}").make(results, folder)
     text = f"{chapter.rstrip()}\n\n{_origin(results)}\n"
     _write(folder / PAGE, text.encode())
     return text
+
+
+def publish(folder: Path, kind: str, words: Sequence[str], rows: Sequence[Mapping[str, Any]]) -> Path:
+    """
+    Write a study's results, its page and its pictures.
+
+    Parameters
+    ----------
+    folder : Path
+        Made if it is not there.
+    kind : str
+        A key of `CHAPTERS`.
+    words : sequence of str
+        What repeats it, as it is typed after ``contactbench study``.
+    rows : sequence of mapping
+        See `contactbench.pipeline.study.results.Results`.
+
+    Returns
+    -------
+    Path
+        Of the page.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written.
+    """
+    make_folder(folder)
+    write_results(folder, kind, shlex.join(["contactbench", "study", *words]), rows, environment())
+    make_page(folder)
+    return folder / PAGE
 
 
 def gather(folders: Sequence[Path], out: Path) -> Path:

@@ -18,7 +18,7 @@ from contactbench.pipeline.simulation.scenes import (
     depth_for,
 )
 from contactbench.pipeline.simulation.scenes.tissue import PLACES
-from contactbench.pipeline.study.reproduce.touching import truth_of
+from contactbench.pipeline.study.marker_touches import truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -1,4 +1,4 @@
-"""``contactbench study stability``: rounding, single precision, units, thin facets, cancellation, the same bits."""
+"""``contactbench study stability``: how steady answers are on a probe's mesh."""
 
 from __future__ import annotations
 
@@ -22,9 +22,7 @@ def stability(
         typer.Option(help="Bundled probe or prepared .ply in S; may be repeated [the bundled ones]."),
     ] = None,
     samples: Annotated[int, typer.Option(help="Touches for each figure, at least 50.")] = 1_000,
-    quick: Annotated[
-        bool, typer.Option("--quick", help="Coarse meshes, one build of each compiler.")
-    ] = False,
+    quick: Annotated[bool, typer.Option("--quick", help="At most 50 touches for each figure.")] = False,
     seed: SeedOption = 0,
     out: Annotated[
         Path | None,
@@ -32,15 +30,19 @@ def stability(
     ] = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Measure how steady the solver is, against long double, exact arithmetic and first-order theory.
+    """Measure how steady answers are on a probe's mesh, against a truth in long double.
 
-    Single precision and the bits of other builds need g++; clang++ is compared where it is there.
     Exit code 1 when a stated bound is broken.
     """
-    from contactbench.pipeline.study.stability import study
-    from contactbench.pipeline.study.stability.probes import BUNDLED
+    from contactbench.assets import PROBE_NAMES
+    from contactbench.pipeline.study import stability as study
+    from contactbench.pipeline.study.pages import publish
 
-    report = study.run(probe or BUNDLED, samples=samples, seed=seed, quick=quick, progress=say)
+    samples = min(samples, study.FEWEST) if quick else samples
+    names = tuple(probe or PROBE_NAMES)
+    report = study.run(names, samples=samples, seed=seed, progress=say)
     if out:
-        say(f"{study.keep(report, out)}: page and plots")
+        words = ["stability", "--samples", str(samples), "--seed", str(seed)]
+        words += [] if names == PROBE_NAMES else [w for n in names for w in ("--probe", Path(n).name)]
+        say(f"{publish(out, study.KIND, words, [row.to_json() for row in report.rows])}: page and plots")
     finish(report, None, as_json=as_json)

@@ -39,54 +39,26 @@ class TableError(InputError):
 
 @dataclass(frozen=True)
 class Wording:
-    """
-    What messages say about a kind of table.
+    """What messages say about a kind of table."""
 
-    Attributes
-    ----------
-    header : str
-        The header that such a file needs, as one would type it.
-    rows : str
-        What the rows are, in the plural.
-    meaning : str
-        Units and frames of the columns; follows "Name the columns t,x,y,z: ".
-    not_finite : str
-        What to do about a NaN, an infinity or an empty cell: a remedy with a full stop.
-    text : str
-        What the text column should hold.
-    error : type of InputError
-        What is raised.
-    """
-
-    header: str
-    rows: str = "numbers"
-    meaning: str = ""
+    header: str  # The header that such a file needs, as one would type it
+    rows: str = "numbers"  # What the rows are, in the plural
+    meaning: str = ""  # Units and frames of the columns; follows "Name the columns t,x,y,z: "
+    # What to do about a NaN, an infinity or an empty cell: a remedy with a full stop
     not_finite: str = "correct or remove the row."
-    text: str = "a short text"
-    error: type[InputError] = TableError
+    text: str = "a short text"  # What the text column should hold
+    error: type[InputError] = TableError  # What is raised
 
 
 @dataclass(frozen=True)
 class TableRows:
-    """
-    Consecutive rows of a table.
+    """Consecutive rows of a table."""
 
-    Attributes
-    ----------
-    columns : tuple of str
-        The names of the k columns of numbers.
-    numbers : (n, k) float64
-        The cells of these columns.
-    text : (n,) bytes or None
-        The cells of the text column as they stand in the file, UTF-8; None without such a column.
-    lines : (n,) int64
-        The line of each row in the file; the header is line 1.
-    """
-
-    columns: tuple[str, ...]
-    numbers: npt.NDArray[np.float64]
+    columns: tuple[str, ...]  # The names of the k columns of numbers
+    numbers: npt.NDArray[np.float64]  # (n, k) the cells of these columns
+    # (n,) the cells of the text column as they stand in the file, UTF-8; None without such a column
     text: npt.NDArray[np.bytes_] | None
-    lines: npt.NDArray[np.int64]
+    lines: npt.NDArray[np.int64]  # (n,) the line of each row in the file; the header is line 1
 
     def column(self, name: str) -> npt.NDArray[np.float64]:
         """Return the (n,) numbers of one column; KeyError if it was not selected or is not there."""

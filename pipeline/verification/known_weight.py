@@ -514,7 +514,7 @@ def weight_content(
     inputs: Mapping[str, Path], given: WeightParameters, created: str | None
 ) -> dict[str, Any]:
     """Return all that the file of a check says; arguments and errors as for `known_weight`."""
-    from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
+    from contactbench.pipeline.calibration.files.capture_file import read_any_poses
 
     roles_of(inputs, WEIGHT_ROLES)
     calibration, R_ES, faults = load_calibrated(inputs["calibration"], given.mount)

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import Calibration, Level, PoseSample, calibrate
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
-from contactbench.pipeline.calibration.diagnosis.hypotheses import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
-from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
+from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
-    from contactbench.pipeline.calibration.mounting import MountCalibration
+    from contactbench.pipeline.calibration.mount import MountCalibration
     from contactbench.pipeline.calibration.reachable import Reachable
     from contactbench.pipeline.workbench.gravity_settings import GravitySettings
 

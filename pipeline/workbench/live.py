@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.contact import ContactSolver
-    from contactbench.pipeline.devices.drive import Health
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.streams import Pair
 
 __all__ = ["Block", "Live", "Reading", "Tap"]

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.stream import State
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.drive import Health
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.workbench.live import Live
 
 _LOOK_S = 5.0

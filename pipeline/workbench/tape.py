@@ -6,7 +6,7 @@ import threading
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.devices.drive import State
+from contactbench.pipeline.devices.stream import State
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording.recorder import health_facts
 from contactbench.pipeline.session.live import LiveRecording
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from concurrent.futures import Future
 
-    from contactbench.pipeline.devices.drive import Health
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+    from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record

@@ -100,7 +100,7 @@ def called(node: ast.Call) -> str:
 def sources() -> list[Source]:
     """Return every file of `app` and `widgets`; not the command line, which is English as all commands are."""
     files = sorted(file for folder in ("app", "widgets") for file in (ROOT / folder).rglob("*.py"))
-    return [Source(file) for file in files if not file.name.startswith(("study_", "screenshots", "cli"))]
+    return [Source(file) for file in files if not file.name.startswith("cli")]
 
 
 def _is_log(value: ast.expr) -> bool:

@@ -27,13 +27,13 @@ def run(*arguments, **environment):
 def test_help_names_the_window_and_imports_no_qt():
     result = run("--help")
     assert result.returncode == 0
-    assert all(name in result.stdout for name in ("gui", "heatmap-viewer", "screenshots", "locate"))
+    assert all(name in result.stdout for name in ("gui", "heatmap-viewer", "locate"))
     heavy = ("PySide6", "vtkmodules", "numpy")
     code = f"import sys, contactbench.app.cli; sys.exit(any(name in sys.modules for name in {heavy}))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-@pytest.mark.parametrize("arguments", [(), ("gui",), ("heatmap-viewer",), ("screenshots", "x")])
+@pytest.mark.parametrize("arguments", [(), ("gui",), ("heatmap-viewer",)])
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only there is a screen a variable")
 def test_without_a_screen_there_is_a_sentence(arguments):
     result = run(*arguments)

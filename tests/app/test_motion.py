@@ -4,12 +4,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from benchmarks.bundle_example import example_config
 from shiboken6 import isValid
 from workbench.touch_session import make_session, verify
 
 from contactbench.app.motion import MotionWindow
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.study.bundle_example import example_config
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.widgets.theme import use_theme
 

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
-from contactbench.pipeline.calibration.diagnosis.hypotheses import RawOrientations
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.simulation.weighing import weigh
 

@@ -14,8 +14,12 @@ from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import Level, calibrate
-from contactbench.pipeline.calibration.files.capture_file import Capturing, capture_file, in_order
-from contactbench.pipeline.calibration.files.capture_recording import read_any_poses
+from contactbench.pipeline.calibration.files.capture_file import (
+    Capturing,
+    capture_file,
+    in_order,
+    read_any_poses,
+)
 from contactbench.pipeline.calibration.files.pose_csv import PoseFileError
 from contactbench.pipeline.calibration.stillness import find_captures
 from contactbench.pipeline.contact.wrench_csv import WrenchFileError

@@ -22,7 +22,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis, diagnose
-from contactbench.pipeline.calibration.diagnosis.odds import in_words
+from contactbench.pipeline.calibration.diagnosis.explain import in_words
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.orientation import Convention, Kind
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from benchmarks import wrong_models as wrong
 from scipy.integrate import quad
 
 from contactbench.pipeline.calibration import Level, calibrate
-from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.poses import stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise, over_unknowns
-from contactbench.pipeline.study import wrong_models as wrong
 
 SETS = 12
 

@@ -28,11 +28,11 @@ from calibration.diagnosis_cases import (
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import PoseNoise
-from contactbench.pipeline.calibration.diagnosis.conversions import angles_of, from_angles
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
 from contactbench.pipeline.calibration.diagnosis.evidence import weigh as weigh_hypotheses
-from contactbench.pipeline.calibration.diagnosis.hypotheses import RawOrientations, hypotheses
+from contactbench.pipeline.calibration.diagnosis.hypotheses import hypotheses
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, angles_of, from_angles
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
 from contactbench.pipeline.calibration.fit import maximise, two_stage
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations

@@ -26,8 +26,8 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseError, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
-from contactbench.pipeline.calibration.diagnosis.hypotheses import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.weighing import draw_load, draw_noise, weigh
 

@@ -18,7 +18,7 @@ from contactbench.pipeline.calibration import (
     PoseSample,
 )
 from contactbench.pipeline.calibration.contact_error import contact_sensitivity
-from contactbench.pipeline.calibration.mounting import MountCalibration, estimate_mount
+from contactbench.pipeline.calibration.mount import MountCalibration, estimate_mount
 from contactbench.pipeline.errors import InputError
 
 TILTED_90 = np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]])

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.verification import mesh
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 from weighing_files import TRUTH, spun, weighed, write_quaternions
@@ -16,7 +17,6 @@ from contactbench.pipeline.calibration.poses import PoseSample
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh import save_probe
 from contactbench.pipeline.session import Session
-from contactbench.pipeline.study.verification import mesh
 
 G, RATE = 9.80665, 200
 SAMPLE = np.repeat([0.05, 0.002], 3)

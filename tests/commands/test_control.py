@@ -3,11 +3,11 @@
 import json
 
 import pytest
+from benchmarks.bundle_example import example_config
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.config.runtime import RuntimeConfig
-from contactbench.pipeline.study.bundle_example import example_config
 
 runner = CliRunner()
 

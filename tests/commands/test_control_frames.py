@@ -4,11 +4,11 @@ import subprocess
 import sys
 
 import pytest
+from benchmarks.bundle_example import example_config
 from typer.testing import CliRunner
 
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.control.frames import Beginning, Frame, read_line
-from contactbench.pipeline.study.bundle_example import example_config
 
 
 @pytest.fixture(scope="module")

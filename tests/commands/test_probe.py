@@ -65,6 +65,21 @@ def test_a_doubtful_unit_is_told_once_and_nothing_is_praised(tmp_path, command):
     assert "Nothing was found" not in words
 
 
+@pytest.mark.parametrize("command", ["shell", "prepare"])
+def test_nothing_is_made_of_numbers_whose_unit_nobody_can_tell(tmp_path, command):
+    # 150 mm in inches, with a length in the header that is not their unit.
+    box = trimesh.creation.box(extents=(5.906, 2.0, 1.0)).export(file_type="stl")
+    (tmp_path / "box.stl").write_bytes(b"Exported, deviation 0.1 mm".ljust(80) + box[80:])
+    result = invoke(command, tmp_path / "box.stl", "--out", tmp_path / "out.ply")
+    assert result.exit_code == 2
+    assert "59.06 mm if they are centimetres, 150 mm if they are inches" in said(result)
+    assert "give --units cm, in or mm" in said(result)
+    assert [file.name for file in tmp_path.iterdir()] == ["box.stl"]
+    assert "unit cannot be told" not in said(
+        invoke(command, tmp_path / "box.stl", "--units", "in", "--out", tmp_path / "out.ply")
+    )
+
+
 def test_a_shell_that_is_not_sound_ends_with_1(hollow, tmp_path, monkeypatch):
     monkeypatch.setattr(Shell, "faults", ("It crosses itself.",))
     result = invoke("shell", hollow, "--out", tmp_path / "shell.ply")

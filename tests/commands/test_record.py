@@ -14,14 +14,15 @@ import time
 
 import numpy as np
 import pytest
+from benchmarks.fault_lines import resting
 from recording.recording_cases import record
 from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.commands.record import Changes, wait
-from contactbench.pipeline.devices.drive import Health, State
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, emulator, sine
 from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.stream import Health, State
 from contactbench.pipeline.recording import (
     Event,
     RecordingError,
@@ -30,7 +31,6 @@ from contactbench.pipeline.recording import (
     read_recording,
 )
 from contactbench.pipeline.recording.recorder import Recorder
-from contactbench.pipeline.study.fault_lines import resting
 
 
 def invoke(*arguments):

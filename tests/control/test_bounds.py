@@ -5,7 +5,7 @@ from contactbench.pipeline.control.bounds import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.tilt import Reading, Tilt
-from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.marker_touches import model_of
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from contactbench.pipeline.control.settings import Variant
 from contactbench.pipeline.control.states import State
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.platform_motion import PlatformMotion
-from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.marker_touches import model_of
 
 BIAS = (0.05, -0.05, 0.05, 0.002, -0.002, 0.002)
 

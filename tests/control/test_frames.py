@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from benchmarks.bundle_example import example_config
 
 from contactbench.pipeline.control.frames import (
     BEGIN,
@@ -20,7 +21,6 @@ from contactbench.pipeline.control.loop import Loop
 from contactbench.pipeline.control.states import State
 from contactbench.pipeline.control.virtual import virtual_robot
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.bundle_example import example_config
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ from contactbench.pipeline.control.arms import CartesianMount
 from contactbench.pipeline.control.inertia import Inertia
 from contactbench.pipeline.simulation.scenes import Payload
 from contactbench.pipeline.simulation.scenes.platform import PlatformScene
-from contactbench.pipeline.study.reproduce.touching import truth_of
+from contactbench.pipeline.study.marker_touches import truth_of
 
 PAYLOAD = Payload()
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline import demo
-from contactbench.pipeline.calibration.files.capture_recording import capture_recording
+from contactbench.pipeline.calibration.files.capture_file import capture_recording
 from contactbench.pipeline.demo import report
 from contactbench.pipeline.recording import read_recording
 

@@ -9,9 +9,11 @@ import pytest
 
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.emulate import SYNTHETIC, Fault, FaultEvent, Script, constant
-from contactbench.pipeline.devices.emulate.models import BotaModel, RobotiqModel, SriModel
-from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.faults import Truth
 from contactbench.pipeline.devices.protocols import bota, robotiq, sri
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 
 PARSERS = {
@@ -312,16 +314,6 @@ def test_arrivals_that_go_back_are_another_clock():
     (early,) = clock.stamp([wrench(3.0, 2)])
     assert (late.time, early.time) == (50.0, 3.0)
     assert Status.CLOCK in early.status
-
-
-def test_the_fit_shows_the_spread_of_delays():
-    clock, given = SampleClock(200.0), measured(200.0, seconds=5.0)
-    assert clock.fit_s is None
-    Timed(clock, given, given.number)
-    assert clock.fit_s == pytest.approx(0.0, abs=1e-6)
-    jittery = SampleClock(200.0)
-    Timed(jittery, given.late(0.004), given.number)
-    assert 0.001 < jittery.fit_s < 0.006
 
 
 def test_poses_have_no_status():

@@ -5,9 +5,9 @@ import weakref
 
 import numpy as np
 import pytest
+from benchmarks.preparation.shapes import bundled
 
 from contactbench.pipeline.heatmap.finer import drawing_of, finer
-from contactbench.pipeline.study.preparation.shapes import bundled
 
 
 @pytest.fixture(scope="module")

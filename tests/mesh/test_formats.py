@@ -78,8 +78,8 @@ def test_stl_solids_become_one_mesh(write):
         ("vertex 5.000000e+01 0.000000E+00 0\n", "vertex 5.0x 0.0 0\n", "the facet on line 2 "),
         ("      vertex 5.000000e+01 0.000000E+00 0\n", "", "the facet on line 2 "),
         ("  endfacet\n", "", "the facet on line 2 "),
-        ("5.000000e+01", "nan", r"vertices: row \d .* is not a finite point"),
-        ("5.000000e+01", "1e999", r"vertices: row \d .* is not a finite point"),
+        ("5.000000e+01", "nan", r"vertex \d is .* not finite"),
+        ("5.000000e+01", "1e999", r"vertex \d is .* not finite"),
         ("5.000000e+01", "1e20", r"vertices: row \d .* is absurdly far away"),
     ],
 )
@@ -111,6 +111,9 @@ def test_stl_text_without_its_last_line_is_told(write):
         lambda text: text.replace("normal 0 0 0", "normal -nan(ind) 1.#QNAN 0"),
         lambda text: text.replace("normal 0 0 0\n    outer loop", "normal 0 0 0 outer loop"),
         lambda text: "\n\n" + text + "\0" * 100,
+        lambda text: text[text.index("facet") :],
+        lambda text: text.replace("endloop", "endloop\n color 1 0.5 0"),
+        lambda text: text.replace("outer loop", "outerloop"),
         lambda text: "\ufeff" + text,
         lambda text: text.encode("utf-16"),
     ],
@@ -135,7 +138,25 @@ def test_decimal_commas_are_read_and_told(write, form):
 
 @pytest.mark.parametrize("row", ["1,234 5,678 9,012", "1,5,2 3", "1.234,5 2 3", "1,5 2.5 3"])
 def test_commas_that_may_be_something_else_are_refused(write, row):
-    refuse(write("a.obj", OBJ + f"v {row}\n" + FACETS), "line 5 .* is a vertex without three numbers")
+    refuse(
+        write("a.obj", OBJ + f"v {row}\n" + FACETS),
+        "line 5 .* has the number '1.*,.*', whose comma may stand for",
+    )
+
+
+def test_commas_are_named_in_every_text(write, ply_text):
+    said = "has the number '50,000', whose comma may stand for a decimal point or set thousands apart"
+    refuse(write("a.obj", (OBJ + FACETS).replace("50 ", "50,000 ")), f"line 2 .* {said}")
+    refuse(
+        write("a.off", "OFF\n4 4 0\n" + "50,000 50,000 50,000\n" * 4 + "3 0 1 2\n" * 4), f"line 3 .* {said}"
+    )
+    refuse(write("a.ply", ply_text(["50,000 50,000 50,000"] * 4, TRIANGLES)), f"row 0 .* {said}")
+    refuse(write("a.stl", stl_text().replace("5.000000e+01", "50,000")), f"facet on line 2 .* {said}")
+    # Colours with points beside coordinates with commas.
+    refuse(
+        write("b.obj", OBJ + "v 1,2500 2,5000 3,0 0.5 0.5 0.5\n" + FACETS),
+        "line 5 .* has the number '1,2500'",
+    )
 
 
 def binary_stl(mesh: trimesh.Trimesh, count: int | None = None, header: bytes = b"") -> bytes:
@@ -162,6 +183,20 @@ def test_binary_stl_with_bytes_after_its_end(ball, write):
             MeshWarning, match=r"after the last facet of the STL file were left out \(bytes: 4\)"
         ):
             assert len(load_probe(write("a.stl", binary_stl(ball, header=header) + b"\0\1\2\3")).faces) == 320
+
+
+def test_binary_stl_with_whole_facets_after_its_end(ball, write):
+    with pytest.warns(
+        MeshWarning, match="announces 100 facets, but 220 more whole facets follow, which were read"
+    ):
+        probe = load_probe(write("a.stl", binary_stl(ball, 100) + b"\1\2"))
+    assert (len(probe.faces), probe.health.watertight) == (320, True)
+
+
+@pytest.mark.parametrize("tail", [b"\0" * 100, b" " * 50, b"made by hand, as every file of this is" * 5])
+def test_binary_stl_with_other_things_after_its_end(ball, write, tail):
+    with pytest.warns(MeshWarning, match=rf"were left out \(bytes: {len(tail)}\)"):
+        assert len(load_probe(write("a.stl", binary_stl(ball) + tail)).faces) == 320
 
 
 def test_binary_stl_whose_count_was_never_written(ball, write):
@@ -253,7 +288,7 @@ def test_obj_with_comments_continuations_colours_and_weights(write):
         (OBJ + FACETS + "f 1 2 99999999999999999\n", "line 9 .* refers to a vertex that is not there"),
         (OBJ + "v 1 2\n" + FACETS, "line 5 .* is a vertex without three numbers"),
         (OBJ + "v 1 2 3x\n" + FACETS, "line 5 .* is a vertex without three numbers"),
-        (OBJ.replace("50 0 0", "inf 0 0") + FACETS, "vertices: row 1 .* is not a finite point"),
+        (OBJ.replace("50 0 0", "inf 0 0") + FACETS, "vertex 2 is .* not finite"),
     ],
 )
 def test_obj_that_is_damaged(write, text, message):
@@ -387,6 +422,7 @@ def test_ply_with_an_absurd_count(ball, encode, write, element, count):
         ("element vertex 4", "element vertex -4", "line 4 of the PLY header"),
         ("property double x", "property quaternion x", "line 5 of the PLY header"),
         ("property double x\n", "property double x\nproperty double x\n", "has no property, or one twice"),
+        ("50 0 0\n", "50 0\n0 ", "row 1 of the PLY element 'vertex'"),
         ("element face", "element vertex", "has no property, or one twice|names an element twice"),
         ("property double z\n", "", "no vertices with a number 'z'"),
         ("property double z\n", "property list uchar double z\n", "no vertices with a number 'z'"),
@@ -401,7 +437,7 @@ def test_ply_with_an_absurd_count(ball, encode, write, element, count):
         ("50 0 0\n", "50 0 zero\n", "row 1 of the PLY element 'vertex'"),
         ("50 0 0\n", "", "announces 4 rows of 'vertex', 4 rows of 'face', but 7 rows follow"),
         ("50 0 0\n", "50 0 0\n50 0 0\n", "row 0 of the PLY element 'face' does not hold the numbers"),
-        ("50 0 0\n", "50 0 nan\n", "vertices: row 1 .* is not a finite point"),
+        ("50 0 0\n", "50 0 nan\n", "vertex 2 is .* not finite"),
         ("3 0 1 3", "3 0 1 4", "faces: row 1 refers to vertex 4"),
         ("3 0 1 3", "3 0 1 -1", "faces: row 1 refers to vertex -1"),
         ("3 0 1 3", "3 0 1 3.5", "row 1 of the PLY element 'face'"),
@@ -430,11 +466,47 @@ def test_ply_that_is_damaged(write, ply_text, old, new, message):
         ("int region", "-2", "region: row 0 is -2"),
         ("int64 region", "3000000000", "region: row 0 is 3000000000"),
         ("int region", "3000000000", "region: row 0 is"),
+        ("int invented", "7", "invented: row 0 is 7"),
+        ("float invented", "1", "face property 'invented' is float: save it as int"),
     ],
 )
-def test_ply_with_a_bad_region(write, ply_text, kind, value, message):
+def test_ply_with_a_bad_label(write, ply_text, kind, value, message):
     rows = [f"{row} {value}" for row in TRIANGLES]
-    refuse(write("a.ply", ply_text(TETRAHEDRON, rows, face_properties=(INDICES, kind))), message)
+    text = ply_text(TETRAHEDRON, rows, face_properties=(INDICES, kind))
+    ours = text.replace("comment made by hand", "comment contactbench probe 1")
+    refuse(write("a.ply", ours), message)
+    # Of somebody else's file nobody knows what it means.
+    with pytest.warns(MeshWarning, match="does not hold what contactbench writes there, and was ignored"):
+        probe = load_probe(write("b.ply", text))
+    assert (len(probe.faces), probe.region.any(), probe.invented.any()) == (4, False, False)
+
+
+def test_ply_headers_of_other_programs(write, ply_text):
+    text = ply_text(TETRAHEDRON, TRIANGLES)
+    twice = text.replace("property double z\n", "property double z\n" + "property uchar nx\n" * 2)
+    twice = re.sub(r"(?m)^([0-9]+ [0-9]+ [0-9]+)$", r"\1 128.0 1", twice)
+    for number, form in enumerate((text.replace("ascii 1.0", "ascii 1.1"), twice)):
+        assert len(load_probe(write(f"{number}.ply", form)).faces) == 4
+
+
+@pytest.mark.parametrize("layout", [" ", "\n"])
+def test_ply_text_on_other_lines_than_usual(write, ply_text, layout):
+    head, end, rows = ply_text(TETRAHEDRON, TRIANGLES).partition("end_header\n")
+    probe = load_probe(write("a.ply", head + end + layout.join(rows.split())))
+    assert corners(probe) == corners(load_probe(write("b.ply", head + end + rows)))
+    refuse(write("c.ply", head + end + layout.join(rows.split()[:-1])), "cut short|does not hold")
+
+
+def test_ply_rows_with_a_column_that_the_header_forgot(write, ply_text):
+    rows = [f"{row} 7" for row in TETRAHEDRON]
+    with pytest.warns(
+        MeshWarning,
+        match=r"Rows of the PLY element 'vertex' end in numbers that the header lacks; left out \(a row: 1\)",
+    ):
+        assert load_probe(write("a.ply", ply_text(rows, TRIANGLES))).size == pytest.approx(0.05)
+    refuse(
+        write("b.ply", ply_text([*rows[:3], rows[3] + " 7"], TRIANGLES)), "row 3 of the PLY element 'vertex'"
+    )
 
 
 def test_ply_comments_may_hold_any_character(write, ply_text):

@@ -39,6 +39,9 @@ def test_what_trimesh_writes(ball, write):
         OFF.replace("OFF", "COFF").replace("0 0 50\n", "0 0 50 255 0 0 255\n"),
         OFF.replace("OFF", "STCNOFF").replace("50 0 0\n", "50 0 0 1 0 0 9 9 9 0 0\n"),
         OFF.replace("3 0 2 1\n", "3 0 2 1 0.5 0.5 0.5\n"),
+        OFF.replace("50 0 0\n0", "50\n0\n0 0"),
+        OFF.replace("\n", " "),
+        OFF.replace(" ", "\n"),
     ],
 )
 def test_forms_of_the_same(write, text):
@@ -91,8 +94,8 @@ def test_what_is_repaired_is_told(write, old, new, note):
         ("4 4 6", "4 3 6", "line 10 .* is a facet beyond those"),
         ("4 4 6", "3 4 6", "line 10 .* is a facet beyond those"),
         ("50 0 0", "50 0", "line 4 .* is not a vertex of three numbers"),
-        ("50 0 0", "50,0,0 0 0", "line 4 .* is not a vertex of three numbers"),
-        ("50 0 0", "nan 0 0", r"vertices: row 1 .*nan.* is not a finite point"),
+        ("50 0 0", "50,0,0 0 0", "line 4 .* has the number '50,0,0', whose comma"),
+        ("50 0 0", "nan 0 0", r"vertex 2 is .* not finite"),
         ("3 0 1 3", "3 0 1 4", "line 8 .* refers to a vertex that is not there .the file has 4"),
         ("3 0 1 3", "3 0 1 -1", "line 8 .* is not a facet that lists its vertices"),
         ("3 0 1 3", "4 0 1 3", "line 8 .* is not a facet that lists its vertices"),

@@ -76,14 +76,11 @@ def test_the_stated_unit_is_used(write, unit, metres):
         assert load_probe(path).size == pytest.approx(metres)
 
 
-def test_another_unit_than_stated_is_refused(write):
+def test_a_unit_that_is_given_counts_and_the_stated_one_is_told(write):
     path = write("a.3mf", packed(model(attributes='unit="inch"')))
-    for other in ("cm", "mm"):
-        refuse(
-            path,
-            f"states that its numbers are inches, but units='{other}' was given: pass 'in' or 'auto'",
-            units=other,
-        )
+    with pytest.warns(MeshWarning, match="states inches, but millimetres were asked for and are used"):
+        assert load_probe(path, "mm").size == pytest.approx(0.05)
+    assert load_probe(path, "in").size == pytest.approx(1.27)
 
 
 def test_parts_are_placed_by_components_and_items(write):
@@ -136,6 +133,50 @@ def test_only_what_the_build_lists_is_there(write):
     refuse(write("b.3mf", packed(model(items=""))), "builds no triangles")
 
 
+@pytest.mark.parametrize(
+    ("space", "read"),
+    [
+        ("http://schemas.3mf.io/3dmanufacturing/booleans/2023/07", False),
+        ("http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02", False),
+        ("http://schemas.microsoft.com/3dmanufacturing/production/2015/06", True),
+        ("http://schemas.microsoft.com/3dmanufacturing/material/2015/02", True),
+    ],
+)
+def test_extensions_that_a_file_requires(write, space, read):
+    path = write("a.3mf", packed(model(attributes=f'xmlns:e="{space}" requiredextensions="p e"').replace(
+        "http://example.org/production", "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+    )))  # fmt: skip
+    if read:
+        assert load_probe(path).size == 0.05
+    else:
+        refuse(path, f"needs the extension '{space}', which is not read: export the part as plain triangles")
+
+
+def test_supports_and_items_that_are_not_printed_are_left_out_and_told(write):
+    aside = 'transform="1 0 0 0 1 0 0 0 1 100 0 0"'
+    objects = OBJECT + OBJECT.replace('id="1" type="model"', 'id="2" type="support"')
+    items = f'<item objectid="1"/><item objectid="2" {aside}/><item objectid="1" printable="0" {aside}/>'
+    with pytest.warns(MeshWarning, match=r"Supports .*\(objects: 1\).*does not print .*\(items: 1\)"):
+        probe = load_probe(write("a.3mf", packed(model(objects, items))))
+    assert (len(probe.faces), probe.size) == (4, 0.05)
+
+
+def test_parts_in_another_unit_than_the_build(write):
+    placed = '<component p:path="/3D/Objects/part.model" objectid="1"/>'
+    objects = f'<object id="2"><components>{placed}</components></object>'
+    inches = model(attributes='unit="inch"', items="")
+    data = packed(model(objects, '<item objectid="2"/>'), part=inches)
+    with pytest.warns(MeshWarning, match=r"state another unit \(inch\) than its build \(millimeter\)"):
+        assert load_probe(write("a.3mf", data)).size == 0.05
+    small = inches.replace('"50"', '"2"')
+    path = write("b.3mf", packed(model(objects, '<item objectid="2"/>'), part=small))
+    refuse(
+        path, "the probe is 2 mm long, less than 5 mm: are the numbers inches. Give --units in instead of mm"
+    )
+    with pytest.warns(MeshWarning, match="states millimetres, but inches were asked for"):
+        assert load_probe(path, "in").size == pytest.approx(0.0508)
+
+
 def test_elements_of_other_namespaces_are_left_alone(write):
     odd = OBJECT.replace("<vertices>", '<vertices><p:vertex x="hello"/>')
     assert len(load_probe(write("a.3mf", packed(model(odd)))).faces) == 4
@@ -157,7 +198,10 @@ def test_names_may_be_in_another_case(write):
         (packed(model().replace("<build>", "<build>&nosuch;")), "not sound XML"),
         (packed(model(attributes='unit="cubit"')), "unknown unit 'cubit'"),
         (packed(model().replace('x="50"', 'x="fifty"')), "a <vertex> of the 3MF model holds no number"),
-        (packed(model().replace('x="50"', 'x="nan"')), "is not a finite point"),
+        (
+            packed(model().replace('x="50"', 'x="nan"')),
+            "vertex 2 is .nan, nan, nan.; 1 of 4 vertices is not finite",
+        ),
         (packed(model().replace('x="50"', "")), "a <vertex> of the 3MF model has no 'x'"),
         (packed(model().replace('v1="1"', 'v1="4"')), "refers to a vertex that is not there"),
         (packed(model().replace('v1="1"', 'v1="-1"')), "refers to a vertex that is not there"),

@@ -38,14 +38,17 @@ def test_size_alone(span, units, certain):
 
 
 def test_reason_compares():
-    assert guess_units(132.0).reason == "The numbers span 132: 132 mm is a probe, 132 m is a house."
+    assert guess_units(132.0).reason == (
+        "The numbers span 132: 132 mm is a probe; it is 1320 mm long if they are centimetres."
+    )
 
 
 def test_inch_or_centimetre_is_asked():
     guess = guess_units(5.2)
     assert set(guess.alternatives) >= {"in"}
     assert "52 mm if they are centimetres, 132.1 mm if they are inches" in guess.reason
-    assert "measure the probe" in guess.reason
+    assert "Measure the probe and give --units cm, in or mm" in guess.reason
+    assert guess.must_be_given
 
 
 def test_a_small_part_in_inches_is_asked_about():
@@ -66,16 +69,56 @@ def test_a_small_part_in_inches_is_asked_about():
         (b"lengths in centimeters", "cm"),
     ],
 )
-def test_notes_decide_where_they_can_be_true(notes, units):
+def test_notes_decide_where_they_declare_what_can_be_true(notes, units):
     guess = guess_units(5.2 if units != "mm" else 52.0, notes=notes)
-    assert (guess.units, guess.certain) == (units, True)
-    assert "speaks of" in guess.reason
+    assert (guess.units, guess.certain, guess.must_be_given) == (units, True, False)
+    assert guess.reason.startswith("The file declares")
+
+
+@pytest.mark.parametrize(
+    "notes",
+    [
+        b"chord tolerance 0.01 mm",
+        b"probe for 12 mm bolts",
+        b"Exported, deviation 0.1 mm",
+        b"unit scale: 1 m",
+        b"unit = 0.01 mm",
+        b"units in the header",
+        b"unit: m4 screws",
+    ],
+)
+def test_a_unit_that_is_only_mentioned_decides_nothing(notes):
+    # A probe of 150 mm in inches.
+    guess = guess_units(5.906, notes=notes)
+    assert guess == guess_units(5.906)
+    assert guess.must_be_given
+    assert "--units cm, in or mm" in guess.reason
+
+
+def test_a_declared_unit_that_makes_no_usual_probe_is_a_doubt():
+    guess = guess_units(5.906, notes=b"units: mm")
+    assert (guess.units, guess.must_be_given) == ("cm", True)
+    assert guess.reason.endswith("The file declares millimetres, but 5.906 mm is small for a probe.")
+    assert guess_units(700.0, notes=b"units: mm").certain
+
+
+def test_several_declared_units_decide_nothing():
+    guess = guess_units(132.0, notes=b"units: mm\nunits: inches")
+    assert (guess.units, guess.certain) == ("mm", False)
+    assert guess.reason.endswith("The file declares several units: millimetres, inches.")
 
 
 def test_notes_that_cannot_be_true_make_it_uncertain():
     guess = guess_units(132.0, notes=b"units: m")
     assert (guess.units, guess.certain) == ("mm", False)
-    assert "metres, which cannot be" in guess.reason
+    assert guess.reason.endswith("The file declares metres, but 132 m is impossible.")
+
+
+def test_a_format_that_is_defined_in_metres():
+    assert guess_units(0.7, defined="m").certain
+    guess = guess_units(60.0, defined="m")
+    assert (guess.units, guess.certain) == ("mm", False)
+    assert guess.reason.endswith("glTF is defined in metres, but 60 m is impossible.")
 
 
 @pytest.mark.parametrize("notes", [b"made in 2020", b"comma, hammer, m 5", b"mm or inches", b"\xff\x00"])
@@ -115,7 +158,7 @@ def test_notes_of_each_format():
     )
     assert notes_in(b"# units: mm\nv 1 2 3 # cm\ng inch", ".obj").split(b"\n") == [b" units: mm", b" cm"]
     assert notes_in(b"anything", ".3mf") == b""
-    assert notes_in(b"anything", ".glb") == b"unit: m"
+    assert notes_in(b"anything", ".glb") == b""
 
 
 @given(st.floats(0.03, 0.6), st.sampled_from(sorted(METRES)))
@@ -144,7 +187,10 @@ def test_auto_is_silent_where_certain(scaled, factor, format_name):
 
 
 def test_auto_asks_where_it_is_not(scaled):
-    with pytest.warns(MeshWarning, match="span 8: the longest side is 80 mm if they are centimetres.*inches"):
+    with pytest.warns(
+        MeshWarning,
+        match="span 8: the longest side is 80 mm if they are centimetres.*inches.*Centimetres are assumed",
+    ):
         probe = load_probe(scaled(0.1), "auto")
     assert probe.size == pytest.approx(0.08, rel=1e-3)
 
@@ -166,12 +212,12 @@ def test_other_values_do_not_guess(scaled):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert load_probe(scaled(0.1), "cm").size == pytest.approx(0.08, rel=1e-3)
-    with pytest.raises(MeshError, match="did the file hold metres"):
+    with pytest.raises(MeshError, match=r"are the numbers metres\? Give --units m instead of mm"):
         load_probe(scaled(1e-3), "mm")
 
 
 def test_the_default_asks_about_inches(scaled):
     with pytest.warns(MeshWarning, match="80 mm if they are inches"):
         load_probe(scaled(1 / 25.4))
-    with pytest.warns(MeshWarning, match="if they are inches.*measure the probe, and say the units"):
+    with pytest.warns(MeshWarning, match="if they are inches.*Measure the probe and give --units"):
         load_probe(scaled(1.2 / 25.4))

@@ -15,6 +15,7 @@ from contactbench.pipeline.mesh.simplify import Count, MaxDeviation
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.preparation.prepare import prepare
 from contactbench.pipeline.preparation.steps import align_step, import_mesh, shell_step, simplify_step
+from contactbench.pipeline.preparation.targets import ContactTarget
 
 MOUNT = from_angles([0, 0, 40], [0, 0, 90])
 LENGTHS = {"alpha": 0.002, "gap": 0.004}
@@ -127,6 +128,17 @@ def test_prepare_leaves_a_mesh_in_its_own_frame_and_says_so(tmp_path):
     assert done.to_json()["facets"] == 500
 
 
+def test_the_result_is_checked_once(tmp_path, monkeypatch):
+    """The simplification has checked what it gives, compared with the same shell."""
+    file = write_stl(tmp_path / "t.stl", bundled("t-shape", 2000))
+    monkeypatch.setattr(
+        "contactbench.pipeline.preparation.prepare.check_soundness", lambda *_, **__: pytest.fail("again")
+    )
+    done = prepare(file, target=count(500))
+    assert done.ready
+    assert done.soundness.largest_deviation_deg is not None
+
+
 def test_prepare_can_be_stopped(hollow):
     with pytest.raises(Cancelled):
         prepare(hollow, target=count(500), cancelled=lambda: True)
@@ -151,3 +163,12 @@ def test_a_saved_probe_can_be_used_at_once(tmp_path):
     save_probe_file(prepare(file, target=count(500)).content, tmp_path / "probe.ply")
     assert load_probe(tmp_path / "probe.ply", "m").health.sentences == ()
     assert len(load_probe_file(tmp_path / "probe.ply").history) == 3
+
+
+def test_by_default_few_facets_are_kept_and_an_excess_is_told_first(tmp_path):
+    file = write_stl(tmp_path / "t.stl", bundled("t-shape", 1_500))
+    kept = prepare(file, "mm", target=lambda placed: ContactTarget().of(placed.probe))
+    assert len(kept.content.probe.faces) == len(load_probe(file, units="mm").faces)
+    spikes = prepare(file, "mm", target=count(4))
+    assert spikes.sentences[0].endswith("in the mean.")
+    assert "more than the 4 asked for" in spikes.sentences[0]

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.recording import RecordingError, read_recording
 from contactbench.pipeline.recording.ros2 import Wanted, import_ros2
-from contactbench.pipeline.recording.ros2_survey import list_topics
+from contactbench.pipeline.recording.ros2_survey import survey
 from contactbench.pipeline.recording.ros2_types import (
     DEFINITIONS,
     JOINT_STATE,
@@ -170,7 +170,7 @@ def test_a_choice_that_is_not_clear_lists_the_topics(bag: Bag, tmp_path: Path) -
     with pytest.raises(RecordingError, match="/x is none of: /ft/wrench"):
         import_ros2(file, tmp_path / "r.mcap", Wanted(wrench_topic="/x"))
     assert import_ros2(file, tmp_path / "r.mcap", Wanted(wrench_topic="/other")).wrenches == 1
-    assert [(topic.name, topic.count) for topic in list_topics(file)] == [("/ft/wrench", 50), ("/other", 1)]
+    assert [(topic.name, topic.count) for topic in survey(file).topics] == [("/ft/wrench", 50), ("/other", 1)]
 
 
 def test_no_wrenches(tmp_path: Path) -> None:

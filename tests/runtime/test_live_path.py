@@ -16,9 +16,12 @@ from verification.touch_cases import MODEL, RATE, Push, protocol, stream
 from contactbench.pipeline import kernel
 from contactbench.pipeline.devices.clock import SampleClock
 from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script
-from contactbench.pipeline.devices.emulate.models import BotaModel, RdtModel, RobotiqModel, SriModel
-from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.faults import Truth
 from contactbench.pipeline.devices.protocols import bota, rdt, robotiq, sri
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
 from contactbench.pipeline.runtime import Engine, Run
@@ -32,7 +35,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.devices.emulate.models import Model
+    from contactbench.pipeline.devices.protocols.emulated import Model
 
 TURN = np.radians(20.0)  # rad/s
 BATCH_S, HELD_S, HOLD_UPS = 0.016, 0.4, (1.3, 2.5)
@@ -137,9 +140,9 @@ KINDS = {
     "bota": Kind(lambda: (BotaModel(200.0), bota.BotaParser(200.0)), 200.0, 0.05, 0.002),
     "robotiq": Kind(lambda: (RobotiqModel(100.0), robotiq.RobotiqParser()), 100.0, 0.1, 0.005),
     "robotiq, quiet": Kind(lambda: (RobotiqModel(100.0), robotiq.RobotiqParser()), 100.0, 0.01, 5e-4),
-    "ati": Kind(lambda: (RdtModel(500.0, "ati"), rdt.RdtParser(rdt.CountScale(1e6, 1e6))), 500.0, 0.02, 5e-4),
+    "ati": Kind(lambda: (RdtModel(500.0), rdt.RdtParser(rdt.CountScale(1e6, 1e6))), 500.0, 0.02, 5e-4),
     "onrobot": Kind(
-        lambda: (RdtModel(500.0, "onrobot"), rdt.RdtParser(rdt.ONROBOT_SCALE)), 500.0, 0.035, 5e-4
+        lambda: (RdtModel(500.0, profile="onrobot"), rdt.RdtParser(rdt.ONROBOT_SCALE)), 500.0, 0.035, 5e-4
     ),
 }
 HUNG_S, HANGS_S, WHOLE_S = 8.0, 1.0, 10.0

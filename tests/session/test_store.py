@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from benchmarks.session_crash import kill_writers
 
 from contactbench.pipeline.session import (
     JournalError,
@@ -19,7 +20,6 @@ from contactbench.pipeline.session import (
 )
 from contactbench.pipeline.session.actions import VERSION
 from contactbench.pipeline.session.check import check, repair
-from contactbench.pipeline.session.crash import kill_writers
 
 ROOT = Path(__file__).parents[2]
 

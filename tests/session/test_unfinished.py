@@ -11,9 +11,9 @@ import pytest
 from typer.testing import CliRunner
 
 from contactbench.pipeline.commands.session import session_app
-from contactbench.pipeline.devices.drive import Health, State
 from contactbench.pipeline.devices.protocols import Counters
 from contactbench.pipeline.devices.sample import WrenchSample
+from contactbench.pipeline.devices.stream import Health, State
 from contactbench.pipeline.recording import RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.recorder import Recorder
 from contactbench.pipeline.session import Session, SessionError

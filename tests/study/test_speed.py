@@ -30,9 +30,10 @@ def test_every_method_is_measured_at_every_resolution(report):
 
 def test_every_hit_of_a_ray_through_a_box_is_found():
     pytest.importorskip("embreex", reason="Embree's bindings are an extra")
+    from benchmarks.plane import _block
+
     from contactbench.pipeline.contact import ContactSolver
     from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
-    from contactbench.pipeline.study.rivals.plane import _block
 
     axis = EmbreeAxis(ContactSolver(_block()))
     origins = np.array(

@@ -2,9 +2,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.verification import bench
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.study.verification import bench
 from contactbench.pipeline.verification import diagnosis
 from contactbench.pipeline.verification.causes import Evidence, alignment_columns, explain
 from contactbench.pipeline.verification.diagnosis import diagnose

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.verification import mesh
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.study.verification import mesh
 from contactbench.pipeline.verification.known import Outcome
 from contactbench.pipeline.verification.known_touch import MISTAKES, TouchParameters, check_touch
 from contactbench.pipeline.verification.markers import MarkerError

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
+from benchmarks.verification import mesh
 
 from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.kernel import Reason, SurfaceIndex
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.study.verification import mesh
 from contactbench.pipeline.verification.markers import (
     Marker,
     MarkerError,

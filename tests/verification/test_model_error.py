@@ -5,11 +5,11 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
+from benchmarks.verification import bench, draw_presses, sensor_noise, true_markers
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.report.reading import parse_verification
-from contactbench.pipeline.study.verification import bench, draw_presses, sensor_noise, true_markers
 from contactbench.pipeline.verification.causes import Evidence, across
 from contactbench.pipeline.verification.model_error import LEAST, measure_model_error, model_error_words
 

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
+from benchmarks.verification import mesh
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import WrenchNoise
-from contactbench.pipeline.study.verification import mesh
 from contactbench.pipeline.verification.locating import Placing
 from contactbench.pipeline.verification.markers import make_markers, with_normals
 from contactbench.pipeline.verification.protocol import ProtocolSettings, TouchProtocol

@@ -41,7 +41,7 @@ def bad_meshes(folder):
         file.truncate(3 * 2**30)
     words = {
         "empty.stl": "empty",
-        "numbers.stl": "not a finite",
+        "numbers.stl": "not finite",
         "huge.stl": "512 MiB",
         "letter.txt": "suffix",
     }

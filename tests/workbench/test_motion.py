@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks.bundle_example import example_config
 
 from contactbench.pipeline.control.frames import Beginning, Frame
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.bundle_example import example_config
 from contactbench.pipeline.workbench.motion import MotionChoice, MotionRun, placed
 
 PLATFORM = "virtual://platform"

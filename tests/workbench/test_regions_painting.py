@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from benchmarks.painting import run
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.painting import run
 
 
 def test_it_times_every_event_of_both_ways():

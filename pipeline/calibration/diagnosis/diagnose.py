@@ -18,18 +18,20 @@ from contactbench.pipeline.calibration.contact_error import usual_task
 from contactbench.pipeline.calibration.diagnosis.evidence import weigh
 from contactbench.pipeline.calibration.diagnosis.explain import (
     FELT,
+    NONE,
     NOTHING,
     TIE,
     Case,
     Context,
     Words,
     decided_by,
+    odds,
 )
-from contactbench.pipeline.calibration.diagnosis.hypotheses import AS_DECLARED, RawOrientations, hypotheses
-from contactbench.pipeline.calibration.diagnosis.odds import NONE, odds
+from contactbench.pipeline.calibration.diagnosis.hypotheses import MOUNT, WORLD, YAW, hypotheses, settled
+from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
 from contactbench.pipeline.calibration.diagnosis.prior import QUIET, Prior, quiet
+from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Noise
-from contactbench.pipeline.calibration.diagnosis.turned import MOUNT, WORLD, YAW, settled
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, stack
@@ -65,49 +67,25 @@ _UNTOLD = float(
 
 @dataclass(frozen=True, eq=False)
 class Finding:
-    """What the poses say of one way to read them.
+    """What the poses say of one way to read them."""
 
-    Attributes
-    ----------
-    hypothesis : str
-        Its key.
-    title : str
-        For tables.
-    log_likelihood, log_prior, score : float
-        Natural logarithms; score is their sum.
-    margin : float
-        Score over that of the data as declared.
-    residual : float
-        Root mean square of the residuals, in standard deviations: of the noise that was given, else of that
-        which the best reading leaves.
-    sentence : str
-    evidence : float
-        Likelihood and knowledge of the load, without the preference for what was declared.
-    priors : mapping of str to float
-        Logarithms of what each piece of knowledge says.
-    gravity_W : (3,)
-        Weight of the load, W, N, so read.
-    centre_of_mass_S : (3,)
-        S, m, so read.
-    left_out : tuple of int
-        Indices of poses that were taken for bumped.
-    turn : (3, 3) or None
-        What R_WS is multiplied by on the right if the sensor is turned on the flange.
-    """
-
-    hypothesis: str
-    title: str
+    hypothesis: str  # Its key
+    title: str  # For tables
+    # Natural logarithms; score is their sum
     log_likelihood: float
     log_prior: float
     score: float
-    margin: float
+    margin: float  # Score over that of the data as declared
+    # Root mean square of the residuals, in standard deviations: of the noise that was given, else of that
+    # which the best reading leaves
     residual: float
     sentence: str
-    evidence: float
-    priors: Mapping[str, float]
-    gravity_W: NDArray[np.float64]
-    centre_of_mass_S: NDArray[np.float64]
-    left_out: tuple[int, ...]
+    evidence: float  # Likelihood and knowledge of the load, without the preference for what was declared
+    priors: Mapping[str, float]  # Logarithms of what each piece of knowledge says
+    gravity_W: NDArray[np.float64]  # (3,) weight of the load, W, N, so read
+    centre_of_mass_S: NDArray[np.float64]  # (3,) S, m, so read
+    left_out: tuple[int, ...]  # Indices of poses that were taken for bumped
+    # (3, 3) what R_WS is multiplied by on the right if the sensor is turned on the flange
     turn: NDArray[np.float64] | None = None
 
     @property
@@ -118,40 +96,20 @@ class Finding:
 
 @dataclass(frozen=True, eq=False)
 class Diagnosis:
-    """What explains the poses.
+    """What explains the poses."""
 
-    Attributes
-    ----------
-    ranking : tuple of Finding
-        All readings, the most probable first.
-    decided_by : str
-        What sets the best reading apart from all others: "residuals"; "prior: " and which, where some others
-        leave the same residuals; or "nothing": then it stands for all that are `tied`.
-    tied : tuple of str
-        Keys of readings that explain the data as well as the best: within a factor of exp(2).
-    consistent : bool
-        The data are consistent as they are.
-    explained : bool
-        The best reading leaves residuals that chance explains.
-    none_known : bool
-        That it is none of the known causes is more probable than any of them.
-    odds : mapping of str to float
-        Probability of each reading by its key, and of "none" of them.
-    sentence : str
-        All of that for a technician, with what to do.
-    not_testable : tuple of str
-        What these data do not tell, and what it would take.
-    """
-
-    ranking: tuple[Finding, ...]
+    ranking: tuple[Finding, ...]  # All readings, the most probable first
+    # What sets the best reading apart from all others: "residuals"; "prior: " and which, where some others
+    # leave the same residuals; or "nothing": then it stands for all that are `tied`
     decided_by: str
+    # Keys of readings that explain the data as well as the best: within a factor of exp(2)
     tied: tuple[str, ...]
-    consistent: bool
-    explained: bool
-    none_known: bool
-    odds: Mapping[str, float]
-    sentence: str
-    not_testable: tuple[str, ...]
+    consistent: bool  # The data are consistent as they are
+    explained: bool  # The best reading leaves residuals that chance explains
+    none_known: bool  # That it is none of the known causes is more probable than any of them
+    odds: Mapping[str, float]  # Probability of each reading by its key, and of "none" of them
+    sentence: str  # All of that for a technician, with what to do
+    not_testable: tuple[str, ...]  # What these data do not tell, and what it would take
     _poses: tuple[PoseSample, ...] = field(repr=False)
     _cases: Mapping[str, Case] = field(repr=False)
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from contactbench.pipeline.calibration.diagnosis.hypotheses import FEWEST_BESIDE
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED
-from contactbench.pipeline.calibration.diagnosis.rows import FEWEST_BESIDE
 from contactbench.pipeline.calibration.diagnosis.side_by_side import Fits, Noise, begin, fit, joint_doubts
 
 if TYPE_CHECKING:
@@ -40,45 +40,24 @@ _WHOLE = 1.005 * np.eye(6)  # a pose that alone decides something has no residua
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What the poses say of one hypothesis.
+    """What the poses say of one hypothesis."""
 
-    Attributes
-    ----------
-    log_likelihood : float
-        Of the recorded numbers, up to a constant that all hypotheses share.
-    gravity_W, centre_of_mass_S : (3,)
-        N and m, so read.
-    covariance : (6, 6)
-        Of both.
-    squares : (2,)
-        Sums of squared residuals of forces and torques over the kept poses, in units of the noise.
-    freedom : (2,)
-        Their degrees of freedom.
-    noise : (2,)
-        Size of the noise, in the same unit, that explains the forces and the torques best.
-    kept : (n,) bool
-        Poses that were not taken for bumped.
-    change : (6,)
-        What the bias gains from 0 to 1 of the hypothesis' course, N and N·m; 0 where it has none.
-    excess : float
-        What it costs in log_likelihood that the noise is larger than was given.
-    R_WS : (n, 3, 3)
-        Orientations, with the turn that was found.
-    occam : float
-        Logarithm of how probable such a turn, to its uncertainty, was beforehand; 0 where there is none.
-    """
-
-    log_likelihood: float
+    log_likelihood: float  # Of the recorded numbers, up to a constant that all hypotheses share
+    # each (3,): N and m, so read
     gravity_W: NDArray[np.float64]
     centre_of_mass_S: NDArray[np.float64]
-    covariance: NDArray[np.float64]
+    covariance: NDArray[np.float64]  # (6, 6) of both
+    # (2,) sums of squared residuals of forces and torques over the kept poses, in units of the noise
     squares: NDArray[np.float64]
-    freedom: NDArray[np.float64]
+    freedom: NDArray[np.float64]  # (2,) their degrees of freedom
+    # (2,) size of the noise, in the same unit, that explains the forces and the torques best
     noise: NDArray[np.float64]
-    kept: NDArray[np.bool_]
+    kept: NDArray[np.bool_]  # (n,) poses that were not taken for bumped
+    # (6,) what the bias gains from 0 to 1 of the hypothesis' course, N and N·m; 0 where it has none
     change: NDArray[np.float64]
-    excess: float
-    R_WS: NDArray[np.float64]
+    excess: float  # What it costs in log_likelihood that the noise is larger than was given
+    R_WS: NDArray[np.float64]  # (n, 3, 3) orientations, with the turn that was found
+    # Logarithm of how probable such a turn, to its uncertainty, was beforehand; 0 where there is none
     occam: float
 
 

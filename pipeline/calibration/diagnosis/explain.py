@@ -7,8 +7,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.special import logsumexp
 
-from contactbench.pipeline.calibration.diagnosis.odds import NONE, in_words
+from contactbench.pipeline.calibration.diagnosis.hypotheses import SHIFTED
 from contactbench.pipeline.calibration.diagnosis.prior import (
     DOWN,
     MASS,
@@ -19,7 +20,6 @@ from contactbench.pipeline.calibration.diagnosis.prior import (
     Prior,
     angle_between,
 )
-from contactbench.pipeline.calibration.diagnosis.rows import SHIFTED
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import named
@@ -48,22 +48,12 @@ _BOTH = np.arange(2)
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """One hypothesis and all that speaks for it.
-
-    Attributes
-    ----------
-    hypothesis : Hypothesis
-    evidence : Evidence
-    priors : dict
-        Logarithms of what each piece of knowledge about loads says.
-    preference : float
-        Logarithm of how rarely such a mistake is made; 0 for what was declared.
-    """
+    """One hypothesis and all that speaks for it."""
 
     hypothesis: Hypothesis
     evidence: Evidence
-    priors: dict[str, float]
-    preference: float
+    priors: dict[str, float]  # Logarithms of what each piece of knowledge about loads says
+    preference: float  # Logarithm of how rarely such a mistake is made; 0 for what was declared
 
     @property
     def key(self) -> str:
@@ -128,18 +118,10 @@ def decided_by(best: Case, rivals: Sequence[Case]) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Context:
-    """What all cases share.
-
-    Attributes
-    ----------
-    poses : tuple of PoseSample
-    sigmas : (6,)
-        Noise, N and N·m, or the unit that residuals are counted in when it is not known.
-    known : bool
-    prior : Prior
-    """
+    """What all cases share."""
 
     poses: tuple[PoseSample, ...]
+    # (6,) noise, N and N·m, or the unit that residuals are counted in when it is not known
     sigmas: NDArray[np.float64]
     known: bool
     prior: Prior
@@ -452,3 +434,51 @@ def _list(words: Sequence[str], most: int = _LISTED) -> str:
 
 def _capital(text: str) -> str:
     return text[0].upper() + text[1:]
+
+
+NONE = "none"
+# An unknown cause leaves residuals of any size: forces and torques by a factor of up to 3,000 each, where those of
+# a known cause are those of the noise.
+_ANY_SIZE = 2 * float(np.log(np.log(3e3)))
+
+_LEFT_OVER = float(
+    np.log(19.0)
+)  # that an unknown cause is more probable than any whose residuals chance refutes
+
+
+def odds(cases: Sequence[Case], mistake: float, *, explained: bool) -> Mapping[str, float]:
+    """Return the probability of each case by its key, and of NONE.
+
+    None of the known causes is a reading of its own: its likelihood is that of the best known reading with
+    residuals of any size, so it wins where even the best leaves more than the noise explains.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+    mistake : float
+        Share of recordings with a mistake of any one family.
+    explained : bool
+        Chance explains the residuals of the best case; else hardly any case can be true.
+    """
+    unknown = max(_unexplained(case) for case in cases) + np.log(mistake) - _ANY_SIZE
+    if not explained:
+        unknown = max(unknown, max(case.score for case in cases) + _LEFT_OVER)
+    scores = np.array([*(case.score for case in cases), unknown])
+    shares = np.exp(scores - logsumexp(scores))
+    return dict(zip([*(case.key for case in cases), NONE], shares.tolist(), strict=True))
+
+
+def _unexplained(case: Case) -> float:
+    """Return the logarithm of the likelihood if the size of the residuals means nothing."""
+    return (
+        case.value + case.evidence.excess - case.priors.get(QUIET, 0.0) + float(np.log(case.hypothesis.share))
+    )
+
+
+def in_words(probability: float) -> str:
+    """Return odds such as "8 to 1"."""
+    ratio = probability / max(1 - probability, 1e-9)
+    if ratio > 1000:
+        return "over 1000 to 1"
+    whole = round(max(ratio, 1 / ratio)) if ratio > 0 else 1000
+    return f"{whole} to 1" if ratio >= 1 else f"1 to {whole}"

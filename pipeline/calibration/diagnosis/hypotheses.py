@@ -5,20 +5,21 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+from scipy.spatial.transform import Rotation
+
 from contactbench.pipeline.calibration.diagnosis.hypothesis import AS_DECLARED, Hypothesis
-from contactbench.pipeline.calibration.diagnosis.prior import Prior
+from contactbench.pipeline.calibration.diagnosis.prior import Prior, angle_between
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations, Rereadings
-from contactbench.pipeline.calibration.diagnosis.rows import changes, orders
-from contactbench.pipeline.calibration.diagnosis.turned import directions, mounts
-from contactbench.pipeline.calibration.diagnosis.wrenches import signs, swaps, units
+from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    import numpy as np
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.calibration.diagnosis.evidence import Evidence
     from contactbench.pipeline.calibration.poses import Stack
-
-__all__ = ["AS_DECLARED", "Hypothesis", "RawOrientations", "hypotheses"]
 
 
 def hypotheses(
@@ -67,3 +68,306 @@ def hypotheses(
         total = sum(member.share / member.variants for member in members)
         found += [replace(member, share=member.share / total) for member in members]
     return tuple(found), tuple(rereadings.not_testable)
+
+
+_KGF, _LBF, _INCH, _FOOT = STANDARD_GRAVITY, 0.45359237 * STANDARD_GRAVITY, 0.0254, 0.3048
+_NAMES = ("fx", "fy", "fz", "mx", "my", "mz")
+_REMEDY = "Multiply {} by -1, or set the sign in the driver."
+_OFTEN, _MOST = 5.0, 20.0  # as often as the rarest variants
+
+
+def units(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
+    """Yield other units of the readings.
+
+    Parameters
+    ----------
+    R_WS : (n, 3, 3)
+        Orientations as declared.
+    """
+    for key, title, fact, force, torque, share in (
+        ("torque_Nmm", "torques in N·mm", "Torques are in N·mm", 1, 1e-3, _OFTEN),
+        ("torque_Ncm", "torques in N·cm", "Torques are in N·cm", 1, 1e-2, 1.0),
+        (
+            "torque_1000_too_small",
+            "torques 1000 times too small",
+            "Torques are 1000 times too small, as if N·m had been taken for N·mm and divided once too often",
+            1,
+            1e3,
+            1.0,
+        ),
+        ("torque_lbfin", "torques in lbf·in", "Torques are in lbf·in", 1, _LBF * _INCH, 1.0),
+        ("torque_kgfcm", "torques in kgf·cm", "Torques are in kgf·cm", 1, _KGF / 100, 0.5),
+        ("force_kgf", "forces in kgf", "Forces are in kgf", _KGF, 1, 1.0),
+        ("force_kgf_torque_Nmm", "forces in kgf with torques in N·mm", "Forces are in kgf and torques in N·mm",
+         _KGF, 1e-3, 1.0),
+        ("force_kgf_torque_Ncm", "forces in kgf with torques in N·cm", "Forces are in kgf and torques in N·cm",
+         _KGF, 1e-2, 0.5),
+        ("force_kgf_torque_kgfcm", "forces in kgf with torques in kgf·cm",
+         "Forces are in kgf and torques in kgf·cm", _KGF, _KGF / 100, 1.0),
+        ("force_kgf_torque_kgfm", "forces in kgf with torques in kgf·m", "Forces are in kgf and torques in kgf·m",
+         _KGF, _KGF, 1.0),
+        ("force_lbf", "forces in lbf", "Forces are in lbf", _LBF, 1, 1.0),
+        ("force_lbf_torque_lbfin", "forces in lbf with torques in lbf·in",
+         "Forces are in lbf and torques in lbf·in", _LBF, _LBF * _INCH, 2.0),
+        ("force_lbf_torque_lbfft", "forces in lbf with torques in lbf·ft",
+         "Forces are in lbf and torques in lbf·ft", _LBF, _LBF * _FOOT, 2.0),
+    ):  # fmt: skip
+        what = " and ".join(
+            f"{name} by {value:.6g}" for name, value in (("forces", force), ("torques", torque)) if value != 1
+        )
+        yield Hypothesis(
+            key,
+            title,
+            fact,
+            f"{what.replace(' by', ' multiplied by')}",
+            f"Multiply {what}.",
+            R_WS,
+            np.repeat([force, torque], 3).astype(np.float64),
+            share=share,
+        )
+
+
+def signs(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
+    """Yield readings with reversed signs: of all channels, of forces or torques, of an axis, of one channel."""
+    every = np.arange(6)
+    for key, what, wrong, why, share in (
+        ("wrench_negated", "forces and torques", every < 6, ", as a sensor that reports the reaction has", _MOST),
+        ("torque_negated", "torques", every >= 3, "", _MOST),
+        ("force_negated", "forces", every < 3, "", _OFTEN),
+    ):  # fmt: skip
+        yield Hypothesis(
+            key,
+            f"{what} with the wrong sign",
+            f"The {what} have the wrong sign{why}",
+            f"{what} negated",
+            _REMEDY.format(what),
+            R_WS,
+            np.where(wrong, -1.0, 1.0),
+            share=share,
+        )
+    for axis, name in enumerate("xyz"):
+        yield Hypothesis(
+            f"axis_{name}_reversed",
+            f"{name} axis reversed",
+            f"The sensor's {name} axis is reversed",
+            f"f{name} and m{name} negated",
+            _REMEDY.format(f"f{name} and m{name}"),
+            R_WS,
+            np.where(every % 3 == axis, -1.0, 1.0),
+        )
+    for channel, name in enumerate(_NAMES):
+        yield Hypothesis(
+            f"{name}_negated",
+            f"{name} with the wrong sign",
+            f"The channel {name} has the wrong sign",
+            f"{name} negated",
+            _REMEDY.format(name),
+            R_WS,
+            np.where(every == channel, -1.0, 1.0),
+        )
+
+
+def swaps(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
+    """Yield readings whose channels are in another order."""
+    for a, b in ((0, 1), (1, 2), (0, 2)):
+        for pairs in (((a, b), (a + 3, b + 3)), ((a, b),), ((a + 3, b + 3),)):
+            channels = np.arange(6)
+            for one, other in pairs:
+                channels[[one, other]] = other, one
+            words = [f"{_NAMES[one]} with {_NAMES[other]}" for one, other in pairs]
+            key = "_".join(f"{_NAMES[one]}_{_NAMES[other]}" for one, other in pairs) + "_swapped"
+            yield _swapped(R_WS, key, " and ".join(words), channels)
+    yield _swapped(R_WS, "force_torque_swapped", "forces with torques", np.roll(np.arange(6), 3))
+
+
+def _swapped(R_WS: NDArray[np.float64], key: str, what: str, channels: NDArray[np.intp]) -> Hypothesis:
+    return Hypothesis(
+        key,
+        f"{what} swapped",
+        f"Channels are swapped: {what}",
+        "them swapped back",
+        f"Swap {what} in the columns' names or the driver.",
+        R_WS,
+        channels=channels,
+    )
+
+
+YAW, MOUNT, WORLD, TOOL_BEHIND = "yaw", "mount", "world_turned", "tool_behind"
+_YAWS = (90, 180, 270)
+_RIGHT_ANGLES_OFTEN = 3.0  # right angles are more common than any other turn
+_APART = np.radians(30)  # gravity along an axis this far from down is another hypothesis
+
+
+def mounts(R_WS: NDArray[np.float64]) -> Iterator[Hypothesis]:
+    """Yield sensors that are turned on the flange: by right angles, by any angle about z, in any way."""
+    for angle in _YAWS:
+        turn = Rotation.from_euler("z", angle, degrees=True).as_matrix()
+        yield Hypothesis(f"yaw_{angle}", *_about_z(angle), R_WS @ turn, share=_RIGHT_ANGLES_OFTEN)
+    for key, free in ((YAW, (False, False, True)), (MOUNT, (True, True, True))):
+        yield Hypothesis(key, "", "", "", "", R_WS, free=free, fitted=True)
+
+
+def directions(R_WS: NDArray[np.float64], prior: Prior) -> Iterator[Hypothesis]:
+    """Yield other directions of gravity in the world, and of the tool from the sensor: the data stay as they are."""
+    down = np.array(prior.down_W)
+    for axis in np.concatenate([np.eye(3), -np.eye(3)]):
+        if angle_between(axis, down) > _APART:
+            name = f"{'-' if axis.sum() < 0 else '+'}{'xyz'[int(np.argmax(np.abs(axis)))]}"
+            often = 8.0 if axis @ down < -0.9 else 1.0  # a ceiling is more common than a wall
+            there = replace(prior, down_W=tuple(axis))
+            yield Hypothesis(f"gravity_along_{name}", *_gravity(axis, name), R_WS, share=often, prior=there)
+    yield Hypothesis(WORLD, "", "", "", "", R_WS, share=4.0, prior=prior, fitted=True)
+    behind = replace(prior, tool_axis_S=tuple(-np.array(prior.tool_axis_S)))
+    yield Hypothesis(
+        TOOL_BEHIND,
+        "tool on the other side of the sensor",
+        "The sensor's z axis points away from the tool",
+        "the tool on the other side of the sensor",
+        "If the sensor is mounted so, the data are right as they are.",
+        R_WS,
+        share=8.0,
+        prior=behind,
+    )
+
+
+def settled(hypothesis: Hypothesis, evidence: Evidence, prior: Prior) -> Hypothesis:
+    """Return a hypothesis with the turn, or the direction of gravity, that was found, and its words."""
+    if not hypothesis.fitted:
+        return hypothesis
+    if hypothesis.key == WORLD:
+        g = evidence.gravity_W
+        down = g / max(float(np.linalg.norm(g)), 1e-12)
+        words = ", ".join(f"{value:.2f}" for value in down + 0.0)
+        title, fact, reading, remedy = _gravity(down, f"({words})")
+        found = replace(prior, down_W=tuple(down)) if g.any() else prior
+        return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, prior=found)
+    turn = Rotation.from_matrix(hypothesis.R_WS[0].T @ evidence.R_WS[0])
+    vector = turn.as_rotvec()
+    if hypothesis.key == YAW:
+        title, fact, reading, remedy = _about_z(float(np.degrees(vector[2])) % 360)
+    else:
+        axis = vector / max(float(np.linalg.norm(vector)), 1e-12)
+        words = ", ".join(f"{value:.2f}" for value in axis + 0.0)
+        angle = f"{np.degrees(np.linalg.norm(vector)):.1f}°"
+        title = f"sensor turned by {angle} on the flange"
+        fact = f"The sensor is turned by {angle} about its axis ({words}) on the flange"
+        reading = "the orientations turned so"
+        remedy = "Run calibrate --estimate-mount, or correct the sensor's mounting."
+    return replace(hypothesis, title=title, fact=fact, reading=reading, remedy=remedy, R_WS=evidence.R_WS)
+
+
+def _about_z(degrees: float) -> tuple[str, str, str, str]:
+    """Return title, fact, reading and remedy of a sensor that is turned about its z axis."""
+    angle = f"{degrees:.4g}°"
+    return (
+        f"sensor turned by {angle} about z on the flange",
+        f"The sensor is turned by {angle} about its z axis on the flange",
+        f"the orientations turned by {angle} about the sensor's z axis",
+        f"Correct the sensor's mounting: R_WS becomes R_WS · Rz({angle}).",
+    )
+
+
+def _gravity(down_W: NDArray[np.float64], name: str) -> tuple[str, str, str, str]:
+    """Return title, fact, reading and remedy of gravity in another direction."""
+    option = ",".join(f"{value:.3g}" for value in down_W + 0.0)
+    remedy = (
+        "If the robot hangs from a ceiling or a wall, or the orientations are those of another frame,"
+        f" pass --down {option}."
+    )
+    return (
+        f"gravity along {name} of the world",
+        f"Gravity points along {name} of the world frame",
+        "gravity there",
+        remedy,
+    )
+
+
+SHIFTED = "rows_shifted_by_"
+# A re-zero needs so many poses on either side: a single one cannot be told from a bumped pose.
+FEWEST_BESIDE = 2
+_FEWEST_DRIFTING = 6
+_SETTLING = 4.0  # time constants in a session
+_SWAPS = 3  # pairs that are worth a fit
+
+
+def orders(R_WS: NDArray[np.float64], poses: Stack) -> Iterator[Hypothesis]:
+    """Yield poses whose orientations belong to the next or previous row, or to each other's."""
+    for step, whose in ((1, "next"), (-1, "previous")):
+        yield Hypothesis(
+            f"{SHIFTED}{step}",
+            f"orientations shifted by one row to the {whose}",
+            f"Orientations and readings are shifted by one row: each reading belongs to the {whose} row's orientation",
+            "them shifted back",
+            "Shift the orientations by one row, and leave out the row at the end that has none.",
+            np.roll(R_WS, -step, axis=0),
+        )
+    pairs, count = _likely_swaps(poses)
+    for first, second in pairs:
+        again = R_WS.copy()
+        again[[first, second]] = R_WS[[second, first]]
+        yield Hypothesis(
+            f"rows_{first + 1}_and_{second + 1}_swapped",
+            f"orientations of poses {first + 1} and {second + 1} swapped",
+            f"The orientations of poses {first + 1} and {second + 1} are swapped",
+            "them swapped back",
+            "Swap the two orientations, or take the two poses again.",
+            again,
+            variants=count,
+        )
+
+
+def _likely_swaps(poses: Stack) -> tuple[NDArray[np.intp], int]:
+    """Return the pairs of poses (m, 2) whose swap explains the forces best, and how many pairs there are.
+
+    What orientations add to the normal equations of gravity and force bias does not depend on their order; a
+    swap changes but the right-hand side, by (R_j - R_i)^T (F_i - F_j).
+    """
+    R, F, n = poses.R_SW, poses.F, len(poses)
+    i, j = np.triu_indices(n, 1)
+    mean = R.mean(axis=0)
+    normal = n * (np.eye(3) - mean.T @ mean) + 1e-9 * np.eye(3)
+    right = np.einsum("nab,na->b", R - mean, F) + np.einsum("pab,pa->pb", R[j] - R[i], F[i] - F[j])
+    explained = np.einsum("pa,pa->p", right, np.linalg.solve(normal, right.T).T)
+    best = np.argsort(-explained)[:_SWAPS]
+    return np.stack([i[best], j[best]], axis=1), len(i)
+
+
+def changes(R_WS: NDArray[np.float64], times: NDArray[np.float64] | None) -> Iterator[Hypothesis]:
+    """Yield biases that jump between two poses, drift or settle.
+
+    Parameters
+    ----------
+    R_WS : (n, 3, 3)
+    times : (n,) or None
+        Of the poses, s; left out: they follow each other evenly.
+    """
+    n = len(R_WS)
+    moments = range(FEWEST_BESIDE, n - FEWEST_BESIDE + 1)
+    for change in moments:
+        yield Hypothesis(
+            f"rezero_before_{change + 1}",
+            f"re-zero before pose {change + 1}",
+            f"The sensor was re-zeroed between poses {change} and {change + 1}",
+            "another bias from there on",
+            "Calibrate with the poses before or after it alone, and keep the sensor from re-zeroing itself.",
+            R_WS,
+            change=change,
+            course=(np.arange(n) >= change).astype(np.float64),
+            variants=len(moments),
+        )
+    when = np.arange(n, dtype=np.float64) if times is None else times
+    span = float(np.ptp(when))
+    if n >= _FEWEST_DRIFTING and span > 0:
+        remedy = "Let the sensor warm up, then take the poses again without a long pause."
+        to_go = (when.max() - when) / span
+        words = "drifting zero", "The sensor's zero drifts", "a bias that changes evenly", remedy
+        yield Hypothesis("drift", *words, R_WS, course=-to_go)
+        words = (
+            "settling zero",
+            "The sensor's zero settles, as while it warms up",
+            "a bias that settles",
+            remedy,
+        )
+        yield Hypothesis(
+            "settling", *words, R_WS, course=np.expm1(-_SETTLING) - np.expm1(-_SETTLING * (1 - to_go))
+        )

@@ -17,59 +17,31 @@ AS_DECLARED = "as_declared"
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """One way to read the poses.
+    """One way to read the poses."""
 
-    Attributes
-    ----------
-    key : str
-        For programs.
-    title : str
-        For tables, such as "orientations transposed".
-    fact : str
-        What is then true, a sentence without its full stop.
-    reading : str
-        How to read the data then; completes "with ...".
-    remedy : str
-        What to do, whole sentences.
-    R_WS : (n, 3, 3)
-        Orientations, so read.
-    factor : (6,)
-        What the recorded channels, in the order of `channels`, are to be multiplied by to give N and N·m on
-        the probe.
-    channels : (6,) int
-        Which recorded channel is fx, fy, fz, mx, my, mz.
-    change : int
-        Index of the first pose with another bias; 0 when it never jumps.
-    course : (n,)
-        What the bias changes with; zeros when it does not.
-    free : (bool, bool, bool)
-        Axes of S about which a constant turn of the sensor is to be found.
-    share : float
-        How often it is made, among the mistakes of its family.
-    variants : int
-        How many differ from it by a number alone, such as the pose of a re-zero: they share one prior.
-    prior : Prior, optional
-        What is known of the load if it holds; left out: what was said. Such a reading leaves the data as they
-        are.
-    fitted : bool
-        What it says depends on what is found: the turn, or gravity's direction.
-    """
-
-    key: str
-    title: str
-    fact: str
-    reading: str
-    remedy: str
-    R_WS: NDArray[np.float64]
+    key: str  # For programs
+    title: str  # For tables, such as "orientations transposed"
+    fact: str  # What is then true, a sentence without its full stop
+    reading: str  # How to read the data then; completes "with ..."
+    remedy: str  # What to do, whole sentences
+    R_WS: NDArray[np.float64]  # (n, 3, 3) orientations, so read
+    # (6,) what the recorded channels, in the order of `channels`, are to be multiplied by to give N and N·m
+    # on the probe
     factor: NDArray[np.float64] = field(default_factory=lambda: np.ones(6))
+    # (6,) which recorded channel is fx, fy, fz, mx, my, mz
     channels: NDArray[np.intp] = field(default_factory=lambda: np.arange(6))
-    change: int = 0
+    change: int = 0  # Index of the first pose with another bias; 0 when it never jumps
+    # (n,) what the bias changes with; zeros when it does not
     course: NDArray[np.float64] = field(default_factory=lambda: np.zeros(0))
+    # Axes of S about which a constant turn of the sensor is to be found
     free: tuple[bool, bool, bool] = (False, False, False)
-    share: float = 1.0
+    share: float = 1.0  # How often it is made, among the mistakes of its family
+    # How many differ from it by a number alone, such as the pose of a re-zero: they share one prior
     variants: int = 1
+    # What is known of the load if it holds; left out: what was said. Such a reading leaves the data as they
+    # are.
     prior: Prior | None = None
-    fitted: bool = False
+    fitted: bool = False  # What it says depends on what is found: the turn, or gravity's direction
 
     def __post_init__(self) -> None:
         if not len(self.course):

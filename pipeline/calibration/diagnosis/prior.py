@@ -35,47 +35,31 @@ _BEYOND, _LOUDEST = 6.0, 12.0  # what each factor of e beyond it costs, and all 
 class Prior:
     """What is known before.
 
-    Parameters
-    ----------
-    down_W : (3,)
-        Where gravity points in W; only its direction counts. Default: -z. Change it for a base on a wall or
-        a ceiling whose own frame is used for W.
-    tilt : float
-        1 sigma of the angle between gravity and `down_W`, rad: how far from level the base is.
-    mass : float, optional
-        Of all that hangs on the sensor, as weighed, kg.
-    mass_sigma : float, optional
-        Its standard deviation, kg. Default: 5 % (bolts and cables are easily forgotten).
-    mass_range : (float, float)
-        For a mass that was not weighed: 95 % of loads lie within, kg.
-    tool_axis_S : (3,)
-        From the sensor to the tool, S. Default: z.
-    behind : float
-        1 sigma of how far the centre of mass may lie on the other side of the sensor's origin, m.
-    tool_length : float
-        The centre of mass is no further than this from the sensor's origin, m.
-    mistake : float
-        Share of recordings in which any one mistake is made: a reading that is not as declared must be this
-        much more probable to be believed.
-    noise_factor : float
-        The noise that is given is right up to this factor, 1 sigma.
-
     Raises
     ------
     InputError
         A value is not finite or outside its range.
     """
 
+    # (3,) where gravity points in W; only its direction counts. Default: -z. Change it for a base on a wall
+    # or a ceiling whose own frame is used for W.
     down_W: tuple[float, float, float] = (0.0, 0.0, -1.0)
+    # 1 sigma of the angle between gravity and `down_W`, rad: how far from level the base is
     tilt: float = float(np.radians(3.0))
-    mass: float | None = None
+    mass: float | None = None  # Of all that hangs on the sensor, as weighed, kg
+    # Its standard deviation, kg. Default: 5 % (bolts and cables are easily forgotten).
     mass_sigma: float | None = None
+    # For a mass that was not weighed: 95 % of loads lie within, kg
     mass_range: tuple[float, float] = (0.02, 10.0)
+    # (3,) from the sensor to the tool, S. Default: z.
     tool_axis_S: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    # 1 sigma of how far the centre of mass may lie on the other side of the sensor's origin, m
     behind: float = 0.005
-    tool_length: float = 0.3
+    tool_length: float = 0.3  # The centre of mass is no further than this from the sensor's origin, m
+    # Share of recordings in which any one mistake is made: a reading that is not as declared must be this
+    # much more probable to be believed
     mistake: float = 0.05
-    noise_factor: float = 1.35
+    noise_factor: float = 1.35  # The noise that is given is right up to this factor, 1 sigma
 
     def __post_init__(self) -> None:
         for name in ("down_W", "tool_axis_S"):

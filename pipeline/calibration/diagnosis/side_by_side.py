@@ -38,75 +38,42 @@ _NOT_FREE = 1.0  # information on an angle that is not free: any, its step is ze
 
 @dataclass(frozen=True, eq=False)
 class Noise:
-    """What is known of the noise before anything is fitted.
+    """What is known of the noise before anything is fitted."""
 
-    Attributes
-    ----------
-    sigmas : (6,)
-        Of a pose's mean, N and N·m.
-    doubt : float
-        It may be larger or smaller by a factor whose logarithm has this standard deviation; infinite: nothing
-        is known of it, `sigmas` are a unit to count in.
-    orientation : float
-        1 sigma of the orientations about each axis, rad.
-    heaviest, longest : float
-        Bounds of the load, N, and of its centre of mass, m: an orientation's error moves no more than these.
-    down_W : (3,)
-        Where gravity points, roughly: where turns of the sensor are looked for from.
-    """
-
-    sigmas: NDArray[np.float64]
+    sigmas: NDArray[np.float64]  # (6,) of a pose's mean, N and N·m
+    # It may be larger or smaller by a factor whose logarithm has this standard deviation; infinite: nothing
+    # is known of it, `sigmas` are a unit to count in
     doubt: float
-    orientation: float = 0.0
+    orientation: float = 0.0  # 1 sigma of the orientations about each axis, rad
+    # Bounds of the load, N, and of its centre of mass, m: an orientation's error moves no more than these
     heaviest: float = np.inf
     longest: float = np.inf
+    # (3,) where gravity points, roughly: where turns of the sensor are looked for from
     down_W: tuple[float, float, float] = (0.0, 0.0, -1.0)
 
 
 @dataclass(frozen=True, eq=False)
 class Fits:
-    """Fits of h hypotheses side by side.
+    """Fits of h hypotheses side by side."""
 
-    Attributes
-    ----------
-    R : (h, n, 3, 3)
-        R_SW, as each hypothesis has it.
-    y : (h, n, 6)
-        Wrenches likewise, over the noise.
-    sigmas : (h, 6)
-        The noise, N and N·m, with what the orientations' errors make of the weight.
-    course : (h, n)
-        What the bias changes with over the poses: 0 and 1 before and after a re-zero, time for a drift; else 0.
-    free : (h, 3) bool
-        About which axes of S the sensor may be turned.
-    kept : (h, n) bool
-    x : (h, 6)
-        g and L, N and m.
-    scale : (h, 2)
-        Logarithm of the factor on forces and torques: the density of what was *recorded* is wanted.
-    u : (h, 2)
-        Logarithm of the noise's true size over `sigmas`, for forces and torques.
-    doubt : float
-        Standard deviation of u beforehand; infinite for noise that is not known.
-    damping : (h, 6)
-        Information on x that is added to what the poses say, N^-2 and m^-2; (h, 9) with that on a turn, rad^-2,
-        where any hypothesis has one.
-    least : (h, 2)
-        Lower bound of u.
-    """
-
-    R: NDArray[np.float64]
-    y: NDArray[np.float64]
+    R: NDArray[np.float64]  # (h, n, 3, 3) R_SW, as each hypothesis has it
+    y: NDArray[np.float64]  # (h, n, 6) wrenches likewise, over the noise
+    # (h, 6) the noise, N and N·m, with what the orientations' errors make of the weight
     sigmas: NDArray[np.float64]
+    # (h, n) what the bias changes with over the poses: 0 and 1 before and after a re-zero, time for a drift;
+    # else 0
     course: NDArray[np.float64]
-    free: NDArray[np.bool_]
-    kept: NDArray[np.bool_]
-    x: NDArray[np.float64]
+    free: NDArray[np.bool_]  # (h, 3) about which axes of S the sensor may be turned
+    kept: NDArray[np.bool_]  # (h, n)
+    x: NDArray[np.float64]  # (h, 6) g and L, N and m
+    # (h, 2) logarithm of the factor on forces and torques: the density of what was *recorded* is wanted
     scale: NDArray[np.float64]
-    u: NDArray[np.float64]
-    doubt: float
+    u: NDArray[np.float64]  # (h, 2) logarithm of the noise's true size over `sigmas`, for forces and torques
+    doubt: float  # Standard deviation of u beforehand; infinite for noise that is not known
+    # (h, 6) information on x that is added to what the poses say, N^-2 and m^-2; (h, 9) with that on a turn,
+    # rad^-2, where any hypothesis has one
     damping: NDArray[np.float64]
-    least: NDArray[np.float64]
+    least: NDArray[np.float64]  # (h, 2) lower bound of u
 
     def take(self, chosen: NDArray[np.bool_]) -> Fits:
         """Return some of the fits."""

@@ -45,33 +45,18 @@ _ALL_ROWS, _STRIDE = 1024, 100
 
 @dataclass(frozen=True)
 class CompensateSummary:
-    """
-    What came of a file.
+    """What came of a file."""
 
-    Attributes
-    ----------
-    rows : int
-        Readings compensated.
-    not_finite : int
-        Of these, how many have empty or infinite cells, because the reading or the orientation had.
-    largest_force_N : float
-        Largest compensated |F|, N.
-    sigma_force_N, sigma_torque_Nm : float
-        What the calibration leaves uncertain: the largest standard deviation in any direction, over the
-        orientations of the recording, N and N·m. The sensor's own noise is not in it.
-    seconds : float
-        From the first byte read to the last one written.
-    warnings : tuple of str
-        What should make one doubt the result: sentences with a remedy.
-    """
-
-    rows: int
+    rows: int  # Readings compensated
+    # Of these, how many have empty or infinite cells, because the reading or the orientation had
     not_finite: int
-    largest_force_N: float
+    largest_force_N: float  # Largest compensated |F|, N
+    # What the calibration leaves uncertain: the largest standard deviation in any direction, over the
+    # orientations of the recording, N and N·m. The sensor's own noise is not in it.
     sigma_force_N: float
     sigma_torque_Nm: float
-    seconds: float
-    warnings: tuple[str, ...] = ()
+    seconds: float  # From the first byte read to the last one written
+    warnings: tuple[str, ...] = ()  # What should make one doubt the result: sentences with a remedy
 
     @property
     def rows_per_second(self) -> float:

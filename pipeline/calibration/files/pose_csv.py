@@ -56,33 +56,15 @@ class PoseFileError(TableError):
 
 @dataclass(frozen=True, eq=False)
 class PoseTable:
-    """
-    Poses as a file has them.
+    """Poses as a file has them."""
 
-    Attributes
-    ----------
-    poses : tuple of PoseSample
-        One a row.
-    raw : (n, k) float64
-        The cells of `convention.columns`, as written.
-    convention : Convention
-        How they were read.
-    joints : (n, 6) float64 or None
-        Joint angles, rad; None for other kinds of orientation.
-    lines : (n,) int64
-        The line of each pose in the file; the header is line 1.
-    warnings : tuple of str
-        What should make one doubt the file: sentences with a remedy.
-    notes : tuple of str
-        How the poses were found in a recording: sentences. Empty for a table of poses.
-    """
-
-    poses: tuple[PoseSample, ...]
-    raw: NDArray[np.float64]
-    convention: Convention
-    joints: NDArray[np.float64] | None
-    lines: NDArray[np.int64]
-    warnings: tuple[str, ...]
+    poses: tuple[PoseSample, ...]  # One a row
+    raw: NDArray[np.float64]  # (n, k) the cells of `convention.columns`, as written
+    convention: Convention  # How they were read
+    joints: NDArray[np.float64] | None  # (n, 6) joint angles, rad; None for other kinds of orientation
+    lines: NDArray[np.int64]  # (n,) the line of each pose in the file; the header is line 1
+    warnings: tuple[str, ...]  # What should make one doubt the file: sentences with a remedy
+    # How the poses were found in a recording: sentences. Empty for a table of poses.
     notes: tuple[str, ...] = ()
 
 

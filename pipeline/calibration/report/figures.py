@@ -88,25 +88,14 @@ _SIGNS = ((1, "+"), (-1, "\N{MINUS SIGN}"))
 
 @dataclass(frozen=True)
 class Figures:
-    """Pictures as SVG elements.
+    """Pictures as SVG elements."""
 
-    Attributes
-    ----------
-    signed : str
-        What each channel read beside bias and weight, over time.
-    residuals : str
-        How far each pose is from the others.
-    gravity, probe : str
-        Where gravity pulled in the sensor, and the probe pointed in the world.
-    contact : str
-        The predicted error over force directions; empty when it was not asked for.
-    """
-
-    signed: str
-    residuals: str
+    signed: str  # What each channel read beside bias and weight, over time
+    residuals: str  # How far each pose is from the others
+    # Where gravity pulled in the sensor, and the probe pointed in the world
     gravity: str
     probe: str
-    contact: str
+    contact: str  # The predicted error over force directions; empty when it was not asked for
 
 
 def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: str) -> Figures:

@@ -20,32 +20,14 @@ if TYPE_CHECKING:
 from contactbench.pipeline.calibration.stillness.captures import BLOCK, LEAST
 
 _MAINS = 2 * np.pi * np.array([50.0, 60.0])  # rad/s
-
-
 _FEWEST = 10  # samples in a block: of fewer the scatter says little, so slow sensors get longer blocks
-
-
 _SLOWEST = 5.0  # samples a second; so few are a wrong unit of time
-
-
 _SLOW, _FEWEST_FITTED = 90.0, 16  # Hz below which mains lines are not fitted, and samples that it takes
-
-
 _MOST = 1_000_000  # samples that are waited for until a block ends
-
-
 _LEARN, _LEARNT = 0.5, 20  # s and samples from which the rate is taken
-
-
 _USABLE = 0.3  # share of a block's samples without which it is left out
-
-
 _SPIKE = 6.0  # robust standard deviations; of Gaussian samples one in 500 million is further off
-
-
 _SPIKE_RUN = 0.004  # s, and two samples at least: what lasts longer is a knock, not a spike
-
-
 _MADN = 1.4826  # standard deviation of Gaussian numbers over their median absolute deviation
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from math import isfinite, pi
-from typing import TYPE_CHECKING
+from math import inf, isfinite, pi, sqrt
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,10 +17,7 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-
 BLOCK = 0.1  # s: five periods of 50 Hz, six of 60 Hz
-
-
 LEAST = np.repeat([1e-7, 1e-9], 3)  # N, N·m: keeps constant readings from dividing by zero
 
 
@@ -49,66 +46,51 @@ class LimitedBy(StrEnum):
 class StillnessSettings:
     """What counts as still, and how long to average.
 
-    Parameters
-    ----------
-    window : float
-        s that must be quiet before the reading is called still. Default 1: a vibration of 8 Hz shows eight
-        times, and a creep of the slope allowed stands out of usual noise.
-    scatter_ratio : float
-        Largest scatter of samples and of block means over the noise floor. Default 2: servos that hold a pose
-        add up to that; the tremor of a moving robot is ten times the floor.
-    slope_force, slope_torque : float
-        Largest drift, N/s and N·m/s. Default 0.05 and 0.002: over 2 s of averaging the error stays that of one
-        sample; an arm that creeps by 0.3 degrees a second with 10 N of load does as much.
-    min_duration, max_duration : float
-        s of a capture. Default 1 and 10: shorter ones cannot tell their own error, longer ones only gather
-        drift.
-    floor_force, floor_torque : float, optional
-        Standard deviation of a sample without hum, N and N·m, on every axis. Left out: learnt from the
-        quietest window so far.
-    loudest_force, loudest_torque : float
-        A floor that is learnt is not believed beyond this, N and N·m: before the first quiet window, a steady
-        tremor would pass for noise. Default 0.5 and 0.02, ten times a usual sensor.
-    target_force, target_torque : float, optional
-        Standard error to reach, N and N·m. Left out: a fifth of the floor.
-    longest_gap : float
-        s without a sample that are bridged. Default 0.25: a bump could hide in a longer one.
-    most_spikes : float
-        Largest share of samples that may be excluded as spikes. Default 0.02: a line that is worse has another
-        fault.
-    rotation : float
-        Largest turn of the sensor in a capture, rad, where orientations are given. Default 0.1 degrees: 10 N of
-        load change by 0.02 N.
-    model_force, model_torque : float
-        1 sigma of what a gravity model leaves, beside its covariance, N and N·m: errors of the orientation, and
-        drift. Default 0.05 and 0.002: touches beyond six times that are seen.
-    horizon : float
-        s for which 1/f noise is counted: slower than that it is bias. Default 120, the time that a set of poses
-        takes; ten times longer adds a quarter to a standard error that is all 1/f noise.
-
     Raises
     ------
     InputError
         A number is not positive and finite, or the durations contradict one another.
     """
 
+    # s that must be quiet before the reading is called still. Default 1: a vibration of 8 Hz shows eight
+    # times, and a creep of the slope allowed stands out of usual noise.
     window: float = 1.0
+    # Largest scatter of samples and of block means over the noise floor. Default 2: servos that hold a pose
+    # add up to that; the tremor of a moving robot is ten times the floor.
     scatter_ratio: float = 2.0
+    # Largest drift, N/s and N·m/s. Default 0.05 and 0.002: over 2 s of averaging the error stays that of one
+    # sample; an arm that creeps by 0.3 degrees a second with 10 N of load does as much.
     slope_force: float = 0.05
     slope_torque: float = 0.002
+    # s of a capture. Default 1 and 10: shorter ones cannot tell their own error, longer ones only gather
+    # drift.
     min_duration: float = 1.0
     max_duration: float = 10.0
+    # Standard deviation of a sample without hum, N and N·m, on every axis. Left out: learnt from the quietest
+    # window so far.
     floor_force: float | None = None
     floor_torque: float | None = None
+    # A floor that is learnt is not believed beyond this, N and N·m: before the first quiet window, a steady
+    # tremor would pass for noise. Default 0.5 and 0.02, ten times a usual sensor.
     loudest_force: float = 0.5
     loudest_torque: float = 0.02
+    # Standard error to reach, N and N·m. Left out: a fifth of the floor.
     target_force: float | None = None
     target_torque: float | None = None
+    # s without a sample that are bridged. Default 0.25: a bump could hide in a longer one.
     longest_gap: float = 0.25
+    # Largest share of samples that may be excluded as spikes. Default 0.02: a line that is worse has another
+    # fault.
     most_spikes: float = 0.02
+    # Largest turn of the sensor in a capture, rad, where orientations are given. Default 0.1 degrees: 10 N of
+    # load change by 0.02 N.
     rotation: float = pi / 1800
+    # 1 sigma of what a gravity model leaves, beside its covariance, N and N·m: errors of the orientation, and
+    # drift. Default 0.05 and 0.002: touches beyond six times that are seen.
     model_force: float = 0.05
     model_torque: float = 0.002
+    # s for which 1/f noise is counted: slower than that it is bias. Default 120, the time that a set of poses
+    # takes; ten times longer adds a quarter to a standard error that is all 1/f noise.
     horizon: float = 120.0
 
     def __post_init__(self) -> None:
@@ -126,39 +108,23 @@ class StillnessSettings:
 
 @dataclass(frozen=True, eq=False)
 class Capture:
-    """A pose's reading, averaged while it was still.
+    """A pose's reading, averaged while it was still."""
 
-    Attributes
-    ----------
-    start_index, stop_index : int
-        Of the samples, counted from the first that was given; the last is one beyond.
-    start, stop : float
-        Times of the first and last sample, s.
-    mean : (6,)
-        Robust mean: spikes excluded, mains hum taken out, N and N·m.
-    sd : (6,)
-        Standard deviation of the single samples around it, without spikes and hum.
-    standard_error : (6,)
-        Of the mean: white and 1/f noise, drift in the capture, rounding by the converter.
-    count, spikes : int
-        Samples averaged and excluded.
-    limited_by : LimitedBy
-        Why it was not averaged for longer.
-    R_WS : (3, 3) or None
-        Orientation at the end, where one was given.
-    """
-
+    # Of the samples, counted from the first that was given; the last is one beyond
     start_index: int
     stop_index: int
+    # Times of the first and last sample, s
     start: float
     stop: float
-    mean: Floats
-    sd: Floats
+    mean: Floats  # (6,) robust mean: spikes excluded, mains hum taken out, N and N·m
+    sd: Floats  # (6,) standard deviation of the single samples around it, without spikes and hum
+    # (6,) of the mean: white and 1/f noise, drift in the capture, rounding by the converter
     standard_error: Floats
+    # Samples averaged and excluded
     count: int
     spikes: int
-    limited_by: LimitedBy
-    R_WS: Floats | None = None
+    limited_by: LimitedBy  # Why it was not averaged for longer
+    R_WS: Floats | None = None  # (3, 3) orientation at the end, where one was given
 
     @property
     def duration(self) -> float:
@@ -194,36 +160,21 @@ class Capture:
 
 @dataclass(frozen=True)
 class Rejected:
-    """A stretch that was not captured, or whose capture was dropped.
+    """A stretch that was not captured, or whose capture was dropped."""
 
-    Attributes
-    ----------
-    start_index, stop_index : int
-        Of the samples, as for `Capture`.
-    start, stop : float
-        s.
-    state : StillState
-        BUMPED, TOUCHED, MOVING (it went on too early, or crept) or STALE.
-    reason : str
-    """
-
+    # Of the samples, as for `Capture`
     start_index: int
     stop_index: int
+    # s
     start: float
     stop: float
-    state: StillState
+    state: StillState  # BUMPED, TOUCHED, MOVING (it went on too early, or crept) or STALE
     reason: str
 
 
 @dataclass(frozen=True, eq=False)
 class CaptureReport:
-    """All captures of a recording, in order, and what was refused.
-
-    Attributes
-    ----------
-    captures : tuple of Capture
-    rejected : tuple of Rejected
-    """
+    """All captures of a recording, in order, and what was refused."""
 
     captures: tuple[Capture, ...]
     rejected: tuple[Rejected, ...]
@@ -231,51 +182,96 @@ class CaptureReport:
 
 @dataclass(frozen=True, eq=False)
 class Stillness:
-    """The state of a reading.
-
-    Attributes
-    ----------
-    state : StillState
-    seconds_until_still : float or None
-        None: cannot be told, because it still moves.
-    sd : (6,)
-        Robust standard deviation of the samples in the window, N and N·m; NaN before the first block.
-    slope, slope_sigma : (6,)
-        Drift over the window with 1 sigma, N/s and N·m/s; NaN before the window has three blocks.
-    averaged, recommended : float
-        s averaged so far, and needed.
-    sentence : str
-        For the technician.
-    captured : Capture or None
-        On the one update that completes a capture.
-    rejected : Rejected or None
-        On the one update that drops a capture.
-    """
+    """The state of a reading."""
 
     state: StillState
-    seconds_until_still: float | None
+    seconds_until_still: float | None  # None: cannot be told, because it still moves
+    # (6,) robust standard deviation of the samples in the window, N and N·m; NaN before the first block
     sd: Floats
+    # each (6,): Drift over the window with 1 sigma, N/s and N·m/s; NaN before the window has three blocks
     slope: Floats
     slope_sigma: Floats
+    # s averaged so far, and needed
     averaged: float
     recommended: float
-    sentence: str
-    captured: Capture | None = None
-    rejected: Rejected | None = None
+    sentence: str  # For the technician
+    captured: Capture | None = None  # On the one update that completes a capture
+    rejected: Rejected | None = None  # On the one update that drops a capture
 
 
 @dataclass(frozen=True, eq=False)
 class AveragingAdvice:
-    """How long to average.
-
-    Attributes
-    ----------
-    duration_s : float
-    standard_error : (6,)
-        Of a mean over that time, N and N·m.
-    limited_by : LimitedBy
-    """
+    """How long to average."""
 
     duration_s: float
-    standard_error: Floats
+    standard_error: Floats  # (6,) of a mean over that time, N and N·m
     limited_by: LimitedBy
+
+
+def both(force: float | None, torque: float | None) -> Floats:
+    """Return two settings as (6,); 0 where one was left out."""
+    return np.repeat([force or 0.0, torque or 0.0], 3)
+
+
+def checked(
+    t: ArrayLike, wrenches: ArrayLike, R_WS: ArrayLike | None, latest: float
+) -> tuple[Floats, Floats, Floats | None]:
+    """Return samples as arrays, or raise InputError; `latest` is the time before the first."""
+    times, w = np.asarray(t, dtype=np.float64), np.ascontiguousarray(wrenches, dtype=np.float64)
+    if w.ndim != 2 or w.shape[1] != 6:
+        raise InputError(f"wrenches: give rows of six numbers, force before torque, not shape {w.shape}")
+    if times.shape != (len(w),):
+        raise InputError(f"times: give one for each of the {len(w)} samples, s, not shape {times.shape}")
+    before = np.concatenate([[latest], times[:-1]])
+    wrong = np.flatnonzero(~((times >= before) & (times < inf)))
+    if len(wrong):
+        at = int(wrong[0])
+        raise InputError(f"sample {at + 1}: {backwards(times[at], before[at])}")
+    return times, w, None if R_WS is None else orientation(R_WS, times.shape)
+
+
+def orientation(R_WS: ArrayLike, many: tuple[int, ...]) -> Floats:
+    """Return one orientation, or as many as there are samples, or raise InputError."""
+    R = np.array(R_WS, dtype=np.float64)
+    if R.shape not in {(3, 3), (*many, 3, 3)}:
+        raise InputError(f"R_WS: give (3, 3) or one (3, 3) for each sample, not shape {R.shape}")
+    return R
+
+
+def backwards(t: float, before: float) -> str:
+    """Say what is wrong with the time of a sample."""
+    return (
+        f"time {t} s after {before} s: times must be finite and must not run backwards; sort the samples, or begin"
+        " with a new detector after a restart of the clock"
+    )
+
+
+def angle(first: Floats, second: Floats) -> float:
+    """Return the angle between two orientations, rad; for small ones."""
+    return float(np.linalg.norm(first - second)) / sqrt(2)
+
+
+def size(wrench: Floats, weight: Floats) -> str:
+    """Return the size of what weighs most in a wrench: of its force in N, or of its torque in mN·m."""
+    if weight[:3].max() >= weight[3:].max():
+        return f"{short(np.linalg.norm(wrench[:3]))} N"
+    return f"{short(1e3 * np.linalg.norm(wrench[3:]))} mN·m"
+
+
+def short(value: float | np.floating[Any]) -> str:
+    """Return two digits that count, never with an exponent for large values."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def done_words(capture: Capture) -> str:
+    """Say that a pose is captured."""
+    force, torque = capture.standard_error[:3].max(), capture.standard_error[3:].max()
+    return (
+        f"Captured: {capture.duration:.1f} s averaged, ± {force:.1g} N and ± {1e3 * torque:.1g} mN·m."
+        " Go to the next pose."
+    )
+
+
+def stale_words(silent: float) -> str:
+    """Say that no samples have come for so many s."""
+    return f"Too few samples, or none, for {silent:.1f} s: check the sensor's plug, connection and rate."

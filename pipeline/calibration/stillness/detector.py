@@ -28,8 +28,6 @@ from contactbench.pipeline.calibration.stillness.captures import (
     Stillness,
     StillnessSettings,
     StillState,
-)
-from contactbench.pipeline.calibration.stillness.checks import (
     angle,
     backwards,
     checked,
@@ -41,20 +39,10 @@ from contactbench.pipeline.calibration.stillness.checks import (
 from contactbench.pipeline.calibration.stillness.quiet import Yardstick, advise
 
 _UNREST = 10.0  # times what is allowed: beyond, it moves; below, it settles
-
-
 _DECAY = 2.0  # s: what would take longer to decay is motion
-
-
 _KNOCK = 1.0  # s: what disturbs for longer was no bump; the robot has left
-
-
 _REARM = 0.5  # s of unrest, after which a captured pose counts as left
-
-
 _SOFT = 5  # blocks before a disturbance that do not count
-
-
 _TRIMS = 3  # times that the start of a capture is left out; what then still drifts is no settling
 
 

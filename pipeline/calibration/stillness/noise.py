@@ -17,17 +17,9 @@ from contactbench.pipeline.calibration.stillness.captures import LEAST, Averagin
 
 # 1/f noise assumed until enough was seen: equal to the white noise at 0.5 Hz, rather much for a bridge amplifier.
 _CORNER = 0.5
-
-
 _PRIOR_TIME, _PRIOR_FREEDOM = 3.2, 3.0  # s, and how many readings at that scale it counts for
-
-
 _GAIN = 0.9  # on the standard error, by averaging for twice as long: less is not worth the technician's time
-
-
 _LEVELS = 8  # octaves of block means
-
-
 # Rounds of the fit: live, to some per cent of the standard error; and until nothing changes any more.
 _FITS, ALL_FITS = 40, 1000
 

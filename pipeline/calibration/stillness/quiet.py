@@ -17,25 +17,21 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 from contactbench.pipeline.calibration.stillness.blocks import Block, Intake, Window, by_chance
-from contactbench.pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, StillnessSettings
-from contactbench.pipeline.calibration.stillness.checks import both, short, size
+from contactbench.pipeline.calibration.stillness.captures import (
+    LEAST,
+    AveragingAdvice,
+    StillnessSettings,
+    both,
+    short,
+    size,
+)
 from contactbench.pipeline.calibration.stillness.noise import Noise, NoiseMemory, rounding_variance
 
 _FILLED = 0.6  # share of a window's samples that must have come
-
-
 _RISK = 1e-6  # that one axis of one clean block looks disturbed: some 200 are tested in a capture
-
-
 _JUMP = 6.0  # standard deviations of a block's mean
-
-
 _TAIL = 0.02  # probability that the first third of a settled capture differs from the rest by chance
-
-
 _TOUCH_RISK = 1e-5  # that an untouched window looks touched
-
-
 _PATIENCE = 5.0  # s after which the quietest window is believed to have been still
 
 

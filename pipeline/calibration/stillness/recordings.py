@@ -21,8 +21,9 @@ from contactbench.pipeline.calibration.stillness.captures import (
     AveragingAdvice,
     CaptureReport,
     StillnessSettings,
+    both,
+    checked,
 )
-from contactbench.pipeline.calibration.stillness.checks import both, checked
 from contactbench.pipeline.calibration.stillness.detector import StillnessDetector
 from contactbench.pipeline.calibration.stillness.noise import ALL_FITS, NoiseMemory, rounding_variance
 from contactbench.pipeline.calibration.stillness.quiet import advise

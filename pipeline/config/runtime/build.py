@@ -37,9 +37,9 @@ from contactbench.pipeline.config.runtime.self_test import with_self_test
 from contactbench.pipeline.config.runtime.values import low_pass_sections, wrench_covariance
 from contactbench.pipeline.config.vertical import vertical_residual
 from contactbench.pipeline.contact.touch_model import TouchModel
-from contactbench.pipeline.devices.drive.watch import SILENCE_S
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, LONGEST_GAP_S
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE
+from contactbench.pipeline.devices.watch import SILENCE_S
 from contactbench.pipeline.mesh.save import encode_probe
 
 if TYPE_CHECKING:

@@ -66,20 +66,12 @@ class ScaleError(ProtocolError):
 
 @dataclass(frozen=True, slots=True)
 class AtiScale:
-    """
-    What an ATI sensor tells of itself.
+    """What an ATI sensor tells of itself."""
 
-    Attributes
-    ----------
-    counts_per_newton, counts_per_newton_metre : float
-        In SI whatever units the sensor is set to; finite and positive.
-    product : str
-        Its name; empty where it tells none.
-    """
-
+    # In SI whatever units the sensor is set to; finite and positive.
     counts_per_newton: float
     counts_per_newton_metre: float
-    product: str = ""
+    product: str = ""  # its name; empty where it tells none
 
 
 def read_scale(host: str, port: int = 80) -> AtiScale:

@@ -43,21 +43,11 @@ class FieldOrder(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Fit:
-    """
-    How well joints and pose agree under one order.
-
-    Attributes
-    ----------
-    order : FieldOrder
-    rotation_deg : float
-        Angle between the flange by kinematics and the controller's pose, degrees.
-    tool : (x, y, z)
-        Origin of the controller's tool frame in the flange frame E, m.
-    """
+    """How well joints and pose agree under one order."""
 
     order: FieldOrder
-    rotation_deg: float
-    tool: tuple[float, float, float]
+    rotation_deg: float  # angle between the flange by kinematics and the controller's pose, degrees
+    tool: tuple[float, float, float]  # origin of the controller's tool frame in the flange frame E, m
 
     @property
     def good(self) -> bool:

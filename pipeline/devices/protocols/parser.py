@@ -10,9 +10,13 @@ from contactbench.pipeline.devices.sample import Status
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
+    from contactbench.pipeline.devices.protocols.commands import Command
     from contactbench.pipeline.devices.sample import WrenchSample
+
+
+ASSUMED_RATE_HZ = 100.0  # of a sensor that is asked for none; a silence is judged by it
 
 
 class ProtocolError(InputError):
@@ -89,6 +93,23 @@ class SensorParser(Protocol):
 
     def reset(self) -> None:
         """Forget half a frame, after the line was lost. Counters and numbering go on."""
+
+
+@dataclass(frozen=True, eq=False)
+class SensorDriver:
+    """One sensor's way to stream."""
+
+    parser: SensorParser
+    # What is sent, and nothing else ever is.
+    start: tuple[Command, ...]
+    stop: tuple[Command, ...]
+    rate: float  # samples a second that it should give, Hz
+    rate_known: bool = True  # False: the sensor has a rate of its own, and `rate` is a guess
+    limits: tuple[float, float] | None = None  # range of each channel, N and N·m, where the protocol tells it
+    # Asks the device, before it is started, what its samples need; returns what is wrong, or nothing.
+    prepare: Callable[[], str] | None = None
+    # Returns what is wrong, by kind, as far as the parser knows.
+    troubles: Callable[[], dict[str, str]] | None = None
 
 
 def finite_status(numbers: Sequence[float]) -> Status:

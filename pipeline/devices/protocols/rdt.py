@@ -12,11 +12,27 @@ import math
 import struct
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import TYPE_CHECKING, ClassVar
 
+from contactbench.pipeline.devices.faults import EmulatorError, Fault
 from contactbench.pipeline.devices.protocols.commands import Command, check_rate
-from contactbench.pipeline.devices.protocols.parser import Counters, ProtocolError
+from contactbench.pipeline.devices.protocols.emulated import SENSOR_FAULTS, Model, Quirk
+from contactbench.pipeline.devices.protocols.parser import (
+    ASSUMED_RATE_HZ,
+    Counters,
+    ProtocolError,
+    SensorDriver,
+)
 from contactbench.pipeline.devices.protocols.sequence import SequenceCounter
 from contactbench.pipeline.devices.sample import Status, WrenchSample
+from contactbench.pipeline.devices.url import PROFILES
+from contactbench.pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from contactbench.pipeline.devices.faults import Moment, Reading, Six
+    from contactbench.pipeline.devices.url import DeviceAddress
 
 RECORD_BYTES = 36
 PORT = 49152
@@ -47,17 +63,13 @@ class CountScale:
     """
     Counts per unit.
 
-    Attributes
-    ----------
-    per_newton, per_newton_metre : float
-        ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
-
     Raises
     ------
     ProtocolError
         One is not finite or not positive.
     """
 
+    # ATI sensors tell theirs (and their units) over HTTP; OnRobot's are fixed.
     per_newton: float
     per_newton_metre: float
 
@@ -179,3 +191,144 @@ def stop_commands() -> tuple[Command, ...]:
 
 def _request(command: _Request, argument: int) -> Command:
     return Command(_REQUEST.pack(_MAGIC, command, argument))
+
+
+def driver(address: DeviceAddress) -> SensorDriver:
+    """
+    Return the driver of the sensor at an address.
+
+    Raises
+    ------
+    ProtocolError
+        The rate does not fit the device or its line.
+    """
+    profile = Profile.ONROBOT if address.profile == "onrobot" else Profile.ATI
+    start = start_commands(address.rate, profile=profile)
+    rate = ASSUMED_RATE_HZ if address.rate is None else possible_rate(address.rate, profile)
+    typical = ONROBOT_SCALE if profile is Profile.ONROBOT else ATI_TYPICAL
+    assumed = CountScale(
+        address.counts_per_newton or typical.per_newton,
+        address.counts_per_newton_metre or typical.per_newton_metre,
+    )
+    parser = RdtParser(assumed)
+    known = address.counts_per_newton is not None and address.counts_per_newton_metre is not None
+    return SensorDriver(
+        parser,
+        start,
+        stop_commands(),
+        rate,
+        rate_known=address.rate is not None,
+        prepare=None if known else lambda: _ask_scale(parser, address),
+    )
+
+
+def _ask_scale(parser: RdtParser, address: DeviceAddress) -> str:
+    """Take the sensor's own counts per newton."""
+    from contactbench.pipeline.devices.protocols.ati_scale import scale_for  # it needs the counts of here
+
+    try:
+        parser.scale = scale_for(address)
+    except InputError as error:
+        scale = parser.scale
+        return (
+            f"The sensor did not tell its counts per newton ({error}) {scale.per_newton:g} per N and"
+            f" {scale.per_newton_metre:g} per N·m are assumed: compare with its calibration sheet, and give cpf and cpt"
+            " in the address."
+        )
+    return ""
+
+
+# ---- emulated: a box that speaks RDT -------------------------------------------------------------
+
+_STOP, _START, _FILTER, _SPEED = 0x0000, 0x0002, 0x0081, 0x0082
+_SATURATED = 0x8000_0002
+_INT32 = 2**31
+
+
+def rdt_record(
+    values: Six, scale: tuple[float, float], *, sequence: int = 1, ft_sequence: int = 1, status: int = 0
+) -> bytes:
+    """Return one record of 36 bytes.
+
+    Parameters
+    ----------
+    values : six floats
+        N, N·m.
+    scale : (counts per N, counts per N·m)
+    sequence, ft_sequence : int
+        Of the record and of the sensor's clock, modulo 2**32.
+    status : int
+        0: no error.
+    """
+    factors = (scale[0],) * 3 + (scale[1],) * 3
+    counts = [max(-_INT32, min(_INT32 - 1, round(v * k))) for v, k in zip(values, factors, strict=True)]
+    return struct.pack(">3I6i", sequence % 2**32, ft_sequence % 2**32, status, *counts)
+
+
+class RdtModel(Model):
+    """A box that speaks RDT.
+
+    Parameters
+    ----------
+    rate : float or None
+    quirks : iterable of Quirk
+    profile : str
+        "ati" or "onrobot".
+    """
+
+    name = "rdt"
+    own_rate = 500.0
+    faults = (SENSOR_FAULTS - {Fault.HEADER}) | {Fault.CLOCK_JUMP}
+    full_scale: ClassVar[Six | None] = (150.0, 150.0, 300.0, 15.0, 15.0, 15.0)
+
+    def __init__(
+        self, rate: float | None = None, quirks: Iterable[Quirk | str] = (), *, profile: str = "ati"
+    ) -> None:
+        super().__init__(rate, quirks)
+        self._left: int | None = None
+        self.speak(profile)
+
+    def speak(self, profile: str) -> None:
+        """Take a profile's counts and commands."""
+        if profile not in PROFILES:
+            raise EmulatorError(f"profile {profile!r}: choose one of {', '.join(PROFILES)}.")
+        self.scale = PROFILES[profile]
+        self._onrobot = profile == "onrobot"
+
+    def feed(self, data: bytes, silence: float = math.inf) -> list[bytes]:  # noqa: ARG002 - datagrams stay apart
+        """Take one datagram; there are no answers but the records."""
+        if len(data) != _REQUEST.size or data[:2] != _MAGIC.to_bytes(2, "big"):
+            self._refuse(data)
+            return []
+        command, count = struct.unpack(">HI", data[2:])
+        if command == _START:
+            self.streaming, self._left = True, count or None
+        elif command == _STOP:
+            self.streaming = False
+        elif self._onrobot and command == _SPEED and count:
+            self.rate = 1000 / count
+        elif not (self._onrobot and command == _FILTER):
+            self._refuse(data)
+            return []
+        self._obey(data)
+        return []
+
+    def frame(self, reading: Reading, moment: Moment) -> bytes:
+        """Return one record; it stops by itself after as many as were asked for."""
+        if self._left is not None:
+            self._left -= 1
+            self.streaming = self._left > 0
+        return rdt_record(
+            reading.values,
+            self.scale,
+            sequence=moment.number + 1,
+            ft_sequence=moment.number + 1 + round(moment.jump * self.rate),
+            status=_SATURATED if reading.saturated else 0,
+        )
+
+    def damaged(self, frame: bytes) -> bytes:
+        """Return the record cut short by a byte: it has no checksum of its own."""
+        return frame[:-1]
+
+    def _step(self) -> list[bytes]:
+        return []

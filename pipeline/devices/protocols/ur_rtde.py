@@ -120,18 +120,10 @@ def check_accepted(reply: Packet, kind: Kind) -> None:
 
 @dataclass(frozen=True)
 class Recipe:
-    """
-    What the data packets hold.
+    """What the data packets hold."""
 
-    Attributes
-    ----------
-    number : int
-        The controller's name for it, the first byte of every data packet.
-    names, types : tuple of str
-        One of each per variable.
-    """
-
-    number: int
+    number: int  # the controller's name for it, the first byte of every data packet
+    # One of each per variable.
     names: tuple[str, ...]
     types: tuple[str, ...]
 

@@ -22,18 +22,10 @@ class LineLost(LineError):  # noqa: N818
 
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """Bytes, and when the last of them arrived.
+    """Bytes, and when the last of them arrived."""
 
-    Attributes
-    ----------
-    data : bytes
-        Empty when nothing came within the time limit.
-    time : float
-        Seconds of the host's monotonic clock, taken right after the read.
-    """
-
-    data: bytes
-    time: float
+    data: bytes  # empty when nothing came within the time limit
+    time: float  # seconds of the host's monotonic clock, taken right after the read
 
 
 class Line(Protocol):

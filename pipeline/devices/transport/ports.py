@@ -3,37 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from contactbench.pipeline.devices.url import Protocol
+from contactbench.pipeline.devices.protocols.registry import PROTOCOLS
 
-# Words in what USB says about a port. Most boxes use a bought converter that says nothing about them.
-_WORDS = {
-    Protocol.SRI: ("sunrise", "m8128", "m8126", "sri "),
-    Protocol.BOTA: ("bota", "rokubi", "sensone", "minione"),
-    Protocol.ROBOTIQ: ("robotiq", "ft300", "ft 300"),
-}
+if TYPE_CHECKING:
+    from contactbench.pipeline.devices.url import Protocol
 
 
 @dataclass(frozen=True)
 class SerialPort:
-    """One serial port.
+    """One serial port."""
 
-    Attributes
-    ----------
-    path : str
-        As an address has it.
-    description : str
-        What the system says about it.
-    serial_number : str or None
-        Of the USB converter.
-    guess : Protocol or None
-        None: a converter that does not say what it belongs to.
-    """
-
-    path: str
-    description: str
-    serial_number: str | None
-    guess: Protocol | None
+    path: str  # as an address has it
+    description: str  # what the system says about it
+    serial_number: str | None  # of the USB converter
+    guess: Protocol | None  # None: a converter that does not say what it belongs to
 
     @property
     def url(self) -> str | None:
@@ -58,7 +43,6 @@ def list_ports() -> list[SerialPort]:
 def guess_device(description: str) -> Protocol | None:
     """Guess from what USB says of a port which protocol its device speaks; None: it does not say."""
     text = f"{description.lower()} "
-    for protocol, words in _WORDS.items():
-        if any(word in text for word in words):
-            return protocol
-    return None
+    return next(
+        (name for name, known in PROTOCOLS.items() if any(word in text for word in known.usb_words)), None
+    )

@@ -102,6 +102,8 @@ class Inspection:
     holes : tuple of Hole
         The 100 with the longest rims, widest first.
     part_count : int
+    overlapping_parts : int
+        Those whose facets cut through another part's.
     parts : tuple of Part
         The largest 200.
     euler : int
@@ -134,6 +136,7 @@ class Inspection:
     hole_perimeter_m: float
     holes: tuple[Hole, ...]
     part_count: int
+    overlapping_parts: int
     parts: tuple[Part, ...]
     euler: int
     genus: int | None

@@ -24,7 +24,7 @@ from contactbench.pipeline.mesh.inspect.visibility import SAMPLES, look
 from contactbench.pipeline.mesh.load import read_mesh, settle
 from contactbench.pipeline.mesh.probe import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.soundness import CROSSING, check_soundness
 
 if TYPE_CHECKING:
     import os
@@ -190,17 +190,20 @@ def _inspect(
     repeated = int(np.count_nonzero(repeats.surplus))
     single = edge_table(faces[~repeats.surplus], len(vertices)) if repeated else edges
     work.reach(0.4)
+    soundness = check_soundness(vertices, faces)
+    work.reach(0.6)
+    met = np.sort(parts.label[soundness.pairs[soundness.kinds == CROSSING]], axis=1)
+    overlaps = np.unique(met[met[:, 0] != met[:, 1]], axis=0)
     visibility, listed = look(
         vertices,
         faces,
         parts,
         repeats.both_sides,
+        overlaps,
         samples=samples,
-        progress=work.between(0.4, 0.8),
+        progress=work.between(0.6, 1.0),
         cancelled=work.cancelled,
     )
-    work.reach(0.8)
-    soundness = check_soundness(vertices, faces)
     work.reach(1.0)
     volumes = [part.volume_m3 for part in parts.listed]
     x, y, z = np.ptp(probe.bounds, axis=0).tolist()
@@ -229,6 +232,7 @@ def _inspect(
         hole_perimeter_m=perimeter,
         holes=holes,
         part_count=parts.count,
+        overlapping_parts=len(np.unique(overlaps)),
         parts=listed,
         euler=euler,
         genus=genus,

@@ -93,6 +93,7 @@ def look(
     faces: npt.NDArray[np.int32],
     parts: Parts,
     both_sides: npt.NDArray[np.bool_],
+    overlaps: npt.NDArray[np.int64],
     *,
     samples: int = SAMPLES,
     progress: Callable[[float], None],
@@ -111,6 +112,9 @@ def look(
         Of the mesh.
     both_sides : (m,) bool
         Facets that stand back to back with another: one of the two faces the right way.
+    overlaps : (k, 2) int64
+        Pairs of parts that cut through each other, the lower number first: the skin of one behind that of the other is
+        no far side of a wall.
     samples : int
         Points, about.
     progress : callable
@@ -140,7 +144,7 @@ def look(
         for side, out in ((1.0, front), (-1.0, back)):
             out[piece] = _sky(index, chosen.points[piece], side * chosen.normals[piece], lift)
         progress(min(1.0, (start + _CHUNK) / len(chosen.points)))
-    thickness = _walls(index, chosen, front, back, lift / _LIFT)
+    thickness = _walls(index, chosen, front, back, lift / _LIFT, parts, overlaps)
     hidden = (front == 0) & (back == 0)
     turned = (back > 2 * front + _SHELTERED / 2) & ~both_sides[chosen.facet]
     share = _Share(chosen.weight)
@@ -209,6 +213,8 @@ def _walls(
     front: npt.NDArray[np.float64],
     back: npt.NDArray[np.float64],
     size: float,
+    parts: Parts,
+    overlaps: npt.NDArray[np.int64],
 ) -> npt.NDArray[np.float64]:
     """Thickness of the wall behind each point that sees the sky; infinite where there is no wall."""
     thickness = np.full(len(front), np.inf)
@@ -217,8 +223,10 @@ def _walls(
         return thickness
     inward = np.where((front >= back)[seen, None], -1.0, 1.0) * chosen.normals[seen]
     lift = _LIFT * size
-    first, _ = index.first_hit(chosen.points[seen] + lift * inward, inward)
-    near = np.flatnonzero(first < _WALL * size)
+    first, hit = index.first_hit(chosen.points[seen] + lift * inward, inward)
+    bodies = np.sort(parts.label[np.column_stack((chosen.facet[seen], hit))], axis=1)
+    overlapping = np.isin(bodies @ (parts.count, 1), overlaps @ (parts.count, 1))
+    near = np.flatnonzero((first < _WALL * size) & ~overlapping)
     if not len(near):
         return thickness
     beyond = chosen.points[seen[near]] + (first[near] + 2 * lift)[:, None] * inward[near]

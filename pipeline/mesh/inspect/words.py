@@ -10,6 +10,7 @@ from contactbench.pipeline.mesh.inspect.report import Finding
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from contactbench.pipeline.mesh.inspect.parts import Part
     from contactbench.pipeline.mesh.inspect.report import Inspection
     from contactbench.pipeline.mesh.inspect.visibility import Visibility
 
@@ -23,6 +24,11 @@ _SOME = 0.005
 _DEEP = 0.01
 _NONE = 5e-4
 _HOLLOW = 0.05
+_OPEN = 0.05
+_SHEET = 0.9
+
+# A part with less than this share of the largest one's area is a speck, which the preparation leaves out.
+_SPECK = 0.01
 _NAMED = 3
 
 # A wall thinner than this share of the size is a copy of the surface: 0.01 mm on a probe of 100 mm.
@@ -64,7 +70,7 @@ def findings(found: Inspection) -> tuple[Finding, ...]:
 
 def _unit(found: Inspection) -> Iterator[Finding]:
     if found.unit is not None and not found.unit.certain:
-        yield Finding("doubt", found.unit.reason)
+        yield Finding("doubt", found.unit.doubt)
 
 
 def _openings(found: Inspection) -> Iterator[Finding]:
@@ -94,6 +100,7 @@ def _openings(found: Inspection) -> Iterator[Finding]:
 
 def _sides(found: Inspection) -> Iterator[Finding]:
     seen = found.visibility
+    sheet = seen.two_sided_share > _SHEET
     if found.soundness.sound:
         return  # closed and outward: rays that slip through somewhere say nothing
     if _inside_out(found):
@@ -116,13 +123,21 @@ def _sides(found: Inspection) -> Iterator[Finding]:
             "fault",
             "Neighbouring facets disagree about which side is outside. "
             + (
-                "Those that can be seen show their front, so it is the hidden ones that disagree. "
+                ""
+                if sheet
+                else "All visible facets face outwards; only hidden ones disagree. "
                 if seen.turned_share <= _SOME
                 else "Contacts on those that are turned over are missed. "
             )
             + "Make the normals consistent in the CAD program, or make the outer shell.",
         )
-    if seen.two_sided_share > 0.05:
+    if sheet:
+        yield Finding(
+            "fault",
+            f"The mesh is an open sheet: {_percent(seen.two_sided_share)} of the area can be seen from both sides, so"
+            " it has no inside. Export the whole part as a solid.",
+        )
+    elif seen.two_sided_share > _OPEN:
         yield Finding(
             "doubt",
             f"{_share(seen.two_sided_share)} of the area can be seen from both sides, like a sheet or an open"
@@ -148,22 +163,33 @@ def _insides(found: Inspection) -> Iterator[Finding]:
     else:
         yield from _recesses(found)
     if found.part_count > 1:
-        largest = _percent(found.parts[0].area_m2 / found.area_m2)
-        said = f"The mesh has {found.part_count} separate parts, the largest with {largest} of the area"
-        yield (
-            Finding(
-                "note",
-                f"{said}; none lies inside another. What stands apart from the probe has to be deleted in the CAD"
-                " program.",
+        sizes = ", ".join(_size(part) for part in found.parts[:_NAMED])
+        more = ", and others" if found.part_count > _NAMED else ""
+        said = f"The mesh has {found.part_count} separate parts ({sizes}{more})"
+        speck = found.parts[1].area_m2 < _SPECK * found.parts[0].area_m2
+        if not found.soundness.sound:
+            yield Finding("doubt", f"{said}. Simplification treats each by itself.")
+        elif speck:
+            yield Finding(
+                "note", f"{said}. All but the largest are specks, which the preparation leaves out."
             )
-            if found.soundness.sound
-            else Finding("doubt", f"{said}. Simplification treats each by itself.")
-        )
+        else:
+            yield Finding(
+                "doubt",
+                f"{said}; none lies inside another. The preparation needs one body: delete what is not the probe in the"
+                " CAD program, or bridge a narrow gap with a larger --gap.",
+            )
 
 
 def _inner_walls(found: Inspection) -> Iterator[Finding]:
     """Say what lies inside a mesh that does not separate inside from outside."""
     seen, nested = found.visibility, found.soundness.nested_parts
+    if found.overlapping_parts:
+        yield Finding(
+            "fault",
+            f"{found.overlapping_parts} of the {found.part_count} parts overlap, so walls of one lie inside another."
+            " Unite them in the CAD program, or make the outer shell before use.",
+        )
     if seen.hidden_share > _SOME:
         parts = sum(1 for part in found.parts if (part.hidden_share or 0) > 0.99)
         whole = f" ({parts} of the {found.part_count} parts entirely)" if parts else ""
@@ -311,6 +337,10 @@ def _vertices(found: Inspection) -> Iterator[Finding]:
 
 def _parts(count: int) -> str:
     return "one part" if count == 1 else f"{count} separate parts"
+
+
+def _size(part: Part) -> str:
+    return " x ".join(f"{1e3 * extent:.3g}" for extent in part.extents_m) + " mm"
 
 
 def _count(number: int, one: str, many: str | None = None) -> str:

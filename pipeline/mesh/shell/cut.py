@@ -9,7 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh.engines import cut_along_crossings
-from contactbench.pipeline.mesh.shell.sew import ROUNDING, distinct, sew
+from contactbench.pipeline.mesh.shell.sew import distinct, sew
 
 if TYPE_CHECKING:
     from typing import Unpack
@@ -20,9 +20,11 @@ if TYPE_CHECKING:
 
 # New vertices are rounded, and pieces beside them may cross again by the last bits.
 _ROUNDS = 8
-_GRID = 2.0**-30  # of the size, a tenth of a nanometre on a probe
+# Of the size. As fine as double precision allows: coarser, and thin facets of real files are moved across others.
+_GRID = 2.0**-42
+_SAME = 1e-11  # of the size: new vertices nearer than this are one
 _WORSE = 3.0  # times the pairs that were left: it will not end
-_MOST = 4.0  # times the facets that a cut may make of what it was given
+_MOST = 10.0  # times the facets that cutting may make of what it was given
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +35,7 @@ class Cut:
     Attributes
     ----------
     vertices : (n, 3) float64
-        Those of facets that met others were rounded by 1e-9 of the size; the others are as they were.
+        Those of facets that met others were rounded by 1e-12 of the size; the others are as they were.
     faces : (m, 3) int32
         With area, none twice.
     born : (m,) int64
@@ -73,13 +75,16 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
     grid = 2.0 ** np.ceil(np.log2(size * _GRID))
     state = distinct(vertices, faces, np.arange(len(faces)))
     best = Cut(*state, left=-1)
+    most = _MOST * max(len(faces), 1000)
     for _ in range(_ROUNDS):
         vertices, faces, born = state
+        if best.left >= 0 and len(faces) > most:
+            break
         pairs, _, counts, _ = crossings(vertices, faces)
         left = int(counts.sum())
         if best.left < 0 or left < best.left:
             best = Cut(vertices, faces, born, left)
-        if left == 0 or left > _WORSE * best.left or len(faces) > _MOST * max(len(best.born), 1000):
+        if left == 0 or left > _WORSE * best.left:
             break
         met = np.unique(pairs)
         # All that meets something lies on the grid, or what is rounded would cross what is not.
@@ -96,6 +101,6 @@ def cut_crossings(vertices: NDArray[np.float64], faces: NDArray[np.int32], **con
                 np.concatenate((faces[whole], pieces + np.int32(len(vertices)))),
                 np.concatenate((born[whole], born[met[of]])),
             ),
-            ROUNDING * size,
+            _SAME * size,
         )
     return best

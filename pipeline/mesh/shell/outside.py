@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.mesh.errors import MeshError
-from contactbench.pipeline.mesh.health import edge_table
+from contactbench.pipeline.mesh.health import edge_table, label_parts
 from contactbench.pipeline.mesh.polygons import triangulate
 from contactbench.pipeline.mesh.shell.cut import cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
@@ -33,6 +33,7 @@ SEAM = 1e-4
 _FLAT = 0.01  # of the width: a hole with such a rim needs no vertices inside
 _SEAMS = 0.7  # of the open edges: sewing that joins fewer nibbles at the rims of holes
 _FILLINGS = 4
+_SCRAP = 1e-4  # of the area
 _FRAYED = 0.005  # open edges a facet that are left: so many are no fins, but a surface in rags
 _SHEETS = 0.01  # of the hull's area: with more that has the outside on both sides the surface is not closed
 
@@ -72,29 +73,84 @@ class Outside:
     parted: int = 0
 
 
-def find_outside(
-    vertices: NDArray[np.float64],
-    faces: NDArray[np.int32],
-    added: Sequence[Surface] = (),
-    *,
-    smallest: float,
-    spacing: float,
-    **control: Unpack[Control],
-) -> Outside | None:
+@dataclass(frozen=True, eq=False)
+class Sewn:
     """
-    Find the closed outside of a soup of facets.
+    A soup of facets whose seams are sewn and whose holes are closed, as far as they go.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+    faces : (m, 3) int32
+    born : (m,) int64
+        The facet given that each is, or is a piece of; -1 for one that closes a hole.
+    given : int
+        How many facets there were.
+    holes, small_holes
+        See `Outside`.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    born: NDArray[np.int64]
+    given: int
+    holes: tuple[Opening, ...]
+    small_holes: int
+
+
+def sew_up(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], *, smallest: float, spacing: float
+) -> Sewn | None:
+    """
+    Sew the seams of a soup of facets, and close its holes.
 
     Parameters
     ----------
     vertices : (n, 3) float64
         Metres.
     faces : (m, 3) int32
-    added : sequence of (vertices, faces)
-        Surfaces that close it; what of them is not needed is cut off.
     smallest : float
         Width from which a hole is named, and closed as a mouth is; metres.
     spacing : float
         Of the vertices of what closes such a hole, metres.
+
+    Returns
+    -------
+    Sewn or None
+        None where it stays in rags.
+    """
+    size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
+    soup = _sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size)
+    soup = _trimmed(_without_dust(soup))
+    left = len(open_edges(soup[1], len(soup[0])))
+    named: list[Opening] = []
+    small = 0
+    for _ in range(_FILLINGS):  # what closes a hole may leave a smaller one where the rim meets itself
+        patches, found = _patches(*soup[:2], smallest, spacing)
+        if not patches:
+            break
+        filled = sew(*_with(soup, patches), ROUNDING * size)
+        open_yet = len(open_edges(filled[1], len(filled[0])))
+        if open_yet >= left:
+            break
+        soup, left = filled, open_yet
+        named += found
+        small += len(patches) - len(found)
+    if left > _FRAYED * len(soup[1]):
+        return None
+    named.sort(key=lambda opening: -opening.area)
+    return Sewn(*soup, len(faces), tuple(named), small)
+
+
+def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Control]) -> Outside | None:
+    """
+    Find the closed outside of a soup of facets.
+
+    Parameters
+    ----------
+    sewn : Sewn
+    added : sequence of (vertices, faces)
+        Surfaces that close it; what of them is not needed is cut off.
     **control
         See `contactbench.pipeline.mesh.engines.run`.
 
@@ -108,20 +164,7 @@ def find_outside(
     EngineError, Cancelled
         See `contactbench.pipeline.mesh.engines.run`.
     """
-    size = float(np.ptp(vertices[faces.ravel()], axis=0).max())
-    soup = _trimmed(_sewn(distinct(vertices, faces, np.arange(len(faces))), SEAM * size))
-    named: list[Opening] = []
-    small = 0
-    for _ in range(_FILLINGS):  # what closes a hole may leave a smaller one where the rim meets itself
-        patches, found = _patches(*soup[:2], smallest, spacing)
-        if not patches:
-            break
-        named += found
-        small += len(patches) - len(found)
-        soup = sew(*_with(soup, patches), ROUNDING * size)
-    if len(open_edges(soup[1], len(soup[0]))) > _FRAYED * len(soup[1]):
-        return None
-    soup = _with(soup, added)
+    soup = _with((sewn.vertices, sewn.faces, sewn.born), added)
     cut = cut_crossings(*soup[:2], **control)
     hull = outer_hull(cut.vertices, cut.faces)
     areas = np.linalg.norm(cross_products(cut.vertices, cut.faces), axis=1)
@@ -140,10 +183,10 @@ def find_outside(
         origin,
         turned=len(np.unique(origin[hull.turned & (origin >= 0)])),
         cut=int(np.count_nonzero(pieces[np.isin(own, kept)] > 1)),
-        inner=len(faces) - len(kept) - len(np.unique(of[sheets])),
+        inner=sewn.given - len(kept) - len(np.unique(of[sheets])),
         sheets=len(np.unique(of[sheets])),
-        holes=tuple(sorted(named, key=lambda opening: -opening.area)),
-        small_holes=small,
+        holes=sewn.holes,
+        small_holes=sewn.small_holes,
         parted=len(hull.vertices) - len(np.unique(hull.vertices, axis=0)),
     )
 
@@ -160,6 +203,18 @@ def _with(soup: Soup, added: Sequence[Surface]) -> Soup:
     """Add surfaces that no facet of the file is in."""
     points, triangles = join([soup[:2], *added])
     return distinct(points, triangles, np.concatenate((soup[2], np.full(len(triangles) - len(soup[2]), -1))))
+
+
+def _without_dust(soup: Soup) -> Soup:
+    """Leave out tiny open scraps: where they lie on a surface they cross it without end."""
+    vertices, faces, born = soup
+    label = label_parts(faces, len(vertices))
+    area = np.linalg.norm(cross_products(vertices, faces), axis=1)
+    torn = np.bincount(label, (_uses(faces) == 1).any(axis=1)) > 0
+    scraps = (torn & (np.bincount(label, area) < _SCRAP * area.sum()))[label]
+    if area[scraps].sum() > _FRAYED * area.sum():
+        return soup
+    return distinct(vertices, faces[~scraps], born[~scraps])
 
 
 def _trimmed(soup: Soup) -> Soup:

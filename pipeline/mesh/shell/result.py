@@ -170,7 +170,7 @@ class Shell:
 
 
 _HOW = {
-    UNCHANGED: "The mesh is its own outer shell: nothing was changed.",
+    UNCHANGED: "The mesh is its own outer shell: no repair was needed.",
     HULL: "The outer hull was made of the facets of the file; none of them was moved.",
     WRAPPED: "The outside was wrapped in a closed surface; inner walls and parts are gone.",
 }

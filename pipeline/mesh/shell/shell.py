@@ -17,7 +17,7 @@ from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.shell.fit import measure_fit
 from contactbench.pipeline.mesh.shell.openings import Opening, find_openings
-from contactbench.pipeline.mesh.shell.outside import Outside, find_outside
+from contactbench.pipeline.mesh.shell.outside import SEAM, Outside, find_outside, sew_up
 from contactbench.pipeline.mesh.shell.patch import Closing, choose, make_patch
 from contactbench.pipeline.mesh.shell.result import (
     HULL,
@@ -30,6 +30,7 @@ from contactbench.pipeline.mesh.shell.result import (
     Shell,
 )
 from contactbench.pipeline.mesh.shell.rim import find_lip
+from contactbench.pipeline.mesh.shell.tidy import without_slivers
 from contactbench.pipeline.mesh.shell.wrap import SURFACE, draw_in, fine_wrap, wrap_soup
 from contactbench.pipeline.mesh.soundness import CROSSING, OVERLAP, check_soundness
 from contactbench.pipeline.mesh.triangles import cross_products, join, parts, twins
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh.shell.wrap import Surface, Wrapped
+    from contactbench.pipeline.mesh.soundness import Soundness
 
 # Shares of the size. The coarse alpha is what counts as a gap, about a fingertip's crease; the fine one is the
 # size of the shell's facets.
@@ -51,6 +53,8 @@ _MOSTLY = 0.5  # of the area: a shell that is invented to this extent says nothi
 _GLANCES, _NIGHT, _MUCH = 4_000, 0.05, 0.01  # facets looked at, light and share of the area of a hollow mesh
 _VOID = 0.1  # of the volume: a mouth that leads into less is a groove, and part of the shape
 _NO_SPACE = 1e-6  # of the volume of a body with that area, about
+_SHEET = 0.25  # coarse alphas: the wrap of a sheet is twice its offset thick, 0.2
+_WIDTHS, _MOST_SLIVERS = (1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1.0, 1.0), 500  # of a seam's
 # Degrees; strips that graze a wall cross it in slivers, and others then do not.
 _LEANS = ((30.0, 70.0), (45.0,))
 _LIP = 0.2  # of the width of a mouth
@@ -149,10 +153,13 @@ def make_shell(
         why = LEAKS
         if shell is not None:
             steps.upto(1.0)
-            shell = _examined(_without(shell, _beside(shell.probe, wrap) | _empty(shell.probe)), probe)
+            shell = _without(shell, _beside(shell.probe, wrap) | _empty(shell.probe))
+            shell = _tidied(_examined(shell, probe), probe)
             if not shell.faults:
                 return shell
             why = UNSOUND
+    elif not found:
+        _refuse_sheet(wrap, coarse)
     specks = _beside(probe, wrap)
     whole = _some_facets(probe, np.flatnonzero(~specks))
     closed = [
@@ -167,18 +174,14 @@ class _Exact:
 
     def __init__(self, probe: Probe, alpha: float, coarse: float, steps: Steps) -> None:
         self._probe, self._alpha, self._coarse, self._steps = probe, alpha, coarse, steps
+        self._sewn = sew_up(probe.vertices, probe.faces, smallest=_NARROWEST * coarse, spacing=alpha)
 
     def find(self, added: Sequence[Surface] = ()) -> Outside | None:
         """Find the closed outside, with surfaces added that close mouths; None where there is none."""
-        return find_outside(
-            self._probe.vertices,
-            self._probe.faces,
-            added,
-            smallest=_NARROWEST * self._coarse,
-            spacing=self._alpha,
-            progress=self._steps.tick,
-            cancelled=self._steps.cancelled,
-        )
+        if self._sewn is None:
+            return None
+        steps = self._steps
+        return find_outside(self._sewn, added, progress=steps.tick, cancelled=steps.cancelled)
 
     def closed(
         self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing], *, narrow: bool
@@ -215,7 +218,9 @@ class _Exact:
                 if each.closing is not Closing.OPEN
             ]
             tried = self.find(patches)
-            if tried is not None and _volume(tried) > (1 + _VOID) * _volume(outside):
+            if tried is not None and _volume(tried.vertices, tried.faces) > (1 + _VOID) * _volume(
+                outside.vertices, outside.faces
+            ):
                 if not crossings(tried.vertices, tried.faces)[2][[CROSSING, OVERLAP]].any():
                     return tried
             elif tried is not None:
@@ -228,7 +233,12 @@ class _Exact:
         vertices, faces = join([(outside.vertices, outside.faces), *patches])
         plug = draw_in(wrap_soup(vertices, faces, self._coarse, cancelled=stop), self._coarse)
         tried = self.find([*patches, plug])
-        return tried if tried is not None and _volume(tried) > (1 + _VOID) * _volume(outside) else None
+        return (
+            tried
+            if tried is not None
+            and _volume(tried.vertices, tried.faces) > (1 + _VOID) * _volume(outside.vertices, outside.faces)
+            else None
+        )
 
     def _chosen(
         self, outside: Outside, found: Sequence[Opening], wanted: Sequence[Closing]
@@ -322,6 +332,17 @@ def _checked(wrapped: Wrapped, name: str) -> Probe:
     return shell
 
 
+def _refuse_sheet(wrap: Surface, coarse: float) -> None:
+    vertices, faces = wrap
+    if (
+        2 * _volume(vertices, faces)
+        < _SHEET * coarse * np.linalg.norm(cross_products(vertices, faces), axis=1).sum() / 2
+    ):
+        raise MeshError(
+            "the mesh is a sheet without thickness: there is no inside. Export the whole part as a solid."
+        )
+
+
 def _beside(probe: Probe, wrap: Surface) -> NDArray[np.bool_]:
     """
     Mark the facets of specks that stand beside the part, (m,).
@@ -363,11 +384,36 @@ def _without(shell: Shell, specks: NDArray[np.bool_]) -> Shell:
     return replace(shell, probe=rest, how=HULL, dropped=shell.dropped + int(specks.sum()))
 
 
-def _some_facets(probe: Probe, kept: NDArray[np.int64]) -> Probe:
-    """Give a probe some of its facets only, with what is known of them."""
+def _tidied(shell: Shell, base: Probe) -> Shell:
+    """Join the slivers that fold or lie on each other: cutting leaves some, of which rounding decides the normal."""
+    for width in _WIDTHS:  # the wider what is joined, the likelier it meets something
+        found, made = shell.soundness, shell.probe
+        if found is None or found.sound or not found.health.watertight:
+            break
+        slivers = _faulty(found)
+        if len(slivers) > _MOST_SLIVERS:
+            break
+        faces, of = without_slivers(made.vertices, made.faces, slivers, width * SEAM * made.size)
+        if np.array_equal(faces, made.faces):
+            continue
+        tidied = _examined(replace(shell, probe=_some_facets(made, of, faces), how=HULL), base)
+        if tidied.soundness is not None and len(_faulty(tidied.soundness)) < len(slivers):
+            shell = tidied
+    return shell
+
+
+def _faulty(found: Soundness) -> NDArray[np.int64]:
+    """Facets that cross others, lie on them, are folded or have no area, ascending."""
+    return np.unique(
+        np.concatenate((found.facets_of(CROSSING, OVERLAP), found.folded_facets, found.flat_facets))
+    )
+
+
+def _some_facets(probe: Probe, kept: NDArray[np.int64], faces: NDArray[np.int32] | None = None) -> Probe:
+    """Give a probe some of its facets only, or `faces` in their place, with what is known of them."""
     return Probe.from_arrays(
         probe.vertices,
-        probe.faces[kept],
+        probe.faces[kept] if faces is None else faces,
         probe.region[kept],
         invented=probe.invented[kept],
         name=probe.name,
@@ -386,7 +432,7 @@ def _examined(shell: Shell, base: Probe, patches: Sequence[Surface] = ()) -> She
 
 def _mouths(found: Sequence[Opening], outside: Outside) -> list[Opening]:
     """Keep the openings that much space lies behind: grooves, slots and dents are part of the shape."""
-    whole = _volume(outside)
+    whole = _volume(outside.vertices, outside.faces)
     behind = [opening.area * opening.depth for opening in found]
     return [opening for opening, space in zip(found, behind, strict=True) if space > _VOID * (whole + space)]
 
@@ -400,8 +446,8 @@ def _seen_through(opening: Opening, index: SurfaceIndex) -> float:
     return float(np.mean(index.escapes(points, np.tile(-opening.axes[2], (len(points), 1)))))
 
 
-def _volume(surface: Outside) -> float:
-    corners = surface.vertices[surface.faces] - surface.vertices[surface.faces[0, 0]]
+def _volume(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> float:
+    corners = vertices[faces] - vertices[faces[0, 0]]
     return float(np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6
 
 

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.mesh.soundness import check_soundness
-
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.mesh.probe import Probe
     from contactbench.pipeline.mesh.soundness import Soundness
 
 
-def find_faults(made: Probe, original: Probe, original_soundness: Callable[[], Soundness]) -> tuple[str, ...]:
+def find_faults(after: Soundness, original_soundness: Callable[[], Soundness]) -> tuple[str, ...]:
     """
     List the reasons not to use a simplified mesh.
 
@@ -21,8 +18,8 @@ def find_faults(made: Probe, original: Probe, original_soundness: Callable[[], S
 
     Parameters
     ----------
-    made, original : Probe
-        After and before.
+    after : Soundness
+        Of the simplified mesh, compared with the original.
     original_soundness : callable
         Checks the original by itself; called only when it counts, for it takes long on a large mesh.
 
@@ -31,9 +28,6 @@ def find_faults(made: Probe, original: Probe, original_soundness: Callable[[], S
     tuple of str
         Sentences; empty when it can be used.
     """
-    after = check_soundness(
-        made.vertices, made.faces, (original.vertices, original.faces), invented=made.invented
-    )
     if after.sound:
         return ()
     before, now = _counts(original_soundness()), _counts(after)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import Future
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 # Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
 _STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)
 
+# Of the size: what is further off is another shape. Where no more edges can be collapsed without folding, the collapse
+# goes on wherever it still can, and takes whole walls away (test_a_shape_that_cannot_be_kept_is_not_given).
+_ANOTHER_SHAPE = 0.1
+
 ENGINE, UNCHANGED = "edge collapse", "none"
 
 
@@ -43,11 +47,14 @@ class Attempt:
         With the original.
     deviation : Deviation
         Over the whole surface.
+    soundness : Soundness or None
+        Compared with the original; None for the original itself.
     """
 
     probe: Probe
     comparison: Comparison
     deviation: Deviation
+    soundness: Soundness | None = None
 
 
 class Job:
@@ -159,9 +166,14 @@ class Job:
         vertices, faces = self._collapsed(count)
         made = Probe.from_arrays(self._mesh.back(vertices), faces, name=self.probe.name, check_size=False)
         attempt = self._compared(made)
-        if faults := find_faults(attempt.probe, self.probe, lambda: self._soundness):
+        made, whole = attempt.probe, (self.probe.vertices, self.probe.faces)
+        found = check_soundness(made.vertices, made.faces, whole, invented=made.invented)
+        if faults := find_faults(found, lambda: self._soundness):
             raise MeshError(" ".join(faults))
-        return attempt
+        if attempt.deviation.hausdorff > _ANOTHER_SHAPE * self.probe.size:
+            off = f"{1e3 * attempt.deviation.hausdorff:.3g} mm"
+            raise MeshError(f"{len(attempt.probe.faces)} facets are up to {off} off: the shape is lost.")
+        return replace(attempt, soundness=found)
 
     def _collapsed(self, count: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
         mesh = self._mesh

@@ -24,7 +24,11 @@ _AFTER_FAILURE = 2.0
 
 
 def fewest_facets(
-    job: Job, error: Callable[[Attempt], float], limit: float, progress: Callable[[float], None]
+    job: Job,
+    error: Callable[[Attempt], float],
+    limit: float,
+    progress: Callable[[float], None],
+    enough: int = FEWEST,
 ) -> Attempt | None:
     """
     Search the count on a logarithmic scale, guided by the errors met so far.
@@ -42,6 +46,8 @@ def fewest_facets(
         The largest error that will do.
     progress : callable
         Takes the fraction done, 0 to 1, before every attempt.
+    enough : int
+        Fewer are not looked for.
 
     Returns
     -------
@@ -55,7 +61,7 @@ def fewest_facets(
     Cancelled
         The caller cancelled.
     """
-    low, high = FEWEST - 1, len(job.probe.faces)
+    low, high = enough - 1, len(job.probe.faces)
     best: Attempt | None = None
     met: list[tuple[float, float]] = []
     failed = False

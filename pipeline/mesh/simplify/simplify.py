@@ -19,6 +19,8 @@ from contactbench.pipeline.mesh.simplify.target import Count, Engine, MaxDeviati
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from contactbench.pipeline.mesh.soundness import Soundness
+
 # For a count the deviation is only reported, and is to take less time than the collapse; for a limit it decides.
 _COARSE = {"uniform": 3_000, "most": 2_500}
 _THOROUGH = {"uniform": 20_000, "most": 200_000}
@@ -41,6 +43,8 @@ class Simplified:
         The same per priority region, and at 0 for the rest; empty when there are no regions.
     engine : {"edge collapse", "none"}
         What made it; "none" when the original was left as it is.
+    soundness : Soundness or None
+        Compared with the original; None where that was left as it is.
     steps : tuple of str
         What was tried, in order, and why it was not used.
     short : str
@@ -54,6 +58,7 @@ class Simplified:
     deviation: Deviation
     regions: Mapping[int, Deviation]
     engine: str
+    soundness: Soundness | None
     steps: tuple[str, ...]
     short: str = ""
     warnings: tuple[str, ...] = ()
@@ -144,7 +149,10 @@ def _reach(job: Job, target: Target, tell: _Told) -> tuple[Attempt, str]:
     if isinstance(target, MaxDeviation):
         found = fewest_facets(job, lambda attempt: attempt.deviation.hausdorff, target.metres, tell.attempts)
     else:
-        found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts)
+        if have <= target.enough:
+            job.steps.append(f"The surface has {have} facets, few enough: it is left as it is.")
+            return job.unchanged(), ""
+        found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts, target.enough)
     if found is not None:
         return found, ""
     job.steps.append("No fewer facets keep the limit: the surface is left as it is.")
@@ -179,6 +187,7 @@ def _summed_up(job: Job, attempt: Attempt, short: str, warnings: tuple[str, ...]
         attempt.deviation,
         regions,
         UNCHANGED if attempt.probe is job.probe else ENGINE,
+        attempt.soundness,
         tuple(job.steps),
         short,
         warnings,

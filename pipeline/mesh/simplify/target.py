@@ -78,6 +78,8 @@ class MaxError:
     farthest : float
         Hausdorff distance from the original that no facet count may exceed, metres: a measure over the whole
         surface may not see a small part of it vanish, such as letters.
+    enough : int
+        Fewer facets than this gain nothing: a probe that has no more is left as it is.
 
     Raises
     ------
@@ -88,6 +90,7 @@ class MaxError:
     measure: Callable[[Probe], float]
     limit: float
     farthest: float = math.inf
+    enough: int = FEWEST
 
     def __post_init__(self) -> None:
         _refuse_unless_positive(self.limit, "the largest error")

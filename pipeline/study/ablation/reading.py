@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline import kernel
 from contactbench.pipeline.calibration import PoseNoise, PoseSample, calibrate
-from contactbench.pipeline.calibration.mounting import estimate_mount
+from contactbench.pipeline.calibration.mount import estimate_mount
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.control.inertia import Inertia

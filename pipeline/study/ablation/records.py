@@ -24,7 +24,7 @@ from contactbench.pipeline.simulation.scenes import (
 from contactbench.pipeline.simulation.scenes.press import PRESS_STEP_S
 from contactbench.pipeline.simulation.virtual.markers import markers
 from contactbench.pipeline.study import scene_limits
-from contactbench.pipeline.study.reproduce.touching import ANGLES, press_markers, truth_of
+from contactbench.pipeline.study.marker_touches import ANGLES, press_markers, truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.study import scene_limits
 from contactbench.pipeline.study.ablation.records import LEAST_N, SAMPLE_S, pressed, ridden
-from contactbench.pipeline.study.reproduce.touching import truth_of
+from contactbench.pipeline.study.marker_touches import truth_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

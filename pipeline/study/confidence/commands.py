@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -40,10 +40,16 @@ def confidence(
     """
     from contactbench.assets import PROBE_NAMES
     from contactbench.pipeline.study.confidence import study
+    from contactbench.pipeline.study.pages import publish
 
     sizes = study.QUICK if quick else study.Sizes()
     sizes = replace(sizes, touches=touches or sizes.touches, seeds=seeds or sizes.seeds)
-    report = study.run(tuple(probe or PROBE_NAMES), sizes, seed=seed, progress=say)
+    names = tuple(probe or PROBE_NAMES)
+    report = study.run(names, sizes, seed=seed, progress=say)
     if out:
-        say(f"{study.keep(report, out, quick=quick)}: tables and the reliability diagram")
+        words = ["confidence", *(["--quick"] if quick else []), "--touches", str(sizes.touches)]
+        words += ["--seeds", str(sizes.seeds), "--seed", str(seed)]
+        words += [] if names == PROBE_NAMES else [w for n in names for w in ("--probe", Path(n).name)]
+        page = publish(out, study.KIND, words, [asdict(row) for row in report.rows])
+        say(f"{page}: tables and the reliability diagram")
     finish(report, None, as_json=as_json)

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import shlex
 from dataclasses import asdict, dataclass
 from itertools import pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.assets import PROBE_NAMES
-from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.confidence import cases
-from contactbench.pipeline.study.stability.probes import check, title_of
+from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -204,28 +201,6 @@ def run(
         progress(PARTS[part])
         rows += measure(tuple(names), sizes, seed)
     return ConfidenceReport(tuple(names), sizes, seed, tuple(rows))
-
-
-def keep(report: ConfidenceReport, folder: Path, *, quick: bool) -> Path:
-    """Write a report's results, its page and its pictures; returns the page, InputError if it cannot be written."""
-    from contactbench.pipeline.study.pages import PAGE, make_page
-    from contactbench.pipeline.study.results import environment, write_results
-
-    make_folder(folder)
-    words = ["contactbench", "study", "confidence", *(["--quick"] if quick else [])]
-    words += [
-        "--touches",
-        str(report.sizes.touches),
-        "--seeds",
-        str(report.sizes.seeds),
-        "--seed",
-        str(report.seed),
-    ]
-    if report.names != PROBE_NAMES:
-        words += [word for name in report.names for word in ("--probe", Path(name).name)]
-    write_results(folder, KIND, shlex.join(words), [asdict(row) for row in report.rows], environment())
-    make_page(folder)
-    return folder / PAGE
 
 
 # ---- the parts -----------------------------------------------------------------------------------------

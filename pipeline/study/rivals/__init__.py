@@ -1,6 +1,1 @@
-"""
-Rivals measured, not quoted: other people's code on the same inputs, in the same run, on the same machine.
-
-Contact location, location on a plane, simplification of meshes, gravity calibration. What is not installed is said, and
-the rest is measured.
-"""
+"""Rivals measured, not quoted: other ways to locate a contact on the same inputs, in the same run."""

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.study.chapters import chapter
 from contactbench.pipeline.study.markdown import number, table
-from contactbench.pipeline.study.rivals import calibrators, engines, place, plane
+from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import OURS
 from contactbench.pipeline.study.rivals.verdicts import MARGIN, Duel, duels
 
@@ -17,33 +17,13 @@ if TYPE_CHECKING:
     from contactbench.pipeline.study.results import Results
 
 Row = dict[str, Any]
-_FAMILIES = (place.FAMILY, plane.FAMILY, engines.FAMILY, calibrators.FAMILY)
 _MAIN_NOISE = "filtered"
 _ROUNDING_MM = 1e-6
 _SAID = "Time against error of everybody, in one run; ours filled. Times from Python; a ray alone for ray tracers."
-_OF_PLANE = (
-    "It is told the one plane that there is, and how high: no mesh, no search, no other candidate, no reason, no"
-    " covariance. Where the face is that plane nothing can be nearer, and it cannot take another part of the probe for"
-    " the one that is touched: of ours all answers count, doubtful ones too. Elsewhere, see its errors."
-)
-_OF_VERTICAL = (
-    "It is told two numbers more, that the base is level: where that is so, they need not be estimated; where not, it"
-    " is worse. It names no bumped pose, and does not say how sure it is."
-)
-_OF_ENGINE = (
-    "A library called bare: it looks after nothing that comes in - doubled vertices, units, flipped facets -, keeps no"
-    " region, and does not measure what it made."
-)
-_REASONS = {
-    (plane.FAMILY, plane.BOTA.name): _OF_PLANE,
-    (calibrators.FAMILY, calibrators.VERTICAL): _OF_VERTICAL,
-    (engines.FAMILY, ""): _OF_ENGINE,
-}
-_ABOUT = f"""Everybody gets the same inputs, in turns, in one process; simplification engines in a process of their
-own, without what it takes to start. Times are medians, with the 5th to 95th percentile of the rounds; ratios are to
-contactbench in the same run. A ray tracer's time for one prepared ray counts as if it were a whole solve: in its
-favour. Faster or more accurate means by more than {MARGIN - 1:.0%}, and in paired errors by twice their standard error;
-who answers less than 99 % of what ours answers is not more accurate."""
+_ABOUT = f"""Everybody gets the same inputs, in turns, in one process. Times are medians, with the 5th to 95th
+percentile of the rounds; ratios are to contactbench in the same run. A ray tracer's time for one prepared ray counts as
+if it were a whole solve: in its favour. Faster or more accurate means by more than {MARGIN - 1:.0%}, and in paired
+errors by twice their standard error; who answers less than 99 % of what ours answers is not more accurate."""
 
 
 def make(results: Results, folder: Path) -> str:
@@ -63,17 +43,17 @@ def make(results: Results, folder: Path) -> str:
     """
     from contactbench.pipeline.study.rivals.plots import plots
 
-    pictures = plots(results.rows)
-    return chapter(
-        "Rivals, measured", _ABOUT, tables(results.rows), pictures, dict.fromkeys(pictures, _SAID), folder
-    )
+    # Earlier versions measured planes, meshes and calibrations, too.
+    rows = [row for row in results.rows if row["family"] == place.FAMILY]
+    pictures = plots(rows)
+    return chapter("Rivals, measured", _ABOUT, tables(rows), pictures, dict.fromkeys(pictures, _SAID), folder)
 
 
 def tables(rows: Sequence[Row]) -> list[tuple[str, str]]:
     """Return the tables, each with its title; the verdict first."""
     found = duels(rows)
     made = [("Is anybody both faster and more accurate?", verdict(found))]
-    for family in _FAMILIES:
+    for family in (place.FAMILY,):
         text = _family(family, rows, found)
         if text:
             made.append((family.capitalize(), text))
@@ -85,7 +65,7 @@ def verdict(found: Sequence[Duel]) -> str:
     """Return who is both faster and more accurate than ours, and who is one of them where."""
     winners = [duel for duel in found if duel.beats]
     lines = []
-    for family in _FAMILIES:
+    for family in (place.FAMILY,):
         mine = [duel for duel in found if duel.family == family]
         if not mine:
             continue
@@ -105,14 +85,9 @@ def verdict(found: Sequence[Duel]) -> str:
     for family, contender in dict.fromkeys((duel.family, duel.contender) for duel in winners):
         mine = [duel for duel in winners if (duel.family, duel.contender) == (family, contender)]
         count = f"{len(mine)} of the comparisons of {family}"
-        text += f"\n\n**{contender}** is both in {count}. {_why(family, contender)}\n\n"
+        text += f"\n\n**{contender}** is both in {count}.\n\n"
         text += "\n".join(f"- {duel.words}." for duel in mine)
     return text
-
-
-def _why(family: str, contender: str) -> str:
-    """Return why somebody wins, as far as it is known."""
-    return _REASONS.get((family, contender), _REASONS.get((family, ""), "Why is not known: look into it."))
 
 
 def _family(family: str, rows: Sequence[Row], found: Sequence[Duel]) -> str:
@@ -141,7 +116,6 @@ def _family(family: str, rows: Sequence[Row], found: Sequence[Duel]) -> str:
 def _subject(mine: Sequence[Row], found: Sequence[Duel]) -> str:
     conditions = list(dict.fromkeys(r["condition"] for r in mine if r["kind"] == "error"))
     modes = list(dict.fromkeys(r["mode"] for r in mine if r["kind"] == "time"))
-    shape = mine[0]["family"] == engines.FAMILY
     lines = []
     for contender in dict.fromkeys(r["contender"] for r in mine):
         errors = {r["condition"]: r for r in mine if r["kind"] == "error" and r["contender"] == contender}
@@ -152,17 +126,11 @@ def _subject(mine: Sequence[Row], found: Sequence[Duel]) -> str:
         cells = [f"**{contender}**" if contender.startswith(OURS) else contender]
         cells += [_span(times.get(mode)) for mode in modes]
         cells.append("1" if contender == OURS else number(ratio, ".2g"))
-        if shape:
-            row = errors["shape"]
-            cells += [number(row[name]) for name in ("mean_mm", "max_mm", "normal_deg")]
-            cells.append(f"{row['facets']:,}")
-        else:
-            cells += [_error(errors.get(condition)) for condition in conditions]
-            kept = errors.get(_MAIN_NOISE, next(iter(errors.values())))
-            cells.append(f"{100 * kept['answered']:.1f}")
+        cells += [_error(errors.get(condition)) for condition in conditions]
+        kept = errors.get(_MAIN_NOISE, next(iter(errors.values())))
+        cells.append(f"{100 * kept['answered']:.1f}")
         lines.append(cells)
-    figures = ["RMS mm", "Hausdorff mm", "normals, °", "facets"] if shape else [
-        *(f"{_condition(condition)}, mean mm" for condition in conditions), "answered %"]  # fmt: skip
+    figures = [*(f"{_condition(condition)}, mean mm" for condition in conditions), "answered %"]
     return table(["contender", *(f"{mode}, µs" for mode in modes), "least time / ours", *figures], lines)
 
 

@@ -14,7 +14,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.study.ablation.effects import NOISES
 from contactbench.pipeline.study.ablation.locating import sigmas_of
-from contactbench.pipeline.study.reproduce.touching import model_of
+from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.rivals.interleave import medians
 from contactbench.pipeline.study.rivals.rays import TRACERS, bare_ray
 from contactbench.pipeline.study.rivals.rows import OURS, SURE, Contender, Row, erred, known, missing, timed

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from contactbench.pipeline.study.chapters import COLOURS, STYLE, png
-from contactbench.pipeline.study.rivals import engines, place
+from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import OURS
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ _NOISE = "filtered"
 
 def plots(rows: Sequence[Row]) -> dict[str, bytes]:
     """Return PNG images by file name: those that the rows have something for."""
-    made = {"location.png": _location(rows), "simplification.png": _simplification(rows)}
+    made = {"location.png": _location(rows)}
     return {name: data for name, data in made.items() if data}
 
 
@@ -51,17 +51,6 @@ def _location(rows: Sequence[Row]) -> bytes:
             points = panels.setdefault(row["subject"], {}).setdefault(row["contender"], [])
             points.append((row["median_us"], error))
     return _draw(panels, "µs", "mean error, mm, noise filtered")
-
-
-def _simplification(rows: Sequence[Row]) -> bytes:
-    mine = [r for r in rows if r.get("family") == engines.FAMILY]
-    panels: dict[str, Points] = {}
-    for row in (r for r in mine if r["kind"] == "error" and r["mean_mm"] is not None):
-        for time in (r for r in mine if r["kind"] == "time"):
-            if (time["subject"], time["contender"]) == (row["subject"], row["contender"]):
-                points = panels.setdefault(row["subject"].split(",")[0], {}).setdefault(row["contender"], [])
-                points.append((time["median_us"] / 1e3, row["max_mm"]))
-    return _draw(panels, "ms", "Hausdorff distance, mm")
 
 
 def _draw(panels: dict[str, Points], x_name: str, y_name: str) -> bytes:

@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.study.rivals.calibrators import calibration_rows
-from contactbench.pipeline.study.rivals.engines import engine_rows
 from contactbench.pipeline.study.rivals.place import place_rows
-from contactbench.pipeline.study.rivals.plane import plane_rows
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,7 +15,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.study.rivals.rows import Row
 
 KIND = "rivals"
-FAMILIES = ("location", "plane", "simplification", "calibration")
 _FEWEST, _MOST = 300, 200_000
 
 
@@ -29,31 +25,21 @@ class Sizes:
 
     Attributes
     ----------
-    families : tuple of str
-        Of FAMILIES.
     probes : tuple of str
     facets : tuple of int
         Of the meshes that contacts are located on.
-    touches, trials, rounds : int
-    simplified : (int, tuple of int)
-        Facets before, and after.
+    touches, rounds : int
     """
 
-    families: tuple[str, ...] = FAMILIES
     probes: tuple[str, ...] = assets.PROBE_NAMES
     facets: tuple[int, ...] = (500, 2_000, 20_000)
     touches: int = 4_000
-    trials: int = 400
     rounds: int = 15
-    simplified: tuple[int, tuple[int, ...]] = (50_000, (500, 2_000))
 
     def __post_init__(self) -> None:
         for probe in self.probes:
             if probe not in assets.PROBE_NAMES:
                 raise InputError(f"--probe {probe}: choose of {', '.join(assets.PROBE_NAMES)}.")
-        for family in self.families:
-            if family not in FAMILIES:
-                raise InputError(f"--family {family}: choose of {', '.join(FAMILIES)}.")
         for count in self.facets:
             if not _FEWEST <= count <= _MOST:
                 raise InputError(f"--facets {count}: give {_FEWEST} to {_MOST:,}.")
@@ -61,7 +47,7 @@ class Sizes:
             raise InputError(f"--rounds {self.rounds}: give at least 1.")
 
 
-QUICK = Sizes(probes=("linear",), facets=(500,), touches=500, trials=20, rounds=3, simplified=(6_000, (500,)))
+QUICK = Sizes(probes=("linear",), facets=(500,), touches=500, rounds=3)
 
 
 def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
@@ -72,7 +58,7 @@ def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda
     ----------
     sizes : Sizes
     seed : int
-        Of touches, poses and noise.
+        Of touches and noise.
     progress : callable
         Told what is being measured.
 
@@ -82,21 +68,10 @@ def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda
         Plain rows of four kinds: ``version``, ``missing``, ``time`` and ``error``.
     """
     rows: list[Row] = []
-    if "location" in sizes.families:
-        for probe in sizes.probes:
-            for facets in sizes.facets:
-                progress(f"location: {probe}, {facets:,} facets")
-                rows += place_rows(probe, facets, sizes.touches, sizes.rounds, seed)
-    if "plane" in sizes.families:
-        progress("a plane")
-        rows += plane_rows(sizes.touches, sizes.rounds, seed)
-    if "simplification" in sizes.families:
-        progress("simplification")
-        rounds = max(sizes.rounds // 3, 1)
-        rows += engine_rows(sizes.probes, *sizes.simplified, rounds)
-    if "calibration" in sizes.families:
-        progress("calibration")
-        rows += calibration_rows(sizes.trials, sizes.rounds, seed)
+    for probe in sizes.probes:
+        for facets in sizes.facets:
+            progress(f"location: {probe}, {facets:,} facets")
+            rows += place_rows(probe, facets, sizes.touches, sizes.rounds, seed)
     return _once(rows)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.study.rivals import engines, place
+from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import OURS
 
 if TYPE_CHECKING:
@@ -63,9 +63,7 @@ class Duel:
     @property
     def words(self) -> str:
         """It as a sentence."""
-        where = self.subject + (
-            f", {self.facets:,} facets" if self.facets and self.family != engines.FAMILY else ""
-        )
+        where = self.subject + (f", {self.facets:,} facets" if self.facets else "")
         times = "" if self.ratio is None else f"{self.ratio:.2g} times our time ({self.mode})"
         return f"{self.contender} on {where}, {self.condition}: {times}, {self.mean:.3g} mm against {self.ours:.3g} mm"
 
@@ -87,12 +85,6 @@ def duels(rows: Sequence[Row]) -> list[Duel]:
 
 
 def _accuracy(row: Row, mine: Row) -> tuple[float, float, float, bool]:
-    if row["family"] == engines.FAMILY:
-        # Both distances: a surface that is near in the mean and far off somewhere is not better.
-        better = all(
-            row[name] is not None and row[name] * MARGIN < mine[name] for name in ("mean_mm", "max_mm")
-        )
-        return row["mean_mm"], mine["mean_mm"], row["answered"] / mine["answered"], better
     share = row["answered"] / mine["answered"] if mine["answered"] else 0.0
     mean, ours = row["common_mm"], row["ours_common_mm"]
     less = row["worse_mm"] < -max(_SIGMAS * row["worse_se_mm"], _ROUNDING_MM) and mean * MARGIN < ours

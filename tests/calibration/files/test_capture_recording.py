@@ -15,10 +15,10 @@ from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
 from contactbench.pipeline.calibration import calibrate
-from contactbench.pipeline.calibration.files.capture_file import capture_file
-from contactbench.pipeline.calibration.files.capture_recording import (
+from contactbench.pipeline.calibration.files.capture_file import (
     Delay,
     capture_any,
+    capture_file,
     capture_recording,
     is_recording,
     read_any_poses,

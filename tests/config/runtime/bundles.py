@@ -6,10 +6,11 @@ import json
 from functools import cache
 from typing import TYPE_CHECKING
 
+from benchmarks.bundle_example import example_config
+from benchmarks.bundle_mutations import seal
+
 from contactbench.pipeline.calibration.calibrate import DOWN_W
 from contactbench.pipeline.mesh.save import encode_probe
-from contactbench.pipeline.study.bundle_example import example_config
-from contactbench.pipeline.study.bundle_mutations import seal
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -13,6 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from benchmarks import bundle_example
+from benchmarks.bundle_mutations import seal
 from config.runtime.bundles import example, example_bundle
 from scipy.spatial.transform import Rotation
 
@@ -34,8 +36,6 @@ from contactbench.pipeline.filtering import LowPass
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.regions import Region, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
-from contactbench.pipeline.study import bundle_example
-from contactbench.pipeline.study.bundle_mutations import seal
 
 HERE = Path(__file__).parents[3]
 

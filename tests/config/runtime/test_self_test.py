@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from benchmarks.bundle_mutations import seal
 from config.runtime.bundles import example, of_version_2, of_version_3
 from runtime.test_same_as_cpp import BUILD, CMAKE, SOURCE, run
 from typer.testing import CliRunner
@@ -17,7 +18,6 @@ from typer.testing import CliRunner
 from contactbench.pipeline.cli import app
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime.self_test import replay, with_self_test
-from contactbench.pipeline.study.bundle_mutations import seal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

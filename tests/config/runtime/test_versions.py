@@ -4,12 +4,12 @@ import json
 
 import numpy as np
 import pytest
+from benchmarks.bundle_mutations import seal
 from config.runtime.bundles import OLD_GAINS, example, of_version_1, of_version_2, of_version_3
 
 from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig
 from contactbench.pipeline.config.runtime import migrate as migrations
 from contactbench.pipeline.config.runtime.canonical import decode_json, encode_json
-from contactbench.pipeline.study.bundle_mutations import seal
 
 
 def test_an_older_version_is_carried_over(monkeypatch):

@@ -4,15 +4,13 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.devices.emulate import SYNTHETIC
-from contactbench.pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
-from contactbench.pipeline.devices.emulate.checksums import crc16_modbus, crc16_x25
-from contactbench.pipeline.devices.emulate.models import (
-    bota_frame,
-    rdt_record,
-    robotiq_frame,
-    rtde_packet,
-    sri_frame,
-)
+from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
+from contactbench.pipeline.devices.protocols.bota import bota_frame
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25
+from contactbench.pipeline.devices.protocols.rdt import rdt_record
+from contactbench.pipeline.devices.protocols.robotiq import robotiq_frame
+from contactbench.pipeline.devices.protocols.sri import sri_frame
+from contactbench.pipeline.devices.protocols.ur_pose import rtde_packet
 
 
 def test_checksums_have_their_published_check_values():

@@ -12,17 +12,13 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.devices.emulate import JOINTS, SYNTHETIC, EmulatorError, Moment, Reading
-from contactbench.pipeline.devices.emulate.models import (
-    BotaModel,
-    ElfinModel,
-    Model,
-    Quirk,
-    RdtModel,
-    RobotiqModel,
-    SriModel,
-    UrModel,
-    rtde_packet,
-)
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.elfin import ElfinModel
+from contactbench.pipeline.devices.protocols.emulated import Model, Quirk
+from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
+from contactbench.pipeline.devices.protocols.ur_pose import UrModel, rtde_packet
 
 NOW = Reading(SYNTHETIC), Moment(0, 0.0)
 ROBOTIQ_START = bytes.fromhex("0910019A0001020200CDCA")
@@ -106,7 +102,7 @@ def test_what_must_not_be_sent_is_refused_and_kept(kind: type[Model], command: b
     if kind is UrModel:
         device.feed(AGREED)
     if kind is RobotiqModel and len(command) == 9:
-        from contactbench.pipeline.devices.emulate.checksums import crc16_modbus
+        from contactbench.pipeline.devices.protocols.checksums import crc16_modbus
 
         command += crc16_modbus(command).to_bytes(2, "little")
     device.feed(command)

@@ -18,9 +18,9 @@ from contactbench.pipeline.devices.emulate import (
     recorded,
     sine,
 )
-from contactbench.pipeline.devices.emulate.mangle import Mangler
-from contactbench.pipeline.devices.emulate.models import RdtModel, SriModel, sri_frame
-from contactbench.pipeline.devices.emulate.signals import Truth
+from contactbench.pipeline.devices.faults import Mangler, Truth
+from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.sri import SriModel, sri_frame
 
 
 def test_events_are_read():

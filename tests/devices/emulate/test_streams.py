@@ -277,8 +277,7 @@ def test_sri_refuses_a_command_that_does_not_wait(carrier: str):
     for quirks, refused in (([], [b"AT+SMPF=500\r\n"]), ([Quirk.FORGIVING], [])):
         with emulator("sri", carrier, quirks=quirks) as device:
             line = opened(device)
-            line.write(b"AT+GSD=STOP\r\n")
-            line.write(b"AT+SMPF=500\r\n")
+            line.write(b"AT+GSD=STOP\r\nAT+SMPF=500\r\n")
             until(lambda device=device: device.model.obeyed_count + device.model.refused_count == 2)
             line.close()
         assert device.refused == refused

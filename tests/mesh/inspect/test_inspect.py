@@ -219,7 +219,20 @@ def test_disagreement_that_is_hidden_is_a_doubt():
     vertices, faces = arrays(trimesh.creation.box(extents=(0.02, 0.02, 0.01)))
     faces[0] = faces[0, ::-1]
     found = look(*joined(arrays(BOX), (vertices, faces)))
-    assert "it is the hidden ones that disagree" in texts(found, "fault")
+    assert "All visible facets face outwards; only hidden ones disagree" in texts(found, "fault")
+
+
+def test_a_sheet_with_one_side_is_called_a_sheet():
+    n = 80
+    turn = np.repeat(np.linspace(0, 2 * np.pi, n, endpoint=False), 2)
+    across = np.tile([-0.01, 0.01], n)
+    radius = 0.03 + across * np.cos(turn / 2)
+    vertices = np.column_stack((radius * np.cos(turn), radius * np.sin(turn), across * np.sin(turn / 2)))
+    quads = [[2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2] for k in range(n - 1)] + [[2 * n - 2, 2 * n - 1, 0, 1]]
+    found = look(vertices, [triangle for a, b, c, d in quads for triangle in ([a, b, c], [a, c, d])])
+    assert "The mesh is an open sheet" in texts(found, "fault")
+    assert "Neighbouring facets disagree" in texts(found, "fault")
+    assert "hidden" not in texts(found, "fault")
 
 
 # ---------------------------------------------------------------- facets and vertices
@@ -258,8 +271,15 @@ def test_closed_parts_beside_each_other_are_no_fault():
     vertices, faces = arrays(BOX)
     found = look(*joined((vertices, faces), (vertices + [0.07, 0, 0], faces)))
     assert found.sound
-    assert found.clear
-    assert "2 separate parts" in texts(found, "note")
+    assert not found.clear
+    assert "2 separate parts (60 x 40 x 20 mm, 60 x 40 x 20 mm); none lies inside" in texts(found, "doubt")
+    assert "needs one body" in texts(found, "doubt")
+    assert "--gap" in texts(found, "doubt")
+    speck = look(*joined((vertices, faces), (0.05 * vertices + [0.07, 0, 0], faces)))
+    assert speck.clear
+    assert "2 separate parts (60 x 40 x 20 mm, 3 x 2 x 1 mm). All but the largest are specks" in texts(
+        speck, "note"
+    )
     nested = look(*joined((vertices, faces), (0.5 * vertices, faces)))
     assert not nested.sound
 
@@ -445,6 +465,22 @@ def test_self_intersections():
     assert "Facets cut through each other (pairs:" in texts(found, "fault")
     assert not found.sound
     assert look(vertices, faces).soundness.crossing == 0
+
+
+def test_bodies_that_overlap_are_not_called_hollow():
+    egg = trimesh.creation.icosphere(subdivisions=4, radius=0.03)
+    vertices = egg.vertices * [1, 1, 1.5]
+    found = look(*joined((vertices, egg.faces), (vertices + [0.02, 0, 0], egg.faces)))
+    assert found.overlapping_parts == 2
+    assert "2 of the 2 parts overlap, so walls of one lie inside another" in texts(found, "fault")
+    assert found.visibility.double_wall_share < 0.01
+    assert "hollow" not in texts(found, "fault")
+    # A housing stays hollow when a body cuts through it.
+    shell, inside = arrays(BOX), (0.9 * BOX.vertices, BOX.faces[:, ::-1])
+    stud = trimesh.creation.box(extents=(0.01, 0.01, 0.01))
+    housing_with_stud = look(*joined(shell, inside, (stud.vertices + [0, 0, 0.012], stud.faces)))
+    assert housing_with_stud.overlapping_parts > 1
+    assert "The probe is hollow" in texts(housing_with_stud, "fault")
 
 
 def test_probe_and_arrays_give_the_same():

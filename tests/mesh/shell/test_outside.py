@@ -10,12 +10,10 @@ from contactbench.pipeline.kernel import crossings
 from contactbench.pipeline.mesh.health import edge_table, measure_health
 from contactbench.pipeline.mesh.shell.cut import cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
-from contactbench.pipeline.mesh.shell.outside import find_outside
+from contactbench.pipeline.mesh.shell.outside import find_outside, sew_up
 from contactbench.pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
 
 pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
-
-LENGTHS = {"smallest": 0.5, "spacing": 0.1}
 
 
 def soup(*bodies):
@@ -26,6 +24,10 @@ def soup(*bodies):
             np.int32
         ),
     )
+
+
+def outside_of(vertices, faces):
+    return find_outside(sew_up(vertices, faces, smallest=0.5, spacing=0.1))
 
 
 def volume(vertices, faces):
@@ -51,7 +53,7 @@ UNIT = box([0, 0, 0], [1, 1, 1])
 @pytest.mark.parametrize("turned", [False, True])
 def test_two_bodies_become_their_union_to_the_digit(other, whole, turned):
     vertices, faces = soup(UNIT, (other[0], other[1][:, ::-1] if turned else other[1]))
-    found = find_outside(vertices, faces, **LENGTHS)
+    found = outside_of(vertices, faces)
     health = measure_health(found.vertices, found.faces)
     assert health.watertight
     assert health.winding_consistent
@@ -87,7 +89,7 @@ def test_a_sheet_is_no_body():
 
 def test_a_hole_is_closed_on_its_own_rim():
     vertices, faces = UNIT
-    found = find_outside(vertices, faces[:-1], **LENGTHS)
+    found = outside_of(vertices, faces[:-1])
     assert len(found.faces) == 12
     assert np.count_nonzero(found.born < 0) == 1
     assert len(found.holes) + found.small_holes == 1
@@ -97,7 +99,7 @@ def test_a_hole_is_closed_on_its_own_rim():
 def test_seams_are_sewn_and_an_edge_split_where_another_ends_on_it():
     vertices, faces = UNIT
     corners = vertices[faces].reshape(-1, 3) + np.random.default_rng(0).uniform(-2e-5, 2e-5, (36, 3))
-    found = find_outside(corners, np.arange(36, dtype=np.int32).reshape(-1, 3), **LENGTHS)
+    found = outside_of(corners, np.arange(36, dtype=np.int32).reshape(-1, 3))
     assert len(found.faces) == 12
     assert (found.born >= 0).all()
     # One side in two halves: a T-junction in the middle of an edge.
@@ -135,7 +137,7 @@ def test_random_crossing_bodies_enclose_what_any_of_them_does():
             vertices, faces = box(*np.sort(rng.uniform(0, 1, (2, 3)), axis=0))
             turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
             bodies.append((vertices @ (turn * np.sign(np.linalg.det(turn))).T, faces))
-        found = find_outside(*soup(*bodies), **LENGTHS)
+        found = outside_of(*soup(*bodies))
         points = rng.uniform(-1.5, 1.5, (400, 3))
         inside = np.zeros(len(points), dtype=bool)
         for vertices, faces in bodies:

@@ -10,7 +10,7 @@ from mesh.shell.housings import HEIGHT, LENGTH, MOUTH, WALL, WIDTH, box, housing
 from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh import MeshError, MeshWarning, Probe, load_probe
 from contactbench.pipeline.mesh.engines import Cancelled
-from contactbench.pipeline.mesh.shell import Closing, make_shell
+from contactbench.pipeline.mesh.shell import Closing, make_shell, outside
 from contactbench.pipeline.mesh.shell.openings import describe
 from contactbench.pipeline.mesh.shell.shell import _wanted
 
@@ -173,6 +173,14 @@ def test_facets_turned_over_and_a_fin_do_not_matter():
     assert volume == pytest.approx(LENGTH * WIDTH * HEIGHT, rel=0.02)
 
 
+def test_the_mesh_is_sewn_once(monkeypatch):
+    sewn = []
+    once = outside._sewn
+    monkeypatch.setattr(outside, "_sewn", lambda *args: sewn.append(1) or once(*args))
+    make_shell(housing(), alpha=ALPHA, coarse=GAP)
+    assert len(sewn) == 1
+
+
 @pytest.mark.parametrize("height", [0.08, 0.15])
 def test_a_wide_mouth_is_closed_at_its_lip_with_the_usual_lengths(height):
     outer, faces = box([-0.03, -0.02, 0], [0.03, 0.02, height], open_top=True)
@@ -231,8 +239,12 @@ def test_two_parts_are_refused_before_the_work():
         make_shell(beside(0.03, 0.06), alpha=ALPHA)
 
 
-def test_a_sheet_is_refused():
-    plate = np.array([[0, 0, 0], [0.1, 0, 0], [0.1, 0.05, 0], [0, 0.05, 0]])
+@pytest.mark.parametrize("lean", [0.0, 0.3])
+def test_a_sheet_is_refused_before_it_is_wrapped_finely(lean, monkeypatch):
+    plate = np.array([[0, 0, 0], [0.1, 0, lean * 0.1], [0.1, 0.05, lean * 0.1], [0, 0.05, 0]])
+    monkeypatch.setattr(
+        "contactbench.pipeline.mesh.shell.shell.fine_wrap", lambda *_, **__: pytest.fail("wrapped finely")
+    )
     with pytest.raises(MeshError, match="a sheet without thickness"):
         make_shell(Probe.from_arrays(plate, np.array([[0, 1, 2], [0, 2, 3]])))
 
@@ -281,9 +293,12 @@ def test_a_real_probe(real_file):
     with pytest.warns(MeshWarning):
         probe = load_probe(real_file)
     shell = make_shell(probe, alpha=probe.size / 100)
-    assert shell.probe.health.sentences == ()
-    assert shell.fit.visible_p95 < 3e-4
-    assert shell.fit.inner_hits == 0
+    assert shell.faults == ()
+    if real_file.name.startswith("convex"):  # slivers where its parts cut each other are no reason to wrap it
+        assert shell.how == "hull"
+    else:
+        assert shell.fit.visible_p95 < 3e-4
+        assert shell.fit.inner_hits == 0
     lens = shell.openings[0]
     assert lens.opening.axes[2] == pytest.approx([0, 1, 0], abs=0.02)
     assert lens.closing is Closing.RULED

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import manifold3d
 import numpy as np
 import pytest
 import trimesh
@@ -319,6 +320,29 @@ def test_a_search_goes_up_by_factors_where_a_measure_says_nothing() -> None:
     assert 3_000 <= made.count < 4_000
     assert len(seen) <= 12
     assert seen[1] > 1.9 * seen[0]
+
+
+def _grooved() -> Probe:
+    """A block of 60 x 40 x 30 mm with eight grooves, half a millimetre wide and deep."""
+    plate = manifold3d.Manifold.cube((60, 40, 30))
+    for x in range(6, 54, 6):
+        plate -= manifold3d.Manifold.cube((0.5, 42, 1)).translate((x, -1, 29.5))
+    mesh = plate.to_mesh()
+    return Probe.from_arrays(np.asarray(mesh.vert_properties[:, :3], dtype=np.float64) / 1e3, mesh.tri_verts)
+
+
+def test_a_shape_that_cannot_be_kept_is_not_given() -> None:
+    with pytest.raises(MeshError, match=r"cannot be simplified to 4 facets.*mm off: the shape is lost"):
+        simplify(_grooved(), Count(4))
+
+
+def test_a_probe_of_few_facets_is_left_as_it_is() -> None:
+    probe = _grooved()
+    made = simplify(probe, MaxError(lambda _: 0.001, 0.01, enough=len(probe.faces)))
+    assert made.probe is probe
+    assert "few enough" in made.steps[0]
+    assert made.short == ""
+    assert simplify(probe, MaxError(lambda _: 0.001, 0.01, enough=len(probe.faces) - 12)).count < made.count
 
 
 def test_a_small_part_does_not_vanish_though_the_measure_does_not_see_it() -> None:

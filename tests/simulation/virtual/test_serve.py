@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration.calibrate import calibrate
 from contactbench.pipeline.calibration.poses import PoseSample
-from contactbench.pipeline.devices.emulate.arms import ELFIN3_TABLE, flange_pose
+from contactbench.pipeline.devices.protocols.arms import ELFIN3_TABLE, flange_pose
 from contactbench.pipeline.simulation.virtual.arm import WristArm
 from contactbench.pipeline.simulation.virtual.bench import VirtualBench
 from contactbench.pipeline.simulation.virtual.pace import CATCH_UP_S, Pacer

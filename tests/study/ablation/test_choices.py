@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from benchmarks.plane import _block
 
 from contactbench.pipeline.study.ablation import effects, locating, reading
 from contactbench.pipeline.study.ablation.effects import compared, effect
 from contactbench.pipeline.study.ablation.records import drawn
 from contactbench.pipeline.study.ablation.scenery import foremost
-from contactbench.pipeline.study.rivals.plane import _block
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,7 @@
 """The confidence study in short: its cases are what they say, its judging is right, its page is made of its file."""
 
 import json
+from dataclasses import asdict
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import ContactSolver, Reason
 from contactbench.pipeline.study.confidence import cases, study
 from contactbench.pipeline.study.confidence.page import tables
-from contactbench.pipeline.study.pages import make_page
+from contactbench.pipeline.study.pages import make_page, publish
 
 TINY = study.Sizes(touches=100, seeds=2, facets=500, ellipse_facets=(500,), pruned=100)
 
@@ -87,7 +88,7 @@ def test_one_touch_is_plausible_and_most_pairs_are_not():
 
 
 def test_the_page_is_made_from_the_file_alone(report, tmp_path):
-    page = study.keep(report, tmp_path, quick=True)
+    page = publish(tmp_path, study.KIND, ["confidence"], [asdict(row) for row in report.rows])
     first = page.read_text(encoding="utf-8")
     assert make_page(tmp_path) == first
     assert (tmp_path / "reliability.png").stat().st_size > 1_000

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from contactbench.pipeline.study.rivals import engines, place
+from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import OURS, SURE, Contender, erred, known, missing, timed
 from contactbench.pipeline.study.rivals.verdicts import duels
 
@@ -88,19 +88,3 @@ def test_rounding_is_no_accuracy():
 
 def test_our_own_subsets_are_no_rivals():
     assert duels(rows_of(0.5, 1.0, 0.5, contender=SURE)) == []
-
-
-def test_a_mesh_must_be_nearer_in_the_mean_and_at_most():
-    def shape(contender, mean, most):
-        about = {
-            "kind": "error",
-            "family": engines.FAMILY,
-            "subject": "s",
-            "condition": "shape",
-            "answered": 1.0,
-        }
-        return about | {"contender": contender, "mean_mm": mean, "max_mm": most}
-
-    both, mean_only = (duels([shape(OURS, 1.0, 1.0), shape("x", 0.5, most)])[0] for most in (0.5, 2.0))
-    assert both.better
-    assert not mean_only.better

@@ -20,8 +20,7 @@ pytest.importorskip("pyarrow")
 def rows():
     patch = pytest.MonkeyPatch()
     patch.setattr(place, "_FEW", 20)
-    families = ("location", "calibration")
-    short = Sizes(families=families, probes=("linear",), facets=(500,), touches=200, trials=6, rounds=1)
+    short = Sizes(probes=("linear",), facets=(500,), touches=200, rounds=1)
     found = run(short)
     patch.undo()
     return found
@@ -61,7 +60,6 @@ def test_the_page_is_made_from_the_file_alone(rows, tmp_path):
     ("change", "said"),
     [
         ({"probes": ("banana",)}, "banana"),
-        ({"families": ("moon",)}, "moon"),
         ({"facets": (10,)}, "--facets 10"),
         ({"rounds": 0}, "--rounds 0"),
     ],

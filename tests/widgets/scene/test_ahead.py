@@ -5,9 +5,9 @@ from __future__ import annotations
 import threading
 
 import numpy as np
+from benchmarks.window.balls import ball
 
 from contactbench.widgets.scene.ahead import MANY, Ahead, crease_ends, prepare
-from contactbench.widgets.scene.benchmark import ball
 
 
 def test_the_creases_of_a_box_are_its_twelve_edges(make_box):

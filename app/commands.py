@@ -1,0 +1,78 @@
+"""Commands that open a window: ``contactbench gui`` and ``contactbench heatmap view``."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from contactbench.pipeline.commands.heatmap import heatmap_app
+from contactbench.pipeline.console import Noun
+from contactbench.pipeline.errors import InputError
+
+__all__ = ["gui_app", "heatmap_app"]
+
+gui_app = Noun()
+
+
+@gui_app.command(example="gui --virtual", as_json=False)
+def gui(
+    session: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="Session to open; with --virtual, made if it is missing."),
+    ] = None,
+    virtual: Annotated[bool, typer.Option("--virtual", help="Begin with a virtual bench.")] = False,
+    language: Annotated[
+        str, typer.Option(metavar="CODE", help="Language, such as de or en [the computer's].")
+    ] = "",
+) -> None:
+    """Open the window: calibrate, prepare, verify and export at the bench. contactbench alone does the same."""
+    check_screen()
+    from contactbench.app.application import run
+
+    raise typer.Exit(run(session, virtual=virtual, language=language))
+
+
+@heatmap_app.command(example="heatmap view my-session", as_json=False)
+def view(
+    files: Annotated[
+        list[Path] | None, typer.Argument(metavar="[FILES]...", help="Recordings, contacts or sessions.")
+    ] = None,
+) -> None:
+    """Look at heatmaps in a window: play back, compare, read values, save pictures and films."""
+    check_screen()
+    from contactbench.app.application import prepared
+
+    application = prepared()
+    from contactbench.app.heatmap_viewer import run
+    from contactbench.app.settings import Settings
+    from contactbench.app.translation import load
+    from contactbench.widgets.theme import use_theme
+
+    remembered = Settings().now
+    load(application, remembered.language)
+    use_theme(remembered.theme)
+    raise typer.Exit(run(list(files or ())))
+
+
+def check_screen() -> None:
+    """InputError, with the remedy, if no window can be opened: Qt itself would end the process without a word."""
+    missing = [
+        name for name in ("PySide6", "pyvista", "pyvistaqt", "pyqtgraph", "superqt") if not find_spec(name)
+    ]
+    if missing:
+        raise InputError(
+            f"the window needs {', '.join(missing)}, which is not installed: run pip install 'contactbench[gui]'."
+            " All other commands work without it."
+        )
+    chosen = os.environ.get("QT_QPA_PLATFORM", "")
+    if sys.platform.startswith("linux") and chosen.partition(":")[0] not in ("offscreen", "minimal", "vnc"):
+        if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+            raise InputError(
+                "no screen: neither DISPLAY nor WAYLAND_DISPLAY is set, so no window can be opened: start it in a"
+                " desktop session, or with ssh -X. The other commands (contactbench --help) need no screen."
+            )

@@ -1,0 +1,62 @@
+"""``contactbench probe markers ...``: points on a probe to be touched."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from contactbench.pipeline.commands.options import refuse_overwriting
+from contactbench.pipeline.console import Noun, answer, say
+
+markers_app = Noun("Make markers for a probe, and move them onto its surface.")
+
+ProbeArgument = Annotated[Path, typer.Argument(metavar="PROBE", help="The probe, aligned with the sensor.")]
+MarkersOut = Annotated[Path, typer.Option(help="Table to write: name,x_mm,y_mm,z_mm, sensor frame.")]
+
+
+@markers_app.command(example="probe markers generate probe.ply --all --count 17 --out markers.csv")
+def generate(
+    probe: ProbeArgument,
+    out: MarkersOut,
+    region: Annotated[int | None, typer.Option(help="Only on the region of this rank.")] = None,
+    everywhere: Annotated[bool, typer.Option("--all", help="Anywhere on the probe.")] = False,
+    count: Annotated[int, typer.Option(help="How many, spread evenly.")] = 17,
+    grid: Annotated[float | None, typer.Option(help="Instead: on a grid of this pitch, mm.")] = None,
+) -> None:
+    """Place markers on a probe, spread evenly or on a grid; the same ones on every call."""
+    if (region is None) != everywhere:
+        raise typer.BadParameter("say where: --region N or --all, one of them.")
+    refuse_overwriting(out, [probe])
+    from contactbench.pipeline.verification import grid_markers, spread_markers
+    from contactbench.pipeline.verification.result import load_surface
+
+    surface = load_surface(probe)
+    made = (
+        spread_markers(surface, count, region) if grid is None else grid_markers(surface, grid / 1e3, region)
+    )
+    made.save(out)
+    say(f"{len(made)} markers written to {out}.", "green")
+    answer({"markers": len(made), "file": str(out)})
+
+
+@markers_app.command(example="probe markers snap measured.csv --probe probe.ply --out markers.csv")
+def snap(
+    markers: Annotated[Path, typer.Argument(metavar="MARKERS", help="CSV file: name,x_mm,y_mm,z_mm.")],
+    probe: Annotated[Path, typer.Option(help="The probe, aligned with the sensor.")],
+    out: MarkersOut,
+    limit: Annotated[float, typer.Option(help="Refuse markers further from the surface, mm.")] = 5.0,
+) -> None:
+    """Move markers to the nearest points of a probe's surface, and tell how far each was from it."""
+    refuse_overwriting(out, [markers, probe])
+    from contactbench.pipeline.verification import load_markers
+    from contactbench.pipeline.verification import snap as snapped
+    from contactbench.pipeline.verification.result import load_surface
+
+    found = snapped(load_markers(markers), load_surface(probe), limit / 1e3)
+    found.markers.save(out)
+    moved = dict(zip(found.markers.names, (1e3 * found.distances).tolist(), strict=True))
+    for name, distance in moved.items():
+        say(f"{name}: moved by {distance:.3f} mm")
+    answer({"markers": len(moved), "file": str(out), "moved_mm": moved})

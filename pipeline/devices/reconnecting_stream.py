@@ -1,0 +1,255 @@
+"""A device kept streaming: opened, started, read, watched, and opened again when its line was lost."""
+
+from __future__ import annotations
+
+import threading
+import time
+from abc import abstractmethod
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from contactbench.pipeline.devices.protocols import Counters, ProtocolError
+from contactbench.pipeline.devices.stream import Health, Sample, State, Stream
+from contactbench.pipeline.devices.transport import LineError, LineLost, TcpLine
+from contactbench.pipeline.devices.url import Carrier
+from contactbench.pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from typing import Self
+
+    from contactbench.pipeline.devices.transport import Line
+    from contactbench.pipeline.devices.url import DeviceAddress
+    from contactbench.pipeline.devices.watch import Watch
+
+READ_S = 0.02  # how long a read may wait: how soon a stop or a silence is noticed
+_RETRY_S = (0.1, 0.2, 0.5, 1.0, 2.0)
+# A device that was switched off and on says nothing until it is started again.
+_START_AGAIN_S = 1.0
+# A peer that vanished without a word leaves a TCP connection that looks well for minutes.
+_DEAD_S = 3.0
+# What printing on a closed terminal raises is the latter, which would end the thread without a word.
+_FAILURES = (Exception, SystemExit)
+
+
+class ReconnectingStream(Stream[Sample]):
+    """
+    One device's samples, in a thread of their own.
+
+    Lost lines are opened again by themselves. What did not arrive is never made up: a gap stays a gap.
+    What nobody foresaw, such as a callable that raises, ends the stream: it is then lost for good, and
+    `failure` is the reason.
+
+    Parameters
+    ----------
+    address, watch, on_samples, on_change
+        As for `Stream`.
+    line : Line
+    """
+
+    def __init__(
+        self,
+        address: DeviceAddress,
+        line: Line,
+        watch: Watch,
+        on_samples: Callable[[Sequence[Sample]], None],
+        on_change: Callable[[Health], None] | None = None,
+    ) -> None:
+        super().__init__(address, watch, on_samples, on_change)
+        self._line = line
+        self._why, self._reconnected = "", 0
+        self._failure: BaseException | None = None
+        self._tries = 0  # to open the line, since the last sample
+        self._last = self._heard = self._reviewed = 0.0
+        self._received = 0
+        self._stopping = threading.Event()
+        self._thread: threading.Thread | None = None
+
+    def start(self) -> Self:
+        """Begin; the line is opened in the background. A stream is started once."""
+        self._thread = threading.Thread(target=self._run, name=str(self.address), daemon=True)
+        self._thread.start()
+        return self
+
+    def stop(self) -> None:
+        """Stop the device and close the line; returns when that is done."""
+        self._stopping.set()
+        if isinstance(self._line, TcpLine):
+            self._line.interrupt()
+        if self._thread is not None:
+            self._thread.join()
+
+    @property
+    def health(self) -> Health:
+        """How the stream is now."""
+        with self._watching:
+            state = self._state
+            # The thread may be held up, such as by a line that takes nothing: no one is told of samples that are not.
+            if state is State.STREAMING and time.monotonic() - self._last > self._watch.patience + 2 * READ_S:
+                state, self._why = State.SILENT, self._silence(time.monotonic())
+            return self._health(state)
+
+    @property
+    def failure(self) -> BaseException | None:
+        """What ended the stream for good; None: it goes on, or was stopped."""
+        return self._failure
+
+    # ---- what each kind of device does ---------------------------------------------------------
+
+    @abstractmethod
+    def _begin(self) -> None:
+        """Make the device stream; the line is open."""
+
+    @abstractmethod
+    def _feed(self, data: bytes, arrived: float) -> list[Sample]:
+        """Turn bytes into samples, oldest first."""
+
+    @abstractmethod
+    def _end(self) -> None:
+        """Make the device stop; the line is open or lost."""
+
+    def _idle(self, now: float) -> float:  # noqa: ARG002 - for those that ask
+        """Do what is due between reads, such as asking again; return how long a read may wait, s."""
+        return READ_S
+
+    def _reset(self) -> None:
+        """Forget what was half received; the line was lost."""
+
+    def _counters(self) -> Counters:
+        return Counters()
+
+    def _troubles(self) -> dict[str, str]:
+        """Return what the device itself says is wrong, by kind."""
+        return {}
+
+    # ---- the thread ----------------------------------------------------------------------------
+
+    def _health(self, state: State) -> Health:
+        return replace(
+            super()._health(state),
+            counters=self._counters(),
+            reconnected=self._reconnected,
+            lateness=self._watch.lateness(),
+            failure=None if self._failure is None else self._why,
+        )
+
+    def _findings(self, state: State) -> dict[str, str]:
+        if state is State.LOST:
+            return {self._why: self._why}
+        if state is State.SILENT:
+            return {"silent": self._why} | self._watch.damage() | self._troubles()
+        if state is State.CONNECTING:
+            return self._troubles()
+        return self._watch.findings() | self._troubles() if state is State.STREAMING else {}
+
+    def _run(self) -> None:
+        try:
+            self._keep_on()
+        except _FAILURES as error:  # whatever it is, the device is stopped and somebody told
+            self._fail(error)
+        self._finish()
+
+    def _keep_on(self) -> None:
+        while not self._stopping.is_set():
+            self._change(State.CONNECTING if self._tries == 0 else State.LOST)
+            try:
+                self._line.open()
+                self._heard = time.monotonic()
+                self._begin()
+                self._read()
+            except (LineError, ProtocolError) as error:
+                self._lose(error)
+                self._stopping.wait(_RETRY_S[min(self._tries, len(_RETRY_S) - 1)])
+                self._tries += 1
+
+    def _fail(self, error: BaseException) -> None:
+        why = (
+            str(error) if isinstance(error, InputError) else f"{self.address}: the stream failed: {error!r}."
+        )
+        with self._watching:
+            self._failure, self._why = error, why
+        self._stopping.set()
+
+    def _lose(self, error: LineError | ProtocolError) -> None:
+        self._why = str(error)
+        self._change(State.LOST)
+        self._tell()  # another reason is news
+        with self._watching:
+            self._reset()
+            self._watch.forget()
+        self._line.close()
+
+    def _read(self) -> None:
+        self._last = begun_again = time.monotonic()
+        while not self._stopping.is_set():
+            chunk = self._line.read(self._idle(time.monotonic()))
+            if self._take(chunk.data, chunk.time):
+                self._change(State.STREAMING)
+            elif chunk.time - self._last > self._watch.patience:
+                self._be_silent(chunk.time)
+                if chunk.time - max(self._last, begun_again) > _START_AGAIN_S:
+                    self._begin()
+                    begun_again = time.monotonic()
+            if self.address.carrier is Carrier.TCP and chunk.time - self._heard > _DEAD_S:
+                raise LineLost(
+                    f"{self._line.name}: nothing came for {_DEAD_S:g} s: check cable and device; the line is opened"
+                    " again."
+                )
+            self._review(chunk.time)
+
+    def _be_silent(self, now: float) -> None:
+        with self._watching:
+            self._why = self._silence(now)
+            self._watch.rest()
+        self._change(State.SILENT)
+
+    def _silence(self, now: float) -> str:
+        return (
+            f"{self.address}: no sample for {now - self._last:.1f} s: check that the device has power and that nothing"
+            " else uses its line."
+        )
+
+    def _take(self, data: bytes, arrived: float) -> bool:
+        """Give on the samples that end in these bytes; tells whether there were any."""
+        if not data:
+            return False
+        self._heard = arrived
+        samples = self._feed(data, arrived)
+        with self._watching:
+            self._received += len(data)
+            if samples:
+                # Only now: a device may take connections and give nothing.
+                self._reconnected += self._tries > 0 and self._watch.samples > 0
+                self._tries = 0
+                self._last = arrived
+                self._watch.see(samples)
+            self._watch.count(arrived, self._counters(), self._received)
+        if samples:
+            self._on_samples(samples)
+        return bool(samples)
+
+    def _change(self, state: State) -> None:
+        if state is not self._state:
+            self._state = state
+            self._tell()
+
+    def _review(self, now: float) -> None:
+        """See what is wrong, also when nothing arrives; not for each of a thousand samples a second."""
+        if now - self._reviewed >= READ_S / 2:
+            self._reviewed = now
+            with self._watching:
+                self._watch.count(now, self._counters(), self._received)
+            self._tell()
+
+    def _finish(self) -> None:
+        try:
+            with suppress(LineError):  # it is gone, and with it the stream
+                self._end()
+            self._line.close()
+            self._change(State.CLOSED if self._failure is None else State.LOST)
+            self._tell()  # why it failed is news to those who know that it is lost
+        except _FAILURES as error:  # a listener that fails may do so again
+            self._fail(error)
+            self._state = State.LOST
+            self._line.close()

@@ -1,0 +1,210 @@
+"""One run: start the processes, let them run, compare what was sent with what was given."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import numpy as np
+from benchmarks.live.machine import Sleeper
+from benchmarks.live.reader import Cost
+from benchmarks.live.records import GIVEN_TYPE, SENT_TYPE, read_back
+
+from contactbench.pipeline.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from numpy.typing import NDArray
+
+_MARGIN_S = 60.0  # processes start and stop in much less
+_GRACE_S = 0.25  # what is sent just before the end may be left on the line
+_SPIN = "import sys, time\nend = time.monotonic() + float(sys.argv[1])\nwhile time.monotonic() < end: pass"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """
+    One sensor's frames beside the samples that came of them.
+
+    Attributes
+    ----------
+    sent, given : int
+        Frames up to just before the end; samples.
+    lost : int
+        Frames of them that came to nothing.
+    changed : int
+        Samples that are no frame: other values, a number that was not sent, or one that came before.
+    latency : (n,) float64
+        From the frame's first byte given to the line to the sample given to its reader, s.
+    pace : float
+        Frames a second that the sensor sent, Hz.
+    jitter : float
+        95th percentile of how far an interval between samples is from the median one, s.
+    """
+
+    sent: int
+    given: int
+    lost: int
+    changed: int
+    latency: NDArray[np.float64]
+    pace: float
+    jitter: float
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """
+    What one run showed.
+
+    Attributes
+    ----------
+    cost : Cost
+        Of the process that reads.
+    sensors : tuple of Comparison
+    machine_late : float
+        99th percentile of how much later than it asked for an idle process was woken in the same time, s.
+    """
+
+    cost: Cost
+    sensors: tuple[Comparison, ...]
+    machine_late: float
+
+
+def run_trial(seconds: float, sensors: int, rate: float, *, busy: bool) -> Trial:
+    """
+    Read emulated sensors for a time.
+
+    Parameters
+    ----------
+    seconds : float
+    sensors : int
+    rate : float
+        Of each, Hz.
+    busy : bool
+        One more process uses all that it gets of the processor meanwhile.
+
+    Raises
+    ------
+    InputError
+        A process failed; its own words are above on standard error.
+    """
+    with TemporaryDirectory(prefix="contactbench-") as name:
+        folder = Path(name)
+        with ExitStack() as stack:
+            urls = [
+                stack.enter_context(sensor_process(folder / f"sent-{i}.bin", rate)) for i in range(sensors)
+            ]
+            if busy:
+                stack.enter_context(busy_process(seconds + _MARGIN_S))
+            with Sleeper() as sleeper:
+                cost = _reader(folder, seconds, urls)
+        pairs = [
+            compare(
+                read_back(folder / f"sent-{i}.bin", SENT_TYPE),
+                read_back(folder / f"given-{i}.bin", GIVEN_TYPE),
+                cost.ended - _GRACE_S,
+            )
+            for i in range(sensors)
+        ]
+    return Trial(cost, tuple(pairs), sleeper.late)
+
+
+def compare(sent: NDArray[np.void], given: NDArray[np.void], until: float) -> Comparison:
+    """
+    Hold what was given against what was sent.
+
+    Parameters
+    ----------
+    sent : (n,) `records.SENT_TYPE`
+        From the device's first frame on: the sequence of a frame is its place.
+    given : (m,) `records.GIVEN_TYPE`
+    until : float
+        Frames sent later may be missing; on the clock of both.
+
+    Raises
+    ------
+    InputError
+        Nothing was sent, or nothing given.
+    """
+    if len(sent) < 2 or len(given) < 2:
+        raise InputError(f"{len(sent)} frames sent, {len(given)} samples given: let the run last longer.")
+    number = given["sequence"]
+    known = (number >= 0) & (number < len(sent))
+    known[1:] &= number[1:] > np.maximum.accumulate(number)[:-1]
+    frame = sent[number[known]]
+    # The frame's float32 became a Python float, which holds it exactly.
+    same = (frame["values"] == given["values"][known]).all(axis=1)
+    same &= frame["number"] == number[known] % 65_536
+    arrived = np.zeros(len(sent), dtype=bool)
+    arrived[number[known][same]] = True
+    due = sent["at"] <= until
+    gaps = np.diff(given["at"])
+    return Comparison(
+        sent=int(due.sum()),
+        given=len(given),
+        lost=int((due & ~arrived).sum()),
+        changed=len(given) - int(same.sum()),
+        latency=given["at"][known][same] - frame["at"][same],
+        pace=(len(sent) - 1) / float(sent["at"][-1] - sent["at"][0]),
+        jitter=float(np.percentile(np.abs(gaps - np.median(gaps)), 95)),
+    )
+
+
+@contextmanager
+def sensor_process(notes: Path, rate: float) -> Iterator[str]:
+    """Run a sensor; gives its address."""
+    command = [sys.executable, "-m", "benchmarks.live.sensor", str(notes), f"{rate:g}"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            url = process.stdout.readline().strip() if process.stdout else ""
+            if not url:
+                raise InputError("an emulated sensor did not start: its error is above.")
+            yield url
+        finally:
+            if process.stdin is not None:
+                process.stdin.close()
+            try:
+                process.wait(_MARGIN_S)
+            except subprocess.TimeoutExpired:
+                process.kill()
+    if process.returncode:
+        raise InputError(f"an emulated sensor failed (exit {process.returncode}): its error is above.")
+
+
+@contextmanager
+def busy_process(at_most: float) -> Iterator[None]:
+    """Keep one core busy, for some seconds at most."""
+    process = subprocess.Popen([sys.executable, "-c", _SPIN, f"{at_most:g}"])
+    try:
+        yield
+    finally:
+        process.kill()
+        process.wait()
+
+
+def _reader(folder: Path, seconds: float, urls: Sequence[str]) -> Cost:
+    command = [
+        sys.executable,
+        "-m",
+        "benchmarks.live.reader",
+        str(folder),
+        f"{seconds:g}",
+        *urls,
+    ]
+    try:
+        done = subprocess.run(
+            command, stdout=subprocess.PIPE, text=True, timeout=seconds + _MARGIN_S, check=True
+        )
+        said = json.loads(done.stdout.splitlines()[-1])
+    except (subprocess.SubprocessError, IndexError, ValueError) as error:
+        raise InputError(
+            f"the process that reads the sensors failed ({error}): its error is above."
+        ) from error
+    return Cost(**{**said, "findings": tuple(said["findings"])})

@@ -1,0 +1,185 @@
+"""Is the outer shell as good as it says? Real files, or bundled probes hollowed out, whose outside is known."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from benchmarks.preparation.housing import housing
+
+from contactbench import assets
+from contactbench.pipeline.kernel import SurfaceIndex
+from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.mesh.shell import Closing, make_shell
+from contactbench.pipeline.mesh.shell.fit import sample_surface
+from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.study.report import Figure, Report
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Iterator, Sequence
+
+    from contactbench.pipeline.mesh import Probe
+    from contactbench.pipeline.mesh.shell import Shell
+
+_NEAR_MM = 0.3
+_SAMPLES = 60_000
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """
+    A mesh to make a shell of.
+
+    Attributes
+    ----------
+    name : str
+    probe : Probe
+    outside : Probe or None
+        The true outer surface, where it is known.
+    openings : int or None
+        How many openings it has, where that is known.
+    """
+
+    name: str
+    probe: Probe
+    outside: Probe | None = None
+    openings: int | None = None
+
+
+def run(
+    files: Sequence[str | os.PathLike[str]] = (),
+    *,
+    facets: int = 20_000,
+    quick: bool = False,
+    seed: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Report:
+    """
+    Make a shell of every mesh and measure it.
+
+    Parameters
+    ----------
+    files : sequence of path
+        Mesh files in any unit that can be told from them; the bundled probes as hollow housings when there are none.
+    facets : int
+        Of each bundled probe.
+    quick : bool
+        Only one housing.
+    seed : int
+        Of the points that are measured.
+    progress : callable
+        Told what is being done.
+
+    Raises
+    ------
+    InputError
+        A file cannot be read or made a shell of, or pymeshlab or libigl is not installed.
+    """
+    figures: list[Figure] = []
+    for case in _cases(files, facets, quick):
+        progress(f"{case.name}: {len(case.probe.faces):,} facets")
+        figures += judge(case, np.random.default_rng(seed))
+    settings = {
+        "meshes": len(files) or "bundled housings",
+        "seed": seed,
+    }
+    note = (
+        "Hulls and unchanged meshes are made of the facets of the file, so only what was wrapped has distances from"
+        " what is visible of the original, except at invented facets, and inner hits: half-lines from all round"
+        " outside that land on an inner wall."
+    )
+    return Report("Outer shell", settings, tuple(figures), (note,))
+
+
+def judge(case: Case, rng: np.random.Generator) -> list[Figure]:
+    """
+    Make a shell and measure it.
+
+    Parameters
+    ----------
+    case : Case
+    rng : numpy.random.Generator
+        Of the points that are measured.
+
+    Raises
+    ------
+    MeshError, EngineError
+        See `make_shell`.
+    """
+    began = time.perf_counter()
+    shell = make_shell(case.probe)
+    seconds = time.perf_counter() - began
+    return [
+        Figure(
+            case.name,
+            f"time, {len(case.probe.faces):,} to {len(shell.probe.faces):,} facets, {shell.how}",
+            seconds,
+            "s",
+        ),
+        *_soundness(case.name, shell),
+        *_fit(case, shell, rng),
+        *_openings(case, shell),
+    ]
+
+
+def _cases(files: Sequence[str | os.PathLike[str]], facets: int, quick: bool) -> Iterator[Case]:
+    for file in files:
+        yield Case(Path(file).name, load_probe(file, "auto"))
+    if files:
+        return
+    for name in assets.PROBE_NAMES[: 1 if quick else None]:
+        hollow, outside = housing(name, facets)
+        yield Case(f"{name}, hollow", hollow, outside, 1)
+
+
+def _soundness(name: str, shell: Shell) -> list[Figure]:
+    sound = check_soundness(shell.probe.vertices, shell.probe.faces)
+    health = sound.health
+    defects = {
+        "rim edges (closed: 0)": health.boundary_edges,
+        "edges of more than two facets (manifold: 0)": health.nonmanifold_edges,
+        "faces inwards, or both ways (outward: 0)": int(not (health.outward and health.winding_consistent)),
+        "parts inside others": sound.nested_parts,
+        "pairs of facets that cross or overlap": sound.crossing + sound.overlapping,
+        "facets folded back": len(sound.folded_facets),
+    }
+    figures = [Figure(name, what, float(count), most=0.0) for what, count in defects.items()]
+    return [*figures, Figure(name, "parts", float(health.components))]  # a file may have several
+
+
+def _fit(case: Case, shell: Shell, rng: np.random.Generator) -> list[Figure]:
+    figures = []
+    if shell.fit is not None:
+        fit = shell.fit
+        figures += [
+            Figure(case.name, "visible outside to shell, 95 %", 1e3 * fit.visible_p95, "mm", most=_NEAR_MM),
+            Figure(case.name, "visible outside to shell, largest", 1e3 * fit.visible_max, "mm"),
+            Figure(case.name, f"inner hits of {fit.lines:,} lines", float(fit.inner_hits), most=0.0),
+        ]
+    if case.outside is not None:
+        figures.append(_truth(case, case.outside, shell, rng))
+    return figures
+
+
+def _truth(case: Case, outside: Probe, shell: Shell, rng: np.random.Generator) -> Figure:
+    """Measure from the true outer surface to the shell: no figure of the shell's own."""
+    points = sample_surface(outside.vertices, outside.faces, _SAMPLES, rng)
+    distance, _, _ = SurfaceIndex(shell.probe.vertices, shell.probe.faces).closest(points)
+    middle, p95, worst = (1e3 * np.percentile(distance, [50, 95, 100])).tolist()
+    what = f"true outside to shell, 95 % (median {middle:.2g} mm)"
+    return Figure(case.name, what, p95, "mm", most=_NEAR_MM, worst=worst)
+
+
+def _openings(case: Case, shell: Shell) -> list[Figure]:
+    closed = sum(opening.closing is not Closing.OPEN for opening in shell.openings)
+    invented = 100 * shell.invented_area / float(shell.probe.areas.sum())
+    left = len(shell.openings) - closed
+    return [
+        Figure(case.name, "openings closed", float(closed), least=case.openings, most=case.openings),
+        Figure(case.name, "openings left open", float(left), most=None if case.openings is None else 0.0),
+        Figure(case.name, "invented, of the shell's area", invented, "%"),
+    ]

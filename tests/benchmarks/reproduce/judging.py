@@ -1,0 +1,198 @@
+"""What is judged of the static experiments, and sentences on where errors come from."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from benchmarks.reproduce.attribution import FINE
+from benchmarks.reproduce.locating import LITERAL, OURS
+from benchmarks.reproduce.statistics import distances_mm, root_mean_square
+
+from contactbench.pipeline.contact import Reason
+from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR
+from contactbench.pipeline.study.report import Figure, Report
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from benchmarks.reproduce.attribution import Attributed, Explained
+    from benchmarks.reproduce.locating import ProbeResult
+    from numpy.typing import NDArray
+
+MOST_PERPENDICULAR_MM = 0.6
+MOST_RATIO = 1.2
+LEAST_SURE = 95.0  # %
+_NEGLIGIBLE_MM = 0.05
+_TYPICAL_NM = 9.0 * 0.5 * 0.13  # of 9 N at 30 degrees, 130 mm from the sensor
+
+
+def judged(
+    probes: Sequence[ProbeResult],
+    attributed: Sequence[Attributed],
+    explained: Explained | None,
+    settings: dict[str, Any],
+) -> Report:
+    """Compare with the targets, and say in sentences where errors come from."""
+    figures, notes = [], []
+    for result in probes:
+        mine = _Judged(result)
+        figures.extend(mine.figures())
+        notes.extend(mine.missed())
+        notes.extend(_doubtful(result, angle) for angle in ANGLES if _ambiguous(result, angle).any())
+        notes.extend(result.notes)
+    notes.extend((_mesh_share(probes[0].name, attributed), _explanation(attributed)))
+    if explained is not None:
+        notes.append(_mount(explained))
+    return Report("reproduce static", settings, tuple(figures), tuple(dict.fromkeys(notes)))
+
+
+class _Judged:
+    """The figures of one probe: over all touches, with the spread and the worst of the seeds."""
+
+    def __init__(self, result: ProbeResult) -> None:
+        self._result, self._touched, self._mine = result, result.touched, result.located[OURS]
+        self._error = distances_mm(self._mine.points, self._touched.points)
+
+    def figures(self) -> list[Figure]:
+        found = [
+            self._figure(
+                f"{PERPENDICULAR}, mean", self._mean(PERPENDICULAR), "mm", most=MOST_PERPENDICULAR_MM
+            ),
+            self._figure(f"{PERPENDICULAR}, error over bound", self._over_bound(PERPENDICULAR)),
+            self._figure(
+                "answered without doubt",
+                lambda rows: 100 * float(self._mine.settled[rows].mean()),
+                "%",
+                least=LEAST_SURE,
+            ),
+            self._figure(
+                "answered without doubt only because of the region",
+                lambda rows: 100 * float((self._mine.reasons[rows] == Reason.BY_REGION).mean()),
+                "%",
+            ),
+        ]
+        for angle in (IN_PLANE, ACROSS):
+            name = f"{angle} over {PERPENDICULAR}"
+            found.append(self._figure(f"{name}, mm", self._ratio(self._mean, angle), most=MOST_RATIO))
+            found.append(self._figure(f"{name}, noise and geometry alone", self._ratio(self._bound, angle)))
+            over = self._ratio(self._over_bound, angle)
+            found.append(self._figure(f"{name}, error over bound", over, most=MOST_RATIO))
+        found.extend(self._rests(angle) for angle in ANGLES)
+        return found
+
+    def missed(self) -> list[str]:
+        """Tell which ratios of millimetres are over the target, and what of that no method could help."""
+        rows = np.ones(len(self._touched), dtype=np.bool_)
+        found = []
+        for angle in (IN_PLANE, ACROSS):
+            ratio, alone = self._ratio(self._mean, angle)(rows), self._ratio(self._bound, angle)(rows)
+            if ratio > MOST_RATIO:
+                found.append(
+                    f"{self._result.name}, {angle}: {ratio:.2f} times the perpendicular millimetres, over the target"
+                    f" of {MOST_RATIO:g}; noise and geometry alone give {alone:.2f} times, because less of the force"
+                    " points inwards."
+                )
+        return found
+
+    def _figure(
+        self,
+        name: str,
+        value: Callable[[NDArray[np.bool_]], float],
+        unit: str = "",
+        *,
+        least: float | None = None,
+        most: float | None = None,
+    ) -> Figure:
+        """Take a value over all touches, and over those of each seed where there are several."""
+        seeds = self._touched.seeds
+        whole = value(np.ones(len(seeds), dtype=np.bool_))
+        each = [value(seeds == seed) for seed in np.unique(seeds)]
+        if len(each) < 2:
+            return Figure(self._result.name, name, whole, unit, least, most)
+        low, high = np.percentile(each, [5, 95]).tolist()
+        worst = float(np.min(each) if least is not None else np.max(each))
+        return Figure(self._result.name, name, whole, unit, least, most, (low, high), worst)
+
+    def _rows(self, angle: str, rows: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        at = self._touched.angles == list(ANGLES).index(angle)
+        return np.asarray(at & rows & self._mine.answered)
+
+    def _mean(self, angle: str) -> Callable[[NDArray[np.bool_]], float]:
+        def value(rows: NDArray[np.bool_]) -> float:
+            error = self._error[self._rows(angle, rows)]
+            return float(error.mean()) if len(error) else nan
+
+        return value
+
+    def _bound(self, angle: str) -> Callable[[NDArray[np.bool_]], float]:
+        return lambda rows: 1e3 * root_mean_square(self._result.bounds[self._rows(angle, rows)])
+
+    def _over_bound(self, angle: str) -> Callable[[NDArray[np.bool_]], float]:
+        bound = self._bound(angle)
+        return lambda rows: root_mean_square(self._error[self._rows(angle, rows)]) / bound(rows)
+
+    @staticmethod
+    def _ratio(
+        of: Callable[[str], Callable[[NDArray[np.bool_]], float]], angle: str
+    ) -> Callable[[NDArray[np.bool_]], float]:
+        return lambda rows: of(angle)(rows) / of(PERPENDICULAR)(rows)
+
+    def _rests(self, angle: str) -> Figure:
+        """Tell how far from its marker the tip comes to rest: the mean, and the largest as the worst."""
+        at = self._touched.angles == list(ANGLES).index(angle)
+        off = 1e3 * distances_mm(self._touched.points[at], self._touched.targets[at])
+        name = f"{angle}, tip rests off its marker"
+        return Figure(self._result.name, name, float(off.mean()), "µm", worst=float(off.max()))
+
+
+def _explanation(attributed: Sequence[Attributed]) -> str:
+    alone = [one for one in attributed[1:-1] if one.cause != FINE]
+    grown = [
+        one.cause
+        for one in alone
+        if max(one.added[1:]) > MOST_RATIO * max(one.added[0], 0.0) + _NEGLIGIBLE_MM
+    ]
+    return (
+        f"Of the causes tried, these add more at an angle than perpendicular: {', '.join(grown) or 'none'}."
+    )
+
+
+def _ambiguous(result: ProbeResult, angle: str) -> NDArray[np.bool_]:
+    at = result.touched.angles == list(ANGLES).index(angle)
+    return np.asarray(at & (result.located[OURS].reasons == Reason.AMBIGUOUS))
+
+
+def _doubtful(result: ProbeResult, angle: str) -> str:
+    """Tell of touches for which another place is as likely."""
+    rows = _ambiguous(result, angle)
+    off = {
+        method: distances_mm(result.located[method].points[rows], result.touched.points[rows])
+        for method in (OURS, LITERAL)
+    }
+    mean = {method: float(each[np.isfinite(each)].mean()) for method, each in off.items()}
+    numbers = ", ".join(map(str, np.unique(result.touched.markers[rows]).tolist()))
+    return (
+        f"{result.name}, {angle}: {int(rows.sum())} touches (marker {numbers}) are called ambiguous; the means hold"
+        f" the first answer, which is {mean[OURS]:.1f} mm off there. {LITERAL}, which gives no warning, is"
+        f" {mean[LITERAL]:.1f} mm off."
+    )
+
+
+def _mesh_share(name: str, attributed: Sequence[Attributed]) -> str:
+    here, fine = attributed[0], next(one for one in attributed if one.cause == FINE)
+    return (
+        f"{name}: what is over the bound is the mesh: to the marker the RMS is {here.rms[0]:.2f} mm here and"
+        f" {fine.rms[0]:.2f} mm on the {fine.cause} (perpendicular)."
+    )
+
+
+def _mount(explained: Explained) -> str:
+    degrees = float(np.degrees(_TYPICAL_NM / explained.stiffness))
+    return (
+        f"Markers {explained.reference_mm:.2f} mm off and a mount of {explained.stiffness:.0f} N·m/rad, which yields"
+        f" by {degrees:.1f} degrees to 9 N at 30 degrees, give means of"
+        f" {', '.join(f'{mean:.2f}' for mean in explained.means)} mm where the paper has 0.9, 1.6, 2.0: so"
+        " much would have to give if nothing else did. The paper's figures do not tell which it was."
+    )

@@ -1,0 +1,91 @@
+"""Filtering contacts: the noise that was predicted, the lag of theory, and the same bytes twice."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from benchmarks.reproduce import filter as filtering
+from benchmarks.reproduce import sliding
+from benchmarks.reproduce.filter import FilterResult
+
+
+@pytest.fixture(scope="module")
+def result() -> FilterResult:
+    return filtering.run("t-shape", seconds=6.0, seed=2)
+
+
+def test_the_floor_of_the_spectrum_is_the_noise_predicted(result: FilterResult) -> None:
+    assert result.report.passed
+    low = result.spectra["no noise"].density[-10:]
+    assert (low < 0.05 * result.spectra["located"].density[-10:]).all()
+
+
+def test_filters_take_noise_and_lag_as_theory_says(result: FilterResult) -> None:
+    by_name = {one.name: one for one in result.filtered}
+    raw, low = by_name["none"], by_name["low-pass 10 Hz"]
+    assert low.noise < 0.6 * raw.noise
+    for one in result.filtered:
+        assert one.lag == pytest.approx(one.predicted_lag, abs=0.012)
+    kalman = by_name["Kalman filter of wrenches"]
+    assert kalman.lag > 2 * low.lag
+
+
+def test_the_first_figures_hold_lag_and_noise_together(result: FilterResult) -> None:
+    figures = {one.name: one for one in result.report.figures}
+    raw, low, kalman = result.filtered[:3]
+    assert result.report.figures[0].measured == raw.rms
+    assert figures["after over before, lag included"].measured == low.rms / raw.rms
+    assert figures["after over before, lag included, Kalman filter"].measured == kalman.rms / raw.rms
+    # Lag is harm: what is left with it is more than what is left without.
+    assert low.rms > low.noise
+    assert figures["after over before, lag taken out"].measured < low.rms / raw.rms
+
+
+def test_the_press_has_the_mean_force_of_the_paper(result: FilterResult) -> None:
+    blunt, sharp = result.slide, sliding.slide("linear", 1_000, 6.0, 1, lambda _done, _total: None)
+    for made in (blunt, sharp):
+        assert made.force.mean() == pytest.approx(7.0, abs=0.7)
+        assert made.force.min() > 1  # in touch all the time
+    assert (1e3 * blunt.depth, 1e3 * sharp.depth) == (
+        pytest.approx(1.5, abs=0.3),
+        pytest.approx(4.8, abs=0.3),
+    )
+
+
+def test_few_samples_in_doubt_do_not_stop_the_spectrum() -> None:
+    points = np.column_stack([np.arange(100.0), -np.arange(100.0)])
+    some = points.copy()
+    some[[10, 50]] = np.nan
+    np.testing.assert_allclose(filtering._bridged(some), points)
+    some[60:70] = np.nan
+    assert np.isnan(filtering._bridged(some)[[10, 50]]).all()
+
+
+def test_without_noise_the_centre_of_the_tissue_is_found(result: FilterResult) -> None:
+    off = np.linalg.norm(result.slide.quiet_mm - result.slide.true_mm, axis=1)
+    assert np.nanmedian(off) < 1.0
+
+
+def test_files_are_the_same_twice(result: FilterResult, tmp_path: Path) -> None:
+    result.write(tmp_path / "a")
+    filtering.run("t-shape", seconds=6.0, seed=2).write(tmp_path / "b")
+    for name in ("filter.md", "filters.csv", "spectrum.csv"):
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+    assert (tmp_path / "a" / "filter.png").exists()
+
+
+def test_the_command_prints_one_object(
+    result: FilterResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, benchmark
+) -> None:
+    monkeypatch.setattr(filtering, "run", lambda *_args, **_options: result)
+    done = benchmark("reproduce-filter", "--write", tmp_path, "--json")
+    assert done.exit_code == 0
+    assert json.loads(done.stdout)["passed"]
+
+
+@pytest.mark.parametrize("options", [("--probe", "pear"), ("--seconds", "1"), ("--seed", "-1")])
+def test_wrong_options_are_named(options: tuple[str, str], tmp_path: Path, benchmark) -> None:
+    done = benchmark("reproduce-filter", "--write", tmp_path / "x", *options)
+    assert done.exit_code == 2
+    assert options[1] in done.stderr

@@ -1,0 +1,240 @@
+"""What ``contactbench run`` costs: how late a contact is, and whether it holds still for an hour."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import numpy as np
+from benchmarks.bundle_example import example_config
+from benchmarks.live.machine import Sleeper
+from benchmarks.live.records import GIVEN_TYPE, SENT_TYPE, read_back
+from benchmarks.live.trial import Comparison, busy_process, compare, sensor_process
+from scipy.spatial.transform import Rotation
+
+from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter
+from contactbench.pipeline.study.report import Figure, Report
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.config.runtime import RuntimeConfig
+
+_LATE_MS = 1.0
+_GROWTH = 0.01
+_MARGIN_S = 60.0  # processes start and stop in much less
+_GRACE_S = 0.25  # what is sent just before the end may be left on the line
+_POSE_EVERY = 10
+_BEGIN = 1_000.0
+
+
+def run(
+    seconds: float = 60.0,
+    minutes: float = 60.0,
+    *,
+    facets: int = 20_000,
+    seed: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Report:
+    """
+    Measure the Python runtime.
+
+    Parameters
+    ----------
+    seconds : float
+        Of a 1 kHz sensor on a pseudo-terminal, once on the machine as it is and once beside a busy core; above 1.
+    minutes : float
+        Of 1 kHz samples replayed as fast as possible, above 0.
+    facets : int
+        Of the probe.
+    seed : int
+        Of the replayed samples.
+    progress : callable, optional
+        Told what is being done.
+
+    Raises
+    ------
+    InputError
+        A number is out of its range, or a process of the study failed.
+    """
+    if not seconds >= 1 or not minutes > 0:
+        raise InputError("give at least 1 second, and a number of minutes above 0.")
+    config = example_config(facets)
+    figures: list[Figure] = []
+    with TemporaryDirectory(prefix="contactbench-") as name:
+        folder = Path(name)
+        config.write(folder / "bundle")
+        for busy in (False, True):
+            progress(f"a sensor at 1 kHz for {seconds:g} s" + (", beside a busy core" if busy else ""))
+            figures += _latency_figures(latency(folder, seconds, busy=busy), busy=busy)
+        progress(f"replaying {minutes:g} minutes at 1 kHz")
+        count = round(60_000 * minutes)
+        tape = folder / "tape.mcap"
+        write_tape(tape, config, count, seed)
+        figures += _soak_figures(_child(folder, "replay", str(tape)), count)
+    settings = {"seconds": seconds, "minutes": minutes, "facets": facets, "seed": seed}
+    note = (
+        "From a frame's first byte given to the line to its contact in the reading process, lines written to a file"
+        " and datagrams sent meanwhile. How late the machine itself wakes an idle process is a floor for that."
+    )
+    return Report("Runtime", settings, tuple(figures), (note,))
+
+
+# ---- how late a contact is ---------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Latency:
+    """
+    What one run showed.
+
+    Attributes
+    ----------
+    pair : Comparison
+        Frames sent beside contacts given.
+    processor : float
+        Time of the processor that the reading process used for one sample, s, all of its threads together.
+    machine : float
+        99th percentile of how much later than it asked for an idle process was woken meanwhile, s.
+    lost : int
+        Contacts that were not published.
+    """
+
+    pair: Comparison
+    processor: float
+    machine: float
+    lost: int
+
+
+def latency(folder: Path, seconds: float, *, busy: bool) -> Latency:
+    """
+    Run a bundle on an emulated SRI sensor at 1 kHz.
+
+    Parameters
+    ----------
+    folder : Path
+        With the bundle in ``bundle``; scratch files go beside it.
+    seconds : float
+    busy : bool
+        One more process uses all that it gets of the processor meanwhile.
+
+    Raises
+    ------
+    InputError
+        A process failed.
+    """
+    sent, given = folder / "sent.bin", folder / "given.bin"
+    with ExitStack() as stack:
+        url = stack.enter_context(sensor_process(sent, 1000.0))
+        if busy:
+            stack.enter_context(busy_process(seconds + _MARGIN_S))
+        sleeper = stack.enter_context(Sleeper())
+        said = _child(folder, "live", url, f"{seconds:g}", str(given))
+        machine = sleeper.late
+    until = float(said["ended"]) - _GRACE_S
+    pair = compare(read_back(sent, SENT_TYPE), read_back(given, GIVEN_TYPE), until)
+    return Latency(pair, said["processor"] / max(pair.given, 1), machine, int(said["lost"]))
+
+
+def _latency_figures(measured: Latency, *, busy: bool) -> list[Figure]:
+    pair = measured.pair
+    subject = "1 kHz, one core busy" if busy else "1 kHz"
+    late = 1e3 * pair.latency
+    return [
+        Figure(subject, "frames sent", pair.sent, least=1),
+        Figure(subject, "frames without a contact", pair.lost, most=0),
+        Figure(subject, "contacts not published", measured.lost, most=0),
+        Figure(subject, "bytes to contact, median", float(np.median(late)), "ms"),
+        Figure(subject, "bytes to contact, p99", float(np.percentile(late, 99)), "ms", most=_LATE_MS),
+        Figure(subject, "bytes to contact, longest", float(late.max()), "ms"),
+        Figure(subject, "an idle process is woken late, p99", 1e3 * measured.machine, "ms"),
+        Figure(subject, "processor for one sample", 1e6 * measured.processor, "µs"),
+    ]
+
+
+def _child(folder: Path, *arguments: str) -> dict[str, float]:
+    command = [sys.executable, "-m", "benchmarks.runtime_child", str(folder), *arguments]
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+        said: dict[str, float] = json.loads(done.stdout.splitlines()[-1])
+    except (subprocess.SubprocessError, IndexError, ValueError) as error:
+        raise InputError(f"the process that runs the bundle failed ({error}): its error is above.") from error
+    return said
+
+
+# ---- an hour -----------------------------------------------------------------------------------
+
+
+def write_tape(path: Path, config: RuntimeConfig, count: int, seed: int = 0) -> None:
+    """
+    Record samples at 1 kHz, with poses at 100 Hz: touches that come and go while the robot turns.
+
+    Parameters
+    ----------
+    path : Path
+        Must not exist.
+    config : RuntimeConfig
+    count : int
+        Wrenches.
+    seed : int
+    """
+    rng = np.random.default_rng(seed)
+    corners = config.probe.vertices[config.probe.faces]
+    devices = (
+        DeviceInfo("wrench", "/wrench", "simulated", "virtual", "V-0001", 1000.0),
+        DeviceInfo("flange", "/flange", "simulated", rate=100.0),
+    )
+    about = RecordingInfo(1_700_000_000_000_000_000, _BEGIN, devices)
+    # Brought to the disk seldom: there is nothing to lose.
+    with RecordingWriter(path, about, chunk_seconds=1.0, sync_seconds=3_600.0) as writer:
+        for begin in range(0, count, 1_000):
+            numbers = np.arange(begin, min(begin + 1_000, count), dtype=np.float64)
+            times: NDArray[np.float64] = _BEGIN + 1e-3 * numbers
+            R, readings = _second(times, corners, config, rng)
+            for i, (time, row) in enumerate(zip(times.tolist(), readings.tolist(), strict=True)):
+                if i % _POSE_EVERY == 0:
+                    writer.flange(FlangeSample(time, R[i], np.full(3, np.nan)))
+                writer.wrench(WrenchSample(time, (row[0], row[1], row[2]), (row[3], row[4], row[5])))
+
+
+def _second(
+    times: NDArray[np.float64],
+    corners: NDArray[np.float64],
+    config: RuntimeConfig,
+    rng: np.random.Generator,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    turns = 0.3 * np.column_stack([np.sin(0.7 * times), np.cos(0.5 * times), np.sin(0.3 * times)])
+    R = Rotation.from_rotvec(turns).as_matrix()
+    a, b, c = corners[rng.integers(len(corners))]
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal)
+    force = -np.maximum(8.0 * np.sin(2 * math.pi * times), 0.0)[:, None] * normal
+    wrench = np.concatenate([force, np.cross((a + b + c) / 3, force)], axis=1) + config.gravity.predict(R)
+    return R, wrench + rng.normal(0, [0.05] * 3 + [0.002] * 3, wrench.shape)
+
+
+def _soak_figures(said: dict[str, float], count: int) -> list[Figure]:
+    early, end = said["resident_early"], said["resident_end"]
+    subject = "replay"
+    return [
+        Figure(subject, "samples", count),
+        Figure(subject, "located", said["located"], least=count, most=count),
+        Figure(subject, "contacts not published", said["lost"], most=0),
+        Figure(subject, "speed", said["located"] / said["seconds"] / 1e3, "kHz"),
+        Figure(subject, "memory after a tenth", early / 1e6, "MB"),
+        Figure(
+            subject, "memory at most after that, more by", said["resident_most"] / early - 1, most=_GROWTH
+        ),
+        Figure(subject, "memory at the end, more by", end / early - 1, most=_GROWTH),
+    ]

@@ -1,0 +1,335 @@
+"""Long trials of the parsers with random and damaged bytes.
+
+Every trial also watches the parser itself: nothing may be raised but its own error, what waits stays
+shorter than a frame, and every byte is accounted for.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from time import perf_counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+from benchmarks.soak_frames import SUBJECTS, Subject
+
+from contactbench.pipeline.devices.protocols.elfin import (
+    ElfinError,
+    Question,
+    ReplyReader,
+    read_numbers,
+    read_state,
+)
+from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.ur_pose import UrStream
+from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, RtdeError, packet
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.devices.sample import WrenchSample
+
+ROBOTS = ("elfin", "ur")
+PROTOCOLS = (*SUBJECTS, *ROBOTS)
+
+_FRAGMENTS = {
+    "elfin": [
+        *(question.encode() for question in Question),
+        *(
+            b",OK,",
+            b",Fail,",
+            b"errorcmd,",
+            b",;",
+            b";",
+            b",",
+            b"20011",
+            b"nan",
+            b"-1e999",
+            b"9" * 30,
+            b"0,1" * 9,
+        ),
+        b"ReadActPos,OK," + b"1.5," * 12 + b";",
+        b"ReadRobotState,OK," + b"0," * 12 + b";",
+    ],
+    "ur": [
+        *(packet(kind) for kind in Kind),
+        *(packet(Kind.DATA, b"\x01" + filler * 104) for filler in (b"\x00", b"\x7f", b"\xff", b"\x3f")),
+        *(b"\x00", b"\x00\x6c", b"\x00\x6cU\x01", b"\x0f\xffM", b"\xff\xffU"),
+    ],
+}
+
+_LONGEST_CHUNK = 300
+_BLOCK = 1 << 16
+_PAUSE = 1e-3
+
+
+class SoakError(AssertionError):
+    """A parser broke one of its promises: a fault of the program, not of its input."""
+
+
+@dataclass(frozen=True, slots=True)
+class SoakReport:
+    """
+    What came of random bytes.
+
+    Attributes
+    ----------
+    protocol : str
+    bytes_fed : int
+    false_frames : int
+        Frames found; nothing in the bytes was one.
+    expected : float or None
+        How many chance makes; None where there is no checksum.
+    refusals : int
+        Errors of the parser's own kind (robots only: there, what is found is often made of true pieces).
+    seconds : float
+        Time in the parser.
+    """
+
+    protocol: str
+    bytes_fed: int
+    false_frames: int
+    expected: float | None
+    refusals: int
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class DamageReport:
+    """
+    What came of a stream with damaged bytes.
+
+    Attributes
+    ----------
+    protocol : str
+    frames : int
+        Frames sent.
+    intact : int
+        Of them without a damaged byte.
+    recovered : int
+        Intact frames whose samples came out.
+    false_frames : int
+        Samples with a payload that was never sent.
+    seconds : float
+        Time in the parser.
+    """
+
+    protocol: str
+    frames: int
+    intact: int
+    recovered: int
+    false_frames: int
+    seconds: float
+
+
+def soak(protocol: str, count: int, seed: int) -> SoakReport:
+    """
+    Feed random bytes, cut at random; for robots, mixed with pieces of the protocol.
+
+    Parameters
+    ----------
+    protocol : str
+        One of `PROTOCOLS`. RDT takes each cut as a datagram: every one of the right length is a record.
+    count : int
+        Bytes.
+    seed : int
+        The same seed, the same bytes.
+
+    Raises
+    ------
+    ProtocolError
+        There is no such protocol.
+    SoakError
+        The parser broke a promise.
+    """
+    rng = np.random.default_rng(seed)
+    if protocol in SUBJECTS:
+        return _soak_sensor(protocol, SUBJECTS[protocol], count, rng)
+    robots = {"elfin": _elfin_feed, "ur": _ur_feed}
+    if protocol not in robots:
+        raise ProtocolError(f"soak: there is no protocol {protocol!r}; known: {', '.join(PROTOCOLS)}.")
+    return _soak_robot(protocol, robots[protocol](), count, rng)
+
+
+def damage(protocol: str, frames: int, seed: int, *, share: float = 0.01) -> DamageReport:
+    """
+    Feed a stream of frames, a share of its bytes damaged, cut at random.
+
+    Parameters
+    ----------
+    protocol : str
+        A sensor's: a key of `SUBJECTS`.
+    frames : int
+        How many.
+    seed : int
+        The same seed, the same bytes.
+    share : float
+        Of the bytes, 0 to 1; each gets another value.
+
+    Raises
+    ------
+    ProtocolError
+        There is no such sensor protocol.
+    SoakError
+        The parser broke a promise.
+    """
+    if protocol not in SUBJECTS:
+        raise ProtocolError(f"soak: there is no sensor protocol {protocol!r}; known: {', '.join(SUBJECTS)}.")
+    subject, rng = SUBJECTS[protocol], np.random.default_rng(seed)
+    stream = _stream(subject, frames, rng)
+    hit = rng.random(stream.shape) < share
+    damaged = np.where(hit, stream ^ rng.integers(1, 256, stream.shape, dtype=np.uint8), stream)
+    payload = slice(subject.payload_at, subject.payload_at + subject.payload_bytes)
+    sent = {row.tobytes() for row in stream[:, payload]}
+    whole = {row.tobytes() for row in stream[~hit.any(axis=1), payload]}
+    # A datagram is never cut.
+    chunks = (row.tobytes() for row in damaged) if protocol == "rdt" else _cut(damaged.tobytes(), rng)
+    watch = _Watch(subject)
+    got = {_payload(subject, sample) for chunk in chunks for sample in watch.feed(chunk)}
+    return DamageReport(
+        protocol, frames, int((~hit.any(axis=1)).sum()), len(got & whole), len(got - sent), watch.seconds
+    )
+
+
+class _Watch:
+    """A sensor parser, watched."""
+
+    def __init__(self, subject: Subject) -> None:
+        self._subject = subject
+        self._parser = subject.parser()
+        self._fed = 0
+        self.seconds = 0.0
+
+    @property
+    def frames(self) -> int:
+        return self._parser.counters.frames
+
+    def feed(self, chunk: bytes) -> list[WrenchSample]:
+        started = perf_counter()
+        samples = self._parser.feed(chunk, self._fed * _PAUSE)
+        self.seconds += perf_counter() - started
+        self._fed += len(chunk)
+        counters, pending = self._parser.counters, self._parser.pending
+        if pending >= self._subject.frame_bytes:
+            raise SoakError(f"{pending} bytes wait for a frame of {self._subject.frame_bytes}")
+        known = counters.frames * self._subject.frame_bytes + counters.skipped_bytes + pending
+        if known != self._fed:
+            raise SoakError(f"{self._fed} bytes were fed, {known} are accounted for")
+        return samples
+
+
+def _soak_sensor(protocol: str, subject: Subject, count: int, rng: np.random.Generator) -> SoakReport:
+    watch = _Watch(subject)
+    for chunk in _random_chunks(count, rng):
+        watch.feed(chunk)
+    expected = None if subject.false_bits is None else count / 2**subject.false_bits
+    return SoakReport(protocol, count, watch.frames, expected, 0, watch.seconds)
+
+
+def _soak_robot(
+    protocol: str, feed: Callable[[bytes], tuple[int, int]], count: int, rng: np.random.Generator
+) -> SoakReport:
+    refusals = found = 0
+    seconds = 0.0
+    for chunk in _fragment_chunks(_FRAGMENTS[protocol], count, rng):
+        started = perf_counter()
+        new, refused = feed(chunk)
+        seconds += perf_counter() - started
+        found += new
+        refusals += refused
+    return SoakReport(protocol, count, found, None, refusals, seconds)
+
+
+def _elfin_feed() -> Callable[[bytes], tuple[int, int]]:
+    reader = ReplyReader()
+
+    def feed(chunk: bytes) -> tuple[int, int]:
+        replies, refused = reader.feed(chunk), 0
+        for reply in replies:
+            for question in Question:
+                try:
+                    read_state(reply) if question is Question.STATE else read_numbers(reply, question)
+                except ElfinError:
+                    refused += 1
+        if reader.pending > 2048:
+            raise SoakError(f"{reader.pending} bytes wait for the end of an answer")
+        return len(replies), refused
+
+    return feed
+
+
+def _ur_feed() -> Callable[[bytes], tuple[int, int]]:
+    reader, stream = PacketReader(), _running_ur()
+
+    def feed(chunk: bytes) -> tuple[int, int]:
+        refused = 0
+        try:
+            stream.feed(chunk, 0.0)
+        except RtdeError:
+            refused = 1
+        found: list[Packet] = reader.feed(chunk)
+        if max(reader.pending, stream.pending) > 4096:
+            raise SoakError(f"{reader.pending} bytes wait for the end of a packet")
+        return len(found), refused
+
+    return feed
+
+
+def _running_ur() -> UrStream:
+    stream = UrStream(125.0)
+    stream.start()
+    stream.feed(packet(Kind.VERSION, b"\x01"), 0.0)
+    stream.feed(packet(Kind.OUTPUTS, b"\x01DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D"), 0.0)
+    stream.feed(packet(Kind.START, b"\x01"), 0.0)
+    return stream
+
+
+def _stream(subject: Subject, frames: int, rng: np.random.Generator) -> NDArray[np.uint8]:
+    """Return (frames, bytes): payloads of a sensor's size, with header bytes inside many of them."""
+    numbers = rng.normal(0, 10, (frames, 6)).astype("<f4")
+    payloads = numbers.view(np.uint8).reshape(frames, 24)
+    for header in (b"\xaa\x55\x00\x1b", b"\xaa", b"\x20\x4e"):
+        rows = rng.random(frames) < 0.1
+        payloads[rows, : len(header)] = np.frombuffer(header, np.uint8)
+    frame_list = (subject.frame(n, row.tobytes()) for n, row in enumerate(payloads))
+    return np.frombuffer(b"".join(frame_list), np.uint8).reshape(frames, subject.frame_bytes)
+
+
+def _payload(subject: Subject, sample: WrenchSample) -> bytes:
+    """Return the bytes on the wire that a sample stands for."""
+    numbers = sample.force + sample.torque
+    if subject is SUBJECTS["robotiq"]:
+        scaled = [round(n * scale) for n, scale in zip(numbers, [100.0] * 3 + [1000.0] * 3, strict=True)]
+        return struct.pack("<6h", *scaled)
+    if subject is SUBJECTS["rdt"]:
+        return struct.pack(">6i", *(round(n * 1e6) for n in numbers))
+    return struct.pack("<6f", *numbers)
+
+
+def _random_chunks(count: int, rng: np.random.Generator) -> Iterator[bytes]:
+    for start in range(0, count, _BLOCK):
+        yield from _cut(rng.bytes(min(_BLOCK, count - start)), rng)
+
+
+def _fragment_chunks(fragments: list[bytes], count: int, rng: np.random.Generator) -> Iterator[bytes]:
+    """Yield `count` bytes, half of them pieces of the protocol: plain random bytes never get far into it."""
+    left = count
+    while left > 0:
+        parts = [
+            fragments[pick] if pick < len(fragments) else rng.bytes(3)
+            for pick in rng.integers(0, 2 * len(fragments), _BLOCK >> 6)
+        ]
+        block = b"".join(parts)[:left]
+        left -= len(block)
+        yield from _cut(block, rng)
+
+
+def _cut(data: bytes, rng: np.random.Generator) -> Iterator[bytes]:
+    start = 0
+    while start < len(data):
+        length = int(rng.integers(1, _LONGEST_CHUNK))
+        yield data[start : start + length]
+        start += length

@@ -1,0 +1,66 @@
+"""Mutated bundles: the loader in C++ accepts exactly those that the loader here accepts."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from benchmarks.bundle_fuzz import run
+
+from contactbench.pipeline.errors import InputError
+
+ROOT = Path(__file__).parents[2]
+BESIDE = Path(sys.executable).parent / "cmake"
+CMAKE = str(BESIDE) if BESIDE.exists() else shutil.which("cmake")
+BUILD = ROOT / "build/runtime"
+
+
+def built(*command: object) -> str:
+    done = subprocess.run(
+        [str(part) for part in command], capture_output=True, text=True, check=False, timeout=300
+    )
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def loader() -> Path:
+    if CMAKE is None:
+        pytest.skip("no cmake")
+    source = ROOT / "pipeline/kernel/runtime"
+    built(CMAKE, "-S", source, "-B", BUILD, "-DCONTACTBENCH_TOOLS=ON", "-DCMAKE_BUILD_TYPE=Release")
+    built(CMAKE, "--build", BUILD)
+    return BUILD / "contactbench-load_all"
+
+
+def test_both_loaders_come_to_the_same_verdict(loader: Path) -> None:
+    # In a process of its own: the most memory that this one ever used says nothing of bundles.
+    code = (
+        "import json, sys; from dataclasses import asdict; from pathlib import Path;"
+        " from benchmarks.bundle_fuzz import run;"
+        " print(json.dumps(asdict(run(300, seed=7, cpp=Path(sys.argv[1])))))"
+    )
+    report = json.loads(built(sys.executable, "-c", code, loader))
+    assert report["failures"] == []
+    assert report["slowest_s"] < 20.0  # none hangs; the command holds it to its target
+    assert report["largest_MiB"] < 500
+    assert report["compared"] > 0.7 * report["count"]
+    assert report["other"] > 0.02 * report["count"]  # not all are refused, for whatever reason
+
+
+def test_a_loader_that_takes_everything_is_noticed(tmp_path: Path) -> None:
+    program = tmp_path / "load_all"
+    program.write_text(
+        '#!/bin/sh\nfor each in "$1"/*; do echo "${each##*/} loaded"; done; echo slowest x 0.1 s >&2\n',
+        encoding="utf-8",
+    )
+    program.chmod(0o755)
+    report = run(20, seed=7, cpp=program)
+    assert len(report.failures) > 10
+    assert "refused here, in C++: loaded" in report.failures[0]
+    with pytest.raises(InputError, match="build contactbench-load_all"):
+        run(2, seed=7, cpp=tmp_path / "none")

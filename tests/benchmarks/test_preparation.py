@@ -1,0 +1,334 @@
+"""The studies of probe preparation in short: their figures are right, and could miss."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from benchmarks.preparation import alignment, peak, regions, shapes, shell
+from benchmarks.preparation import simplify as simplification
+from benchmarks.preparation.housing import WALL, housing
+from benchmarks.preparation.rivals import Rival
+from benchmarks.preparation.surface_distance import distance_errors
+
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Geodesic
+from contactbench.pipeline.mesh.regions import FacetGraph
+from contactbench.pipeline.mesh.shell import Closing, Shell
+from contactbench.pipeline.mesh.simplify import Count, simplify
+from contactbench.pipeline.study.report import Figure
+
+SMALL = 6_000
+
+
+def named(figures, text: str) -> Figure:
+    [figure] = [figure for figure in figures if text in figure.name]
+    return figure
+
+
+# ---- shapes --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("random", [False, True])
+def test_the_sphere_is_closed_and_outward(random):
+    probe = shapes.Probe.from_arrays(
+        *shapes.sphere(600, np.random.default_rng(0) if random else None), check_size=False
+    )
+    assert probe.health.sentences == ()
+    assert len(probe.faces) == pytest.approx(600, rel=0.01)
+
+
+def test_the_bumpy_sphere_is_sound_and_bumpy():
+    probe = shapes.bumpy_sphere(2_000)
+    assert probe.health.sentences == ()
+    radius = np.linalg.norm(probe.vertices, axis=1)
+    assert np.ptp(radius) > 0.002
+    assert probe.size == pytest.approx(0.08, rel=0.1)
+
+
+def test_the_cylinder_has_all_its_side_and_no_caps():
+    vertices, faces = shapes.cylinder(4_000, np.random.default_rng(1))
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    cross = np.cross(b - a, c - a)
+    assert np.linalg.norm(cross, axis=1).sum() / 2 == pytest.approx(2 * np.pi * 4, rel=0.03)
+    outwards = np.einsum("ij,ij->i", cross[:, :2], (a + b + c)[:, :2])
+    assert (outwards > 0).mean() > 0.99
+
+
+def test_the_painted_part_has_its_share_and_hangs_together():
+    probe = shapes.painted(shapes.bundled("convex", SMALL), 0.1, np.random.default_rng(2))
+    share = probe.areas[probe.region == 1].sum() / probe.areas.sum()
+    assert share == pytest.approx(0.1, abs=0.005)
+
+
+def test_a_housing_is_hollow_and_open_at_the_flange():
+    hollow, outside = housing("linear", 3_000)
+    assert hollow.health.watertight
+    assert hollow.health.winding_consistent
+    assert outside.health.boundary_edges > 20
+    solid = shapes.bundled("linear", 3_000)
+    # What is cut off is the flange's level end.
+    missing = solid.areas.sum() - outside.areas.sum()
+    assert np.pi * 20**2 < 1e6 * missing < np.pi * 23**2
+    count = len(solid.vertices)
+    walls = np.linalg.norm(hollow.vertices[count:] - hollow.vertices[:count], axis=1)
+    assert walls == pytest.approx(WALL)
+
+
+# ---- simplification ------------------------------------------------------------------------------
+
+
+def test_a_bare_rival_gives_what_the_library_gives(tmp_path):
+    probe = shapes.bundled("t-shape", SMALL)
+    with Rival("fast-simplification", tmp_path) as rival:
+        made = rival.simplify(1e3 * probe.vertices, probe.faces, 500)
+        again = rival.simplify(1e3 * probe.vertices, probe.faces, 500)
+    assert len(made.faces) == pytest.approx(500, abs=2)
+    assert made.seconds > 0
+    assert np.array_equal(made.vertices, again.vertices)
+    assert np.abs(made.vertices).max() > 50  # in the unit given
+    assert rival._child.poll() is not None
+
+
+def test_a_rival_that_is_missing_or_dies_is_an_error(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys, "executable", "/bin/false")
+    with pytest.raises(InputError, match="pymeshlab is not installed"):
+        Rival("pymeshlab", tmp_path)
+
+
+def test_a_rival_that_dies_at_work_is_an_error(tmp_path):
+    with Rival("fast-simplification", tmp_path) as rival:
+        rival._child.kill()
+        rival._child.wait()
+        with pytest.raises(InputError, match="ended its process"):
+            rival.simplify(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), 1)
+
+
+def test_the_simplification_study_in_short():
+    pytest.importorskip("pymeshlab", reason="compared with pymeshlab (extra 'meshlab')")
+    report = simplification.run(SMALL, 500, shapes=["linear"], rounds=1)
+    figures = report.figures
+    assert named(figures, "mm against m").measured < 1e-12
+    best = named(figures, "Hausdorff of the best rival")
+    assert 0.1 < best.measured < 3
+    assert 0.3 < named(figures, "Hausdorff over it").measured < 2
+    assert named(figures, "density").measured > 4
+    assert named(figures, "RMS inside").measured < 0.5
+    assert named(figures, "RMS elsewhere").measured > 1
+    assert named(figures, "over pymeshlab").measured > 0
+
+
+def test_other_facets_from_millimetres_miss(monkeypatch):
+    probe = shapes.bundled("linear", SMALL)
+    assert simplification._units(probe, 500).passed
+
+    def fickle(given, target, **how):
+        return simplify(given, Count(target.facets - 20 if given.size > 1 else target.facets), **how)
+
+    monkeypatch.setattr(simplification, "simplify", fickle)
+    assert not simplification._units(probe, 500).passed
+
+
+@pytest.mark.skipif(
+    not Path("/proc/self/status").exists(), reason="peaks of small processes are told by /proc"
+)
+def test_peak_memory_grows_with_the_mesh(tmp_path):
+    found = []
+    for facets in (5_000, 200_000):
+        probe = shapes.bundled("t-shape", facets)
+        file = tmp_path / f"{facets}.npz"
+        np.savez(file, vertices=probe.vertices, faces=probe.faces)
+        found.append(peak.Peak(**peak._in_a_process("measure", "1000", str(file))))
+    small, large = found
+    assert large.facets == pytest.approx(200_000, rel=0.05)
+    # A mesh takes 24 bytes a facet; more than two copies of it are held.
+    more = 48 * (large.facets - small.facets)
+    assert large.memory - small.memory > more
+
+
+def test_a_failed_measurement_of_memory_is_an_error(tmp_path):
+    with pytest.raises(InputError, match="leave --memory out"):
+        peak.measure_peak(10, 5, tmp_path)
+
+
+# ---- regions -------------------------------------------------------------------------------------
+
+
+def test_the_regions_study_in_short():
+    report = regions.run(3_000, strokes=3, undone=25)
+    assert named(report.figures, "states that differ").measured == 0
+    times = [f for f in report.figures if f.name == "geodesic stroke"]
+    assert [f.subject for f in times] == ["linear", "convex", "t-shape"]
+    assert all(f.measured > 0 for f in times)
+    covered = [f for f in report.figures if f.name.endswith("facets covered")]
+    assert len(covered) == 6
+    assert all(5 < f.measured < 3_000 for f in covered)
+
+
+def test_surface_distances_are_exact_on_planes_and_close_elsewhere():
+    worst = {name: float(errors.max()) for name, errors in distance_errors(np.random.default_rng(5), 3_000)}
+    assert len(worst) == 4
+    assert worst["plane, random"] < 1e-6
+    assert all(1e-4 < error < 0.02 for name, error in worst.items() if "plane" not in name)
+
+
+def test_wrong_distances_are_seen(monkeypatch):
+    class Longer:
+        def __init__(self, vertices, faces):
+            self._inner = Geodesic(vertices, faces)
+
+        def around(self, face, point, limit):
+            there, distance = self._inner.around(face, point, limit)
+            return there, 1.03 * distance
+
+    monkeypatch.setattr("benchmarks.preparation.surface_distance.Geodesic", Longer)
+    for _, errors in distance_errors(np.random.default_rng(5), 2_000):
+        assert not Figure.of("", "", errors, most=0.02, judged="worst").passed
+
+
+def test_an_undo_that_leaves_something_is_counted(monkeypatch):
+    graph = FacetGraph(shapes.bundled("convex", 2_000))
+    rng = np.random.default_rng(3)
+    assert regions._undo(graph, 12, rng).measured == 0
+    undo = regions.RegionModel.undo
+
+    def forgetful(model):
+        done = undo(model)
+        model._labels[7] = 1
+        return done
+
+    monkeypatch.setattr(regions.RegionModel, "undo", forgetful)
+    assert regions._undo(graph, 12, rng).measured > 0
+
+
+def test_a_stroke_wanders_on_the_surface_in_steps():
+    graph = FacetGraph(shapes.bundled("linear", 2_000))
+    faces, points = regions.wander(graph, np.random.default_rng(0))
+    assert len(faces) == 20
+    assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() < 0.0075
+    distance, _, _ = graph.index.closest(points)
+    assert distance.max() < 1e-12
+
+
+# ---- alignment -----------------------------------------------------------------------------------
+
+
+def test_the_alignment_study_in_short():
+    report = alignment.run(5, adoptions=1, seed=1)
+    for name in ("linear", "convex", "t-shape"):
+        own = [figure for figure in report.figures if figure.subject == name]
+        assert 0.5 < named(own, "with the true mount").measured < 1.0
+        assert named(own, "mount before").measured > 1.8
+        # Wider than the target of 1.15 by what chance does to five set-ups.
+        assert 0.95 < named(own, "fitted mount").measured < 1.35
+        assert named(own, "only the true").measured < 2
+    assert named(report.figures, "refused by name").passed
+
+
+def test_a_fit_that_stays_where_it_was_misses(monkeypatch):
+    fit = alignment.Setup.fit
+    monkeypatch.setattr(alignment.Setup, "fit", lambda setup: replace(fit(setup), T_SP=setup.T_before))
+    figures = alignment._errors("linear", 5, [0])
+    assert not named(figures, "fitted mount").passed
+    assert not named(figures, "ellipsoid").passed
+
+
+def test_a_mount_off_by_nothing_has_the_true_mount_s_errors():
+    rng = np.random.default_rng(8)
+    setup = alignment.draw_setup("convex", rng, 0.0, 0.0)
+    assert setup.T_before == pytest.approx(setup.T_true, abs=1e-15)
+    far = alignment.draw_setup("convex", rng)
+    off = far.T_before @ np.linalg.inv(far.T_true)
+    assert np.linalg.norm(off[:3, 3]) == pytest.approx(0.002)
+    assert np.degrees(np.arccos((np.trace(off[:3, :3]) - 1) / 2)) == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize(
+    ("rank", "unseen", "right"),
+    [
+        (3, ("a shift along z", "a turn about x", "a turn about y"), True),
+        (3, ("a shift along z", "a turn about (0.60, 0.80, 0.00)", "a turn about (0.80, -0.60, 0.00)"), True),
+        (3, ("a shift along x", "a turn about x", "a turn about y"), False),
+        (3, ("a shift along z", "a turn about x", "a turn about z"), False),
+        (4, ("a turn about x", "a turn about y"), False),
+        (6, (), False),
+    ],
+)
+def test_what_a_flat_face_hides_is_a_shift_and_two_tilts(rank, unseen, right):
+    assert alignment.refuses_flat(rank, unseen) is right
+
+
+# ---- shells --------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def hollow() -> tuple[shell.Case, list[Figure]]:
+    pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
+    probe, outside = housing("linear", 2_000)
+    case = shell.Case("hollow", probe, outside, 1)
+    return case, shell.judge(case, np.random.default_rng(0))
+
+
+def test_a_hollow_probe_becomes_a_sound_shell(hollow):
+    _, figures = hollow
+    for what in (
+        "closed: 0",
+        "manifold: 0",
+        "outward: 0",
+        "inside others",
+        "cross or overlap",
+        "folded back",
+    ):
+        assert named(figures, what).measured == 0, what
+    assert named(figures, "time").name.endswith("hull")
+    assert [figure.measured for figure in figures if figure.name == "parts"] == [1]
+    truth = named(figures, "true outside")
+    assert 0 <= truth.measured < 0.01
+    assert truth.passed
+    assert named(figures, "openings closed").passed
+    assert 1 < named(figures, "invented").measured < 3
+
+
+def test_what_is_no_shell_misses(hollow, monkeypatch):
+    case, _ = hollow
+    lazy = Shell(case.outside, "unchanged", ())
+    monkeypatch.setattr(shell, "make_shell", lambda *_, **__: lazy)
+    figures = shell.judge(case, np.random.default_rng(0))
+    assert named(figures, "closed: 0").measured > 20
+    assert not named(figures, "closed: 0").passed
+    assert not named(figures, "openings closed").passed
+    assert named(figures, "true outside").measured < 1e-6
+
+
+def test_an_opening_left_open_misses(hollow):
+    case, _ = hollow
+    made = shell.make_shell(case.probe, Closing.OPEN, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
+    assert not named(shell._openings(case, made), "left open").passed
+    assert named(shell._openings(replace(case, openings=None), made), "left open").passed
+
+
+def test_a_wrap_has_its_distances_and_no_inner_hits(hollow, monkeypatch):
+    case, _ = hollow
+    monkeypatch.setattr("contactbench.pipeline.mesh.shell.shell.find_outside", lambda *_, **__: None)
+    made = shell.make_shell(case.probe, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
+    assert made.how == "wrapped"
+    figures = shell._fit(case, made, np.random.default_rng(0))
+    assert named(figures, "inner hits").measured == 0
+    assert not named(figures, "visible outside to shell, 95 %").passed
+
+
+def test_a_file_is_measured_from_the_command_line(tmp_path, benchmark):
+    pytest.importorskip("pymeshlab", reason="the outer shell is wrapped by pymeshlab (extra 'meshlab')")
+    from contactbench.pipeline.mesh import save_probe
+
+    file = tmp_path / "sound.ply"
+    save_probe(shapes.bundled("linear", 2_000), file)
+    ran = benchmark("shell", "--files", file, "--json")
+    assert ran.exit_code == 0
+    data = json.loads(ran.stdout)
+    assert data["settings"]["meshes"] == 1
+    assert {figure["subject"] for figure in data["figures"]} == {"sound.ply"}

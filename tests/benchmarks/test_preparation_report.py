@@ -1,0 +1,146 @@
+"""Figures with targets: what passes, what is said of it, and that it is plain data."""
+
+from __future__ import annotations
+
+import io
+import json
+
+import numpy as np
+import pytest
+from benchmarks import mesh_fuzz
+from benchmarks.__main__ import BENCHMARKS, PROGRAMS
+from benchmarks.preparation.fuzz import summarise
+from rich.console import Console
+
+from contactbench.pipeline.study.report import Figure, Report
+
+
+@pytest.mark.parametrize(
+    ("figure", "passed", "target"),
+    [
+        (Figure("a", "b", 3.0), True, ""),
+        (Figure("a", "b", 3.0, "mm", most=3.0), True, "at most 3 mm"),
+        (Figure("a", "b", 3.1, "mm", most=3.0), False, "at most 3 mm"),
+        (Figure("a", "b", 3.0, least=3.5), False, "at least 3.50"),
+        (Figure("a", "b", 95.0, "%", least=93.0, most=97.0), True, "93 to 97 %"),
+        (Figure("a", "b", 92.9, "%", least=93.0, most=97.0), False, "93 to 97 %"),
+        (Figure("a", "b", 97.1, "%", least=93.0, most=97.0), False, "93 to 97 %"),
+        (Figure("a", "b", 2.0, least=1.0, most=1.0), False, "1"),
+        (Figure("a", "b", float("nan"), most=1.0), False, "at most 1"),
+        (Figure("a", "b", float("inf"), least=1.0), True, "at least 1"),
+        (Figure("a", "b", 1.0, "ms", most=2.0, worst=3.0), True, "at most 2 ms"),
+        (Figure("a", "b", 1.0, "ms", most=2.0, worst=3.0, judged="worst"), False, "at most 2 ms (worst)"),
+    ],
+)
+def test_a_figure_passes_within_its_target(figure, passed, target):
+    assert figure.passed is passed
+    assert figure.target == target
+
+
+def test_several_values_become_their_median_spread_and_worst():
+    values = np.arange(101.0)
+    upper = Figure.of("a", "b", values, most=60.0)
+    assert (upper.measured, upper.spread, upper.worst, upper.passed) == (50.0, (5.0, 95.0), 100.0, True)
+    assert not Figure.of("a", "b", values, most=60.0, judged="worst").passed
+    lower = Figure.of("a", "b", values, least=40.0)
+    assert (lower.worst, lower.passed) == (0.0, True)
+    assert not Figure.of("a", "b", values, least=40.0, judged="worst").passed
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (1.1, "1.10"),
+        (1.104, "1.10"),
+        (0.0, "0"),
+        (12345.6, "12,346"),
+        (2e-4, "2.0e-04"),
+        (7.0, "7"),
+        (0.25, "0.250"),
+    ],
+)
+def test_numbers_keep_three_digits(value, said):
+    assert Figure("a", "b", value).cells[3] == said
+
+
+def test_a_report_is_a_table_and_plain_data():
+    good, bad = Figure("[red]file", "size", 1.0, most=2.0), Figure("a|b", "holes", float("inf"), most=0.0)
+    report = Report("Study", {"seed": 3}, (good, bad), ("A note.",))
+    assert not report.passed
+    assert Report("Study", {}, (good,)).passed
+    data = json.loads(json.dumps(report.to_json(), allow_nan=False))
+    assert data["passed"] is False
+    assert [figure["passed"] for figure in data["figures"]] == [True, False]
+    assert data["figures"][1]["measured"] is None
+    console = Console(width=120, file=io.StringIO())
+    console.print(report.table())
+    said = console.file.getvalue()
+    assert "[red]file" in said
+    assert "A note." in said
+    rows = report.markdown().splitlines()
+    assert rows[0] == "Study: seed 3"
+    assert rows[4].endswith("| ok |")
+    assert rows[5].endswith("| MISSED |")
+    assert len({row.replace("\\|", "").count("|") for row in rows if row.startswith("|")}) == 1
+
+
+def test_a_fuzz_report_fails_by_a_failure_or_a_missing_file():
+    sound = mesh_fuzz.FuzzReport(3, 1)
+    sound.valid[".stl"], sound.refused[".ply"] = 1, 2
+    assert summarise(sound).passed
+    assert any(figure.subject == ".ply" and figure.measured == 2 for figure in summarise(sound).figures)
+    lost = mesh_fuzz.FuzzReport(4, 1)
+    lost.valid[".stl"] = 3
+    assert not summarise(lost).passed
+    sound.failures.append(mesh_fuzz.Failure(2, ".ply", "cut short", "it hangs"))
+    judged = summarise(sound)
+    assert not judged.passed
+    assert any("Case 2 (.ply, cut short): it hangs." in note for note in judged.notes)
+
+
+# ---- the command line ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", [*BENCHMARKS, *PROGRAMS])
+def test_every_benchmark_has_help(name, benchmark):
+    ran = benchmark(name, "--help")
+    assert ran.exit_code == 0
+    assert "--json" in ran.stdout
+
+
+def test_the_fuzz_command_reads_files_and_prints_figures(tmp_path, benchmark):
+    out = tmp_path / "fuzz.md"
+    ran = benchmark("mesh-fuzz", "--count", 12, "--seed", 4, "--json", "--write", out)
+    assert ran.exit_code == 0
+    data = json.loads(ran.stdout)
+    assert data["passed"] is True
+    assert data["figures"][0]["measured"] == 12
+    assert out.read_text(encoding="utf-8").startswith("Hostile mesh files: files 12, seed 4")
+
+
+def test_a_missed_target_is_exit_code_1(monkeypatch, benchmark):
+    missed = Report("Study", {}, (Figure("a", "b", 2.0, most=1.0),))
+    monkeypatch.setattr("benchmarks.preparation.regions.run", lambda *_, **__: missed)
+    ran = benchmark("regions", "--json")
+    assert ran.exit_code == 1
+    assert json.loads(ran.stdout)["passed"] is False
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["simplify", "--facets-in", "8000", "--facets-out", "100"], "leave at least 300"),
+        (["simplify", "--shapes", "cube"], "there is no shape 'cube'"),
+        (["simplify", "--facets-in", "2000"], "too few for the figures"),
+        (["simplify", "--rounds", "0"], "0 rounds are none"),
+        (["regions", "--strokes", "1"], "at least 2"),
+        (["regions", "--facets", "100"], "too few for a bundled probe"),
+        (["alignment", "--setups", "2"], "at least 5"),
+        (["mesh-fuzz", "--count", "0"], "0 files are none"),
+        (["shell", "--files", "nowhere.stl"], "nowhere.stl"),
+    ],
+)
+def test_arguments_out_of_range_are_refused(arguments, said, benchmark):
+    ran = benchmark(*arguments, "--json")
+    assert ran.exit_code == 2
+    assert said in json.loads(ran.stdout)["error"]

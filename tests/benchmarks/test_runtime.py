@@ -1,0 +1,39 @@
+"""The runtime's study, short: that nothing is lost, and that it judges what it should."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+
+import pytest
+from benchmarks.runtime import run
+
+from contactbench.pipeline.errors import InputError
+
+pytestmark = pytest.mark.alone  # it judges how soon things happen
+
+
+@pytest.mark.skipif(os.name == "nt", reason="pseudo-terminals")
+def test_short() -> None:
+    said: list[str] = []
+    report = run(1.0, 0.05, facets=1_000, progress=said.append)
+    figures = {(figure.subject, figure.name): figure for figure in report.figures}
+    for subject in ("1 kHz", "1 kHz, one core busy"):
+        assert figures[subject, "frames sent"].measured > 500
+        assert figures[subject, "frames without a contact"].measured == 0
+        # How late, and at what cost, is for a machine that does nothing else.
+        assert figures[subject, "bytes to contact, p99"].most == 1.0
+        assert figures[subject, "bytes to contact, median"].measured > 0
+    assert figures["replay", "located"].measured == 3_000
+    assert figures["replay", "contacts not published"].measured == 0
+    if sys.platform == "linux":
+        assert figures["replay", "memory after a tenth"].measured > 10
+    assert len(said) == 3
+    assert json.loads(json.dumps(report.to_json()))["title"] == "Runtime"
+
+
+@pytest.mark.parametrize(("seconds", "minutes"), [(0.5, 1.0), (1.0, 0.0), (float("nan"), 1.0)])
+def test_nonsense_is_refused(seconds: float, minutes: float) -> None:
+    with pytest.raises(InputError, match="minutes above 0"):
+        run(seconds, minutes)

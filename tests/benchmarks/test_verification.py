@@ -1,0 +1,24 @@
+import pytest
+from benchmarks.verification import clustered, coverage, run
+
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.verification.figures import Cause
+
+
+def test_every_figure_is_measured_and_none_is_far_from_its_target():
+    report = run(trials=20, seed=1)
+    assert len(report.figures) == 4 + len(Cause)
+    assert report.passed, report.markdown()
+
+
+def test_the_same_seed_gives_the_same_figures():
+    assert coverage(20, 3) == coverage(20, 3)
+
+
+def test_intervals_hold_where_the_touches_of_a_marker_are_alike():
+    assert all(figure.passed for figure in clustered(40, 2))
+
+
+def test_too_few_trials_are_refused():
+    with pytest.raises(InputError, match="20"):
+        run(trials=5)

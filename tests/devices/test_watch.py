@@ -1,0 +1,272 @@
+"""Every fault, in made-up time: frames of the emulated devices through the parsers to what is found."""
+
+from __future__ import annotations
+
+import dataclasses
+from itertools import count
+
+import pytest
+from benchmarks.fault_lines import LINES, cases, expectation, resting
+
+from contactbench.pipeline.devices.emulate import Fault, FaultEvent, Script, possible_faults
+from contactbench.pipeline.devices.faults import Mangler, Truth
+from contactbench.pipeline.devices.protocols import Counters
+from contactbench.pipeline.devices.protocols.bota import BotaModel
+from contactbench.pipeline.devices.protocols.rdt import RdtModel
+from contactbench.pipeline.devices.protocols.registry import driver_for
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqModel
+from contactbench.pipeline.devices.protocols.sri import SriModel
+from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
+from contactbench.pipeline.devices.url import Carrier, DeviceAddress, Protocol
+from contactbench.pipeline.devices.watch import Watch
+
+SENSORS = [line for line in LINES if not line.robot]
+RATE = 100.0
+START, STOP = 1.5, 2.1
+ADDRESSES = {
+    "sri serial": "sri+serial:///dev/x?rate=100",
+    "sri tcp": "sri+tcp://h?rate=100",
+    "bota serial": "bota+serial:///dev/x?rate=100",
+    "robotiq serial": "robotiq+serial:///dev/x",
+    "rdt ati": "rdt+udp://h",
+    "rdt onrobot": "rdt+udp://h?profile=onrobot&rate=100",
+}
+MODELS = {Protocol.SRI: SriModel, Protocol.BOTA: BotaModel, Protocol.ROBOTIQ: RobotiqModel}
+
+
+class Played:
+    """A device and a watch, without lines and without waiting."""
+
+    def __init__(self, line, script, signal=resting, seconds=5.0):
+        driver = driver_for(DeviceAddress.parse(ADDRESSES[str(line)]))
+        model = (
+            RdtModel(RATE, profile=line.profile)
+            if line.protocol is Protocol.RDT
+            else MODELS[line.protocol](RATE)
+        )
+        self.parser = driver.parser
+        self.watch = Watch(driver.rate, rate_known=driver.rate_known, limits=driver.limits)
+        self.truth = Truth(signal, script, model.trap, model.full_scale)
+        self.mangler = Mangler(model, script, 0, datagrams=line.carrier is Carrier.UDP)
+        self.samples, self.last, self.received = [], 0.0, 0
+        self.ill = []  # when something was wrong, and what
+        self.away = None
+        self._play(model, seconds)
+
+    def _play(self, model, seconds):
+        due = 0.0
+        for number in count():
+            if due > seconds or self.away:
+                return
+            frame = model.frame(self.truth.reading(due), self.truth.moment(due, number))
+            emission = self.mangler.mangle(frame, due, number)
+            self.away = emission.away
+            self._hear(emission.pieces, due)
+            due += 1 / (RATE * self.truth.rate_factor(due))
+
+    def _hear(self, pieces, now):
+        for piece in pieces:
+            self.received += len(piece)
+            if samples := self.parser.feed(piece, now):
+                self.watch.see(samples)
+                self.samples += samples
+                self.last = now
+        self.watch.count(now, self.parser.counters, self.received)
+        found = self.watch.findings()
+        if now - self.last > self.watch.patience:
+            self.watch.rest()
+            found = {"silent": ""} | self.watch.damage()
+        if found or self.watch.suspicions:
+            self.ill.append((now, (*found, *self.watch.suspicions)))
+
+
+def name(value):
+    return str(value).replace(" ", "-")
+
+
+@pytest.mark.parametrize(("line", "fault"), list(cases(SENSORS)), ids=name)
+def test_every_fault_is_found_in_time_or_costs_nothing(line, fault):
+    if fault is Fault.HEADER:
+        script = Script([FaultEvent(START, fault, 0.08)])
+    else:
+        script = Script([FaultEvent(START, fault, STOP - START)])
+    played = Played(line, script)
+    expected = expectation(line, fault)
+    if fault in (Fault.DISCONNECT, Fault.RECONNECT):
+        assert played.away is not None  # the line itself tells
+        assert not played.ill
+    elif expected == "shown":
+        warming = 0.3 * (STOP - START) if fault is Fault.DRIFT else 0.0
+        when, what = played.ill[0]
+        assert START <= when <= START + warming + 0.19, what
+        if fault not in (Fault.DRIFT, Fault.REZERO):
+            assert played.ill[-1][0] <= STOP + 2.1  # and is over by itself
+        else:
+            played.watch.acknowledge()
+            assert not played.watch.findings()
+            assert not played.watch.suspicions
+    else:
+        assert played.ill == []
+        if expected == "unseen":
+            assert len(played.samples) >= 498
+
+
+@pytest.mark.parametrize("line", SENSORS, ids=name)
+def test_nothing_is_found_where_nothing_is_wrong(line):
+    played = Played(line, Script(), seconds=20.0)
+    assert played.ill == []
+    assert played.watch.rate() == pytest.approx(RATE, rel=0.01)
+
+
+def sample(time, force=(1.0, 2.0, 3.0), **more):
+    return WrenchSample(time, force, (0.1, 0.2, 0.3), **more)
+
+
+def noisy(time, **more):
+    values = resting(time)
+    return WrenchSample(time, values[:3], values[3:], **more)
+
+
+def found(samples, **how):
+    watch = Watch(100.0, **how)
+    watch.see(samples)
+    return watch.findings()
+
+
+def test_a_flag_of_one_sample_is_shown_long_enough_to_be_read():
+    samples = [noisy(k / 100) for k in range(20)]
+    samples[10] = dataclasses.replace(samples[10], status=Status.OVERRANGE)
+    assert "OVERRANGE" in found(samples)
+    samples += [noisy(k / 100) for k in range(20, 80)]
+    assert found(samples) == {}
+
+
+def test_one_channel_at_its_end_while_others_move():
+    def row(k):
+        fx, fy, fz = resting(k / 100)[:3]
+        return sample(k / 100, (150.0 if k >= 100 else fx, fy, fz))
+
+    words = found([row(k) for k in range(120)])["end"]
+    assert words.startswith("Fx at 150 N: exactly the same for 19 samples")
+    assert found([row(k) for k in range(105)]) == {}
+
+
+def test_a_channel_that_is_quiet_is_not_at_its_end():
+    def row(k):
+        fx, fy, _ = resting(k / 100)[:3]
+        return sample(k / 100, (fx, fy, 20.0 if k % 2 and k < 100 else 19.99))
+
+    assert found([row(k) for k in range(300)]) == {}
+
+
+def test_a_pause_of_the_computer_is_no_wrong_rate_and_no_leap():
+    times = [k / 100 for k in range(400)]
+    late = [1.62 if 1.5 <= t < 1.62 else t for t in times]  # they wait, and then come at once
+    watch = Watch(100.0)
+    for t, device in zip(late, times, strict=True):
+        measured = noisy(device, sequence=round(100 * device), device_time=device)
+        watch.see([dataclasses.replace(measured, time=t)])
+        assert watch.findings() == {}
+
+
+def test_a_rate_of_the_device_s_own_is_learnt():
+    watch = Watch(100.0, rate_known=False)
+    for k in range(3000):
+        watch.see([noisy(k / 1000)])
+    assert watch.findings() == {}
+    for k in range(400):
+        watch.see([noisy(3.0 + k / 500)])
+    assert "instead of 1000 Hz" in watch.findings()["rate"]
+
+
+def test_a_robot_may_stand_still():
+    watch = Watch(100.0)
+    for k in range(300):
+        watch.see([FlangeSample(k / 100, None, None, device_time=k / 100)])
+    assert watch.findings() == {}
+
+
+def counted(*steps, rate=100.0):
+    watch = Watch(rate)
+    for now, counters, received in steps:
+        watch.count(now, counters, received)
+    return watch.damage()
+
+
+def test_answers_before_the_first_frames_are_no_damage():
+    steps = [(0.0, Counters(skipped_bytes=40), 40)]
+    steps += [(k / 100, Counters(frames=k, skipped_bytes=40), 40 + 31 * k) for k in range(1, 100)]
+    assert counted(*steps) == {}
+
+
+def test_bytes_without_frames_are_told():
+    words = counted(*[(k / 100, Counters(skipped_bytes=31 * k), 31 * k) for k in range(20)])
+    assert "no frame in them" in words["no frame"]
+
+
+def test_lost_samples_are_told_and_forgotten_after_a_second():
+    steps = [(k / 100, Counters(frames=k, lost=7 if k > 50 else 0), 31 * k) for k in range(100)]
+    assert counted(*steps)["lost"].startswith("7 of the last 103 samples were lost")
+    steps += [(k / 100, Counters(frames=k, lost=7), 31 * k) for k in range(100, 200)]
+    assert counted(*steps) == {}
+
+
+def test_a_gap_that_was_a_silence_is_not_told_twice():
+    watch = Watch(100.0)
+    for k in range(200):
+        watch.count(k / 100, Counters(frames=k), 31 * k)
+    watch.rest()
+    for k in range(200, 220):
+        watch.count(1.0 + k / 100, Counters(frames=k, lost=100 if k > 201 else 0), 31 * k)
+    assert watch.damage() == {}
+
+
+@pytest.mark.parametrize("kelvin", [-3.2, 3.2])
+def test_warming_is_told_until_it_is_acknowledged(kelvin):
+    watch = Watch(100.0)
+    watch.see([noisy(k / 100, temperature=25.0) for k in range(100)])
+    assert watch.findings() == {}
+    watch.see([noisy(k / 100, temperature=25.0 + kelvin) for k in range(100, 110)])
+    assert ("warmer" if kelvin > 0 else "colder") in watch.findings()["temperature"]
+    watch.acknowledge()
+    assert watch.findings() == {}
+
+
+def test_every_sensor_fault_is_among_the_cases():
+    for line in SENSORS:
+        assert {fault for at, fault in cases(SENSORS) if at is line} == possible_faults(line.protocol)
+
+
+@pytest.mark.parametrize("factor", [0.2, 0.5, 2.0])
+def test_a_rate_that_changes_is_found_soon(factor):
+    watch = Watch(100.0)
+    watch.see([noisy(k / 100) for k in range(200)])
+    step = 0.01 / factor
+    for k in range(1, 100):
+        watch.see([noisy(1.99 + k * step)])
+        if watch.findings():
+            break
+    assert k * step <= max(0.19, 3 * step)
+    assert "instead of 100 Hz" in watch.findings()["rate"]
+
+
+@pytest.mark.parametrize("backlog", [20, 60, 200])
+@pytest.mark.parametrize("wait", [0.05, 0.12, 0.2])
+def test_what_waited_before_the_first_reading_is_no_wrong_rate(backlog, wait):
+    watch = Watch(200.0)
+    watch.see([noisy(0.0)])
+    watch.see([noisy(wait)] * backlog)
+    for number in range(1, 60):
+        watch.see([noisy(wait + number / 200)])
+        assert "rate" not in watch.findings()
+
+
+def test_the_worst_lateness_is_kept_and_the_usual_one_is_small():
+    watch = Watch(200.0)
+    time = 0.0
+    for number in range(1000):
+        time += 0.005 + (0.03 if number == 300 else 0.0)
+        watch.see([noisy(time)])
+    usual, worst = watch.lateness()
+    assert worst == pytest.approx(0.03, abs=1e-6)
+    assert usual == pytest.approx(0.0, abs=1e-6)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, Noun, print_json, say
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.ablation.commands import add_ablation_command
 from contactbench.pipeline.study.confidence.commands import add_confidence_command
@@ -21,15 +21,10 @@ from contactbench.pipeline.study.rivals.commands import add_rivals_command
 from contactbench.pipeline.study.stability_commands import add_stability_commands
 from contactbench.pipeline.study.sweep_commands import add_sweep_commands
 
-study_app = typer.Typer(
-    help="Measure speed against error, stability on hard cases, and what a scene needs.",
-    epilog="Example: contactbench study speed --probe t-shape --facets 1000,20000 --json",
-    no_args_is_help=True,
-    rich_markup_mode=None,
-)
+study_app = Noun("Measure speed against error, stability on hard cases, and what a scene needs.")
 
 
-@study_app.command(epilog="Example: contactbench study speed --probe linear --out speed.md")
+@study_app.command(example="study speed --probe linear --out speed.md")
 def speed(
     probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "t-shape",
     facets: Annotated[str, typer.Option(help="Resolutions, comma separated.")] = "500,1000,20000,100000",
@@ -62,7 +57,7 @@ def speed(
         raise typer.Exit(NOT_GOOD_ENOUGH)
 
 
-@study_app.command("hard-cases", epilog="Example: contactbench study hard-cases --samples 500")
+@study_app.command("hard-cases", example="study hard-cases --samples 500")
 def hard_cases(
     samples: Annotated[int, typer.Option(help="Wrenches for each case.")] = 2_000,
     seed: SeedOption = 0,
@@ -86,7 +81,7 @@ def hard_cases(
         raise typer.Exit(NOT_GOOD_ENOUGH)
 
 
-@study_app.command(epilog="Example: contactbench study scenes --probe convex --period 2")
+@study_app.command(example="study scenes --probe convex --period 2")
 def scenes(
     probe: Annotated[str, typer.Option(help="Bundled probe: linear, convex or t-shape.")] = "convex",
     period: Annotated[float, typer.Option(help="Of the platform's motion, s.")] = 2.0,

@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 
-from contactbench.pipeline.console import JsonOption, say
+from contactbench.pipeline.console import JsonOption, Noun, say
 from contactbench.pipeline.study.finishing import SeedOption, finish
 
 
-def add_stability_commands(app: typer.Typer) -> None:
+def add_stability_commands(app: Noun) -> None:
     """Add the command to ``contactbench study``."""
-    app.command(epilog="Example: contactbench study stability --out stability-study")(stability)
+    app.command(example="study stability --out stability-study")(stability)
 
 
 def stability(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import Bar, JsonOption, print_json, say, show_tables
+from contactbench.pipeline.console import Bar, JsonOption, Noun, print_json, say, show_tables
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.finishing import NOT_GOOD_ENOUGH
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from contactbench.pipeline.study.sweep.growth import Row
 
 
-def add_sweep_commands(app: typer.Typer) -> None:
+def add_sweep_commands(app: Noun) -> None:
     """Add the commands to ``contactbench study``."""
-    app.command(name="run", epilog="Example: contactbench study run --preset quick --out quick-study")(run)
-    app.command(name="compare", epilog="Example: contactbench study compare quick-study full-study")(compare)
-    app.command(name="page", epilog="Example: contactbench study page quick-study --out docs")(page)
+    app.command(name="run", example="study run --preset quick --out quick-study")(run)
+    app.command(name="compare", example="study compare quick-study full-study")(compare)
+    app.command(name="page", example="study page quick-study --out docs")(page)
 
 
 def run(

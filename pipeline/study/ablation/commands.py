@@ -9,12 +9,12 @@ from typing import Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, Noun, print_json, say
 
 
-def add_ablation_command(app: typer.Typer) -> None:
+def add_ablation_command(app: Noun) -> None:
     """Add the command to ``contactbench study``."""
-    app.command(epilog="Example: contactbench study ablation --quick --out ablation")(ablation)
+    app.command(example="study ablation --quick --out ablation")(ablation)
 
 
 def ablation(

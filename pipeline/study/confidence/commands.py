@@ -8,13 +8,13 @@ from typing import Annotated
 
 import typer
 
-from contactbench.pipeline.console import JsonOption, say
+from contactbench.pipeline.console import JsonOption, Noun, say
 from contactbench.pipeline.study.finishing import SeedOption, finish
 
 
-def add_confidence_command(app: typer.Typer) -> None:
+def add_confidence_command(app: Noun) -> None:
     """Add the command to ``contactbench study``."""
-    app.command(epilog="Example: contactbench study confidence --quick --out confidence-study")(confidence)
+    app.command(example="study confidence --quick --out confidence-study")(confidence)
 
 
 def confidence(

@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 import typer
 
-from contactbench.pipeline.console import JsonOption, print_json, say
+from contactbench.pipeline.console import JsonOption, Noun, print_json, say
 
 
-def add_rivals_command(app: typer.Typer) -> None:
+def add_rivals_command(app: Noun) -> None:
     """Add the command to ``contactbench study``."""
-    app.command(epilog="Example: contactbench study rivals --quick --out rivals")(rivals)
+    app.command(example="study rivals --quick --out rivals")(rivals)
 
 
 def rivals(

@@ -122,8 +122,8 @@ class _Commands(Nouns):
                 if entry.section == section:
                     formatter.write(f"  {name:<{widest}}  {entry.text}\n")
         formatter.write(
-            "Options: -h, --help; --version; --install-completion, --show-completion of the shell.\n"
-            "More: contactbench COMMAND -h. A command's own options include --json and --quiet.\n"
+            "Options: -h, --help; --version; --install-completion and --show-completion.\n"
+            "More: contactbench COMMAND -h. Commands have --json and --quiet too.\n"
         )
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:

@@ -8,15 +8,17 @@ import subprocess
 import sys
 import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
 import trimesh
+import typer
 from typer.testing import CliRunner
 
 import contactbench
 from contactbench.pipeline import cli
+from contactbench.pipeline.commands import info as command_info
 from contactbench.pipeline.commands.locate import MethodName
 from contactbench.pipeline.console import Bar
 from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
@@ -27,6 +29,9 @@ from contactbench.pipeline.mesh import load_probe, save_probe
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.preparation.steps import align_step, import_mesh
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 RUNNER = CliRunner()
 WRENCHES = "t,fx,fy,fz,mx,my,mz\n0.0,0,0,-5,0,0.01,0\n0.1,0,0,-0.1,0,0,0\n0.2,1,0,-5,0,0.1,0\n"
@@ -74,11 +79,36 @@ def test_starting_imports_nothing_heavy():
     assert result.stdout == "[]\n"
 
 
-@pytest.mark.parametrize("command", [[], ["info"], ["locate"]])
-def test_help_has_an_example(command):
-    result = run(*command, "--help")
+def leaves(group: Any, *words: str) -> Iterator[tuple[str, ...]]:
+    """Give the words of every command."""
+    for name in group.list_commands(None):
+        command = group.get_command(None, name)
+        if hasattr(command, "list_commands"):
+            yield from leaves(command, *words, name)
+        else:
+            yield *words, name
+
+
+@pytest.mark.parametrize("words", list(leaves(typer.main.get_command(cli.app))), ids=" ".join)
+def test_every_command_has_an_example_of_itself(words):
+    result = run(*words, "-h")
     assert result.exit_code == 0
-    assert "Example: contactbench" in result.stdout
+    text = " ".join(result.stdout.split())
+    assert f"Example: contactbench {' '.join(words)}" in text
+    assert "--quiet" in text
+
+
+@pytest.mark.parametrize("words", [[], ["probe"], ["probe", "regions"], ["session"], ["study"]])
+def test_lists_of_commands_are_whole(words):
+    result = run(*words, "-h", env={"COLUMNS": "80"})
+    assert result.exit_code == 0
+    lists = result.stdout.partition("]...")[2]
+    assert "..." not in lists
+    assert max(map(len, result.stdout.splitlines())) <= 80
+
+
+def test_the_whole_list_is_on_one_screen():
+    assert len(run("-h").stdout.splitlines()) <= 24
 
 
 def test_help_states_the_defaults_of_the_gates():
@@ -103,7 +133,7 @@ def test_input_error_anywhere_is_one_line(monkeypatch):
     def fail() -> None:
         raise InputError("this is\nwrong")
 
-    monkeypatch.setattr(cli, "_facts", fail)
+    monkeypatch.setattr(command_info, "_facts", fail)
     result = run("info")
     assert (result.exit_code, result.stdout, result.stderr) == (2, "", "error: this is wrong\n")
     result = run("info", "--json")
@@ -111,11 +141,28 @@ def test_input_error_anywhere_is_one_line(monkeypatch):
     assert result.exit_code == 2
 
 
+def test_a_missing_extra_is_a_sentence(monkeypatch):
+    def fail() -> None:
+        raise ModuleNotFoundError("No module named 'mujoco'", name="mujoco")
+
+    monkeypatch.setattr(command_info, "_facts", fail)
+    result = run("info", "--json")
+    assert result.exit_code == 2
+    assert "pip install 'contactbench[sim]'" in json.loads(result.stdout)["error"]
+    assert len(result.stderr.splitlines()) == 1
+
+
+def test_quiet_leaves_warnings_only(bench):
+    assert "rows" in locate(bench).stderr
+    assert "rows" not in locate(bench, "--quiet").stderr
+    assert "error:" in run("session", "info", bench, "-q").stderr
+
+
 def test_interruption_is_a_sentence(monkeypatch):
     def fail() -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(cli, "_facts", fail)
+    monkeypatch.setattr(command_info, "_facts", fail)
     result = run("info", "--json")
     assert result.exit_code == 130
     assert result.stderr.startswith("error: interrupted")
@@ -220,7 +267,7 @@ def test_a_raw_recording_is_refused_unless_it_is_said_to_be_compensated(bench):
     lines = [f"{header},qw,qx,qy,qz,status", *(f"{row},1,0,0,0,0" for row in rows)]
     (bench / "wrenches.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
     refused(locate(bench), "wrenches.csv: line 1: columns qw, qx, qy, qz, status: this is a raw recording")
-    refused(locate(bench), "contactbench compensate calibration.json RECORDING --out WRENCHES")
+    refused(locate(bench), "contactbench calibrate compensate calibration.json RECORDING --out WRENCHES")
     assert not (bench / "contacts.csv").exists()
     assert locate(bench, "--compensated").exit_code == 0
 
@@ -250,7 +297,7 @@ def test_units_and_mount_move_the_probe(bench):
     T_SP[:3, :3] = Rz @ Ry @ Rx
     T_SP[:3, 3] = np.array([0.0, 0.0, 0.12]) - T_SP[:3, :3] @ mesh.centroid / 100  # back below the force
     position = ",".join(repr(100 * float(x)) for x in T_SP[:3, 3])
-    assert locate(bench, "--units", "cm", "--mount", f"{position},10,-20,30").exit_code == 0
+    assert locate(bench, "--units", "cm", "--place", f"{position},10,-20,30").exit_code == 0
     solver = ContactSolver(load_probe(bench / "ball.stl", "cm", T_SP))
     contacts = (bench / "contacts.csv").read_text(encoding="utf-8").splitlines()[1:]
     wrenches = np.loadtxt(WRENCHES.splitlines()[1:], delimiter=",")[:, 1:]
@@ -260,12 +307,12 @@ def test_units_and_mount_move_the_probe(bench):
 
 
 def test_the_unit_is_found_and_the_mount_is_in_it(bench):
-    assert locate(bench, "--mount", "0,0,20,0,0,0").exit_code == 0
+    assert locate(bench, "--place", "0,0,20,0,0,0").exit_code == 0
     expected = (bench / "contacts.csv").read_bytes()
     mesh = trimesh.load_mesh(bench / "ball.stl")
     mesh.apply_scale(0.001)
     (bench / "metres.obj").write_bytes(b"# units: m\n" + mesh.export(file_type="obj", digits=9).encode())
-    result = locate(bench, "--mount", "0,0,0.020,0,0,0", "--json", probe="metres.obj")
+    result = locate(bench, "--place", "0,0,0.020,0,0,0", "--json", probe="metres.obj")
     assert json.loads(result.stdout)["warnings"] == []
     points = [
         np.genfromtxt(each.splitlines()[1:], delimiter=",", usecols=(1, 2, 3))
@@ -375,9 +422,9 @@ def test_wrong_files(bench):
     [
         (["--method", "guess"], "'contactbench', 'scan', 'algorithm1', 'wrench_axis', 'iterative'"),
         (["--units", "ft"], "'ft' is not one of 'mm', 'm', 'cm', 'in'"),
-        (["--mount", "1,2,3"], "--mount needs 6 finite numbers separated by commas, not '1,2,3'"),
-        (["--mount", "1,2,3,4,5,nan"], "--mount needs 6 finite numbers"),
-        (["--mount", "1,2,3,4,5,east"], "--mount needs 6 finite numbers"),
+        (["--place", "1,2,3"], "--place needs 6 finite numbers separated by commas, not '1,2,3'"),
+        (["--place", "1,2,3,4,5,nan"], "--place needs 6 finite numbers"),
+        (["--place", "1,2,3,4,5,east"], "--place needs 6 finite numbers"),
         (["--saturation", "1"], "--saturation needs 6 finite numbers"),
         (["--track", "--method", "scan"], "--track works with --method contactbench only, not with scan"),
         (["--min-force", "-1"], "error: Gates.min_force must be at least 0"),
@@ -385,7 +432,7 @@ def test_wrong_files(bench):
         (["--model-torque", "-1"], "error: WrenchNoise.torque"),
         (["--torque-ratio", "2"], "No such option"),
         (["--noise-force", "nan"], "error: WrenchNoise.force"),
-        (["--mount", "99999,0,0,0,0,0"], "mount moves the mesh"),
+        (["--place", "99999,0,0,0,0,0"], "mount moves the mesh"),
         (["--json", "--out", "-"], "--json and --out - both want standard output"),
         (["--unknown"], "No such option"),
     ],

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class HowRead:
     """
-    What a recording does not say itself; as the options of ``contactbench heatmap``.
+    What a recording does not say itself; as the options of ``contactbench heatmap draw``.
 
     Attributes
     ----------

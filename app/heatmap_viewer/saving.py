@@ -1,4 +1,4 @@
-"""What is saved out of the viewer: pictures and meshes as `contactbench heatmap` writes them, and films."""
+"""What is saved out of the viewer: pictures and meshes as `contactbench heatmap draw` writes them, and films."""
 
 from __future__ import annotations
 

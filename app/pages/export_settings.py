@@ -86,7 +86,7 @@ class ExportSettingsPanel(QWidget):
         self.gains.setMinimumHeight(_TALL)
         self.gains.setAccessibleName(self.tr("Gains of the controller"))
         self.gains.setToolTip(
-            self.tr("How a robot presses and follows: gains.json of contactbench control tune")
+            self.tr("How a robot presses and follows: gains.json of contactbench bench control tune")
         )
         self.gains.clicked.connect(self._ask_gains)
         self.no_gains.setIcon(icon("cross"))

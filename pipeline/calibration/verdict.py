@@ -149,18 +149,18 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
     if not agree:
         words.append(
             "No majority of the poses agrees with one gravity model. Either the orientations are in another"
-            " convention than was said (contactbench diagnose tells), or most captures were disturbed."
+            " convention than was said (contactbench calibrate diagnose tells), or most captures were disturbed."
         )
     if _restless(calibration):
         words.append(
             "The poses disagree by far more than the readings within each of them scatter. Either the"
-            " orientations are in another convention than was said (contactbench diagnose tells), or captures"
+            " orientations are in another convention than was said (contactbench calibrate diagnose tells), or captures"
             " were disturbed."
         )
     elif min(calibration.noise_factor) > _ABSURD and not told:
         words.append(
             f"The residuals are {max(calibration.noise_factor):.0f} times what the noise given explains: check how the"
-            " orientations are written (contactbench diagnose), and that nothing touched the tool."
+            " orientations are written (contactbench calibrate diagnose), and that nothing touched the tool."
         )
     if same_readings(calibration):
         words.append(
@@ -173,8 +173,8 @@ def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) ->
     elif sight.weighs and not sight.weak and (off := _off_down(calibration)):
         words.append(
             f"Gravity comes out pointing {off:.0f}° away from down. The sensor reports the opposite sign, the"
-            " orientations are turned (contactbench diagnose tells), or the robot does not stand upright: then say"
-            " where down is (--down)."
+            " orientations are turned (contactbench calibrate diagnose tells), or the robot does not stand upright:"
+            " then say where down is (--down)."
         )
     if not words and calibration.contact_error > limits.usable_error:
         remedy = sight.weak or "Take more poses with tilts about two axes, or average each for longer."

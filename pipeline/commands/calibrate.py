@@ -43,7 +43,7 @@ from contactbench.pipeline.commands.options import (
     reachable,
     refuse_overwriting,
 )
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, say
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -257,10 +257,8 @@ def _hourly(rate: NDArray[np.float64] | None) -> list[float] | None:
 
 
 def _show(calibration: Calibration, mounted: MountCalibration | None) -> None:
-    from rich.console import Console
-
     level = calibration.verdict.level.value
-    Console(stderr=True).print(_table(calibration))
+    show_tables(_table(calibration))
     for rejection in calibration.rejected:
         say(f"{rejection.name} is left out: {rejection.reason}", "yellow")
     if mounted is not None and mounted.mounting:
@@ -375,7 +373,6 @@ def diagnose(
 
 
 def _show_diagnosis(found: Diagnosis) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(box=None)
@@ -385,7 +382,7 @@ def _show_diagnosis(found: Diagnosis) -> None:
         share = f"{100 * found.odds[finding.hypothesis]:.1f} %"
         table.add_row(finding.title, f"{finding.residual:.2g} sigma", f"{finding.mass:.2f} kg", share)
     table.add_row("none of these", "", "", f"{100 * found.odds['none']:.1f} %")
-    Console(stderr=True).print(table)
+    show_tables(table)
     say(found.sentence, "green" if found.consistent else "yellow")
     for sentence in found.not_testable:
         say(sentence)

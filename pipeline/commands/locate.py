@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from contactbench.pipeline.commands.options import numbers
-from contactbench.pipeline.console import Bar, Noun, answer, as_json, say
+from contactbench.pipeline.console import Bar, Noun, answer, as_json, say, show_tables
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -243,7 +243,6 @@ def _locator(
 
 
 def _show(summary: LocateSummary) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(box=None, show_header=False)
@@ -257,4 +256,4 @@ def _show(summary: LocateSummary) -> None:
     if summary.median_sigma_max_mm is not None:
         table.add_row("median sigma_max", f"{summary.median_sigma_max_mm:.3g} mm", "")
     table.add_row("speed", f"{summary.rows_per_second:,.0f} rows/s", "")
-    Console(stderr=True).print(table)
+    show_tables(table)

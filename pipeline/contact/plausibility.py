@@ -120,7 +120,7 @@ class Plausibility:
 
 _NO_CAUSE = (
     "None of the usual mistakes makes most of them plausible (torques in N·mm, forces reversed, a mount turned by right"
-    " angles, weight not compensated). Check the position in --mount, and that nothing else touches or pulls the probe:"
+    " angles, weight not compensated). Check the position in --place, and that nothing else touches or pulls the probe:"
     " two touches at once, or a cable, look like this."
 )
 
@@ -204,14 +204,14 @@ def _mistakes(
         yield (
             "not_compensated",
             f"weight or offset is still in the wrenches ({np.linalg.norm(rest[:3]):.2g} N, read again and again)",
-            "Compensate them first: contactbench compensate calibration.json RECORDING --out WRENCHES.",
+            "Compensate them first: contactbench calibrate compensate calibration.json RECORDING --out WRENCHES.",
             wrenches - rest,
         )
     for name, turn in _TURNS:
         yield (
             "turned",
             f"the mount is off by a turn of {name}",
-            f"Turn the mesh by {name}, in --mount or with `contactbench probe align`.",
+            f"Turn the mesh by {name}, in --place or with `contactbench probe align`.",
             np.hstack([wrenches[:, :3] @ turn, wrenches[:, 3:] @ turn]),
         )
 

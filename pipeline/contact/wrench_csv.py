@@ -102,7 +102,7 @@ class WrenchReader:
 
     def refuse_raw(self) -> None:
         """
-        Refuse a recording that nobody compensated, told by columns that `contactbench compensate` does not write.
+        Refuse a recording that nobody compensated: `contactbench calibrate compensate` does not write such columns.
 
         Raises
         ------
@@ -113,8 +113,8 @@ class WrenchReader:
         if raw:
             what = (
                 f"column{'s' * (len(raw) > 1)} {', '.join(raw)}: this is a raw recording, with the tool's weight and"
-                " the sensor's offset in it. Compensate it first: contactbench compensate calibration.json RECORDING"
-                " --out WRENCHES; or pass --compensated if that is done."
+                " the sensor's offset in it. Compensate it first: contactbench calibrate compensate calibration.json"
+                " RECORDING --out WRENCHES; or pass --compensated if that is done."
             )
             raise self._table.error(what, 1)
 

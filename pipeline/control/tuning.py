@@ -231,7 +231,7 @@ def rows_of(tuned: Tuned, foundation: Foundation, count: int = 9) -> list[Row]:
 
 
 def settings_content(settings: ControlSettings) -> dict[str, Any]:
-    """Return what ``config export --settings`` takes: the parts ``controller`` and ``limits``."""
+    """Return what ``bundle export --settings`` takes: the parts ``controller`` and ``limits``."""
     return {
         "controller": controller_of(settings).model_dump(),
         "limits": limits_of(settings).model_dump(),

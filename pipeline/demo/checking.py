@@ -151,10 +151,10 @@ def check(folder: Path, name: str, tool: Tool) -> CheckResult:
     """
     Verify the touches of markers, report on them, export a bundle, load it, and run the same touches through it.
 
-    Takes touches.mcap, calibration.json and probe.ply, as ``contactbench verify``, ``report``, ``config export`` and
-    ``run`` would. Writes markers.csv, verification.json, report.html, the bundle runtime/ and contacts.jsonl. The time
-    of day is in report.html and, as ``provenance.created``, in runtime/contactbench.json, and so in their hashes;
-    all else is the same for the same seed, and these too where SOURCE_DATE_EPOCH is set.
+    Takes touches.mcap, calibration.json and probe.ply, as ``contactbench verify touches``, ``verify report``,
+    ``bundle export`` and ``run`` would. Writes markers.csv, verification.json, report.html, the bundle runtime/ and
+    contacts.jsonl. The time of day is in report.html and, as ``provenance.created``, in runtime/contactbench.json, and
+    so in their hashes; all else is the same for the same seed, and these too where SOURCE_DATE_EPOCH is set.
 
     Parameters
     ----------

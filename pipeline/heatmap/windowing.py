@@ -265,7 +265,7 @@ def drawn(
 
 
 def selected_heatmap(probe: Probe, contacts: Contacts, selection: Selection) -> Heatmap:
-    """Return the heatmap of a selection, as ``contactbench heatmap`` writes it; HeatmapError."""
+    """Return the heatmap of a selection, as ``contactbench heatmap draw`` writes it; HeatmapError."""
     part = windowed(contacts, selection)
     values, use = shown(part, selection)
     if not use.any():

@@ -48,8 +48,8 @@ def put_on(content: ProbeFile, file: Path) -> ProbeFile:
     content : ProbeFile
         The shell, aligned or not.
     file : path
-        Regions as ``contactbench region export`` writes them, JSON or CSV. Regions of another surface are carried over
-        if that one lies in a PLY file beside it.
+        Regions as ``contactbench probe regions export`` writes them, JSON or CSV. Regions of another surface are
+        carried over if that one lies in a PLY file beside it.
 
     Returns
     -------

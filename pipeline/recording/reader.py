@@ -176,7 +176,7 @@ class RecordingReader:
                     raise
                 self._stream.warn(f"What the file says about itself is damaged ({error}).")
         if about is None:
-            reason = " ".join(self.warnings[:1]) or "For a ROS 2 bag use: contactbench recording import-ros2."
+            reason = " ".join(self.warnings[:1]) or "For a ROS 2 bag use: contactbench record import-ros2."
             raise RecordingError(f"{path}: this is no recording of contactbench. {reason}")
         return RecordingInfo(about.started_ns, about.clock, tuple(devices), about.tool, about.note)
 

@@ -353,5 +353,5 @@ def find_topic(path: Path, kind: DeviceKind, topic: str | None = None) -> str:
         stream.close()
     raise RecordingError(
         f"{path}: there are no {what} on {chosen} in it: choose another recording or topic; see what it holds with"
-        " contactbench recording info."
+        " contactbench record info."
     )

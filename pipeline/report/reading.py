@@ -14,12 +14,12 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _LARGEST = 64 * 2**20
-_REMEDY = "choose a file that `contactbench verify --out` wrote."
+_REMEDY = "choose a file that `contactbench verify touches --out` wrote."
 
 
 def read_verification(file: Path) -> Verification:
     """
-    Read what ``contactbench verify --out`` wrote.
+    Read what ``contactbench verify touches --out`` wrote.
 
     Raises
     ------

@@ -55,7 +55,7 @@ class PosesParameters(Parameters):
 
 class CapturesParameters(PosesParameters):
     """
-    As the options of ``contactbench captures``; angles of the mount in degrees, the delay in seconds.
+    As the options of ``contactbench calibrate captures``; angles of the mount in degrees, the delay in seconds.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ def captures(
     tell: Callable[[str], None] | None = None,
 ) -> dict[str, bytes]:
     """
-    Find the still poses of ``recording``: the bytes that ``contactbench captures`` writes.
+    Find the still poses of ``recording``: the bytes that ``contactbench calibrate captures`` writes.
 
     Where the robot was recorded into a table of its own, that is ``robot_poses``. Those of ``earlier``, a table of the
     same run before it was interrupted, come first. `tell` gets what was noticed and left out, sentence by sentence.
@@ -145,7 +145,7 @@ def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple
 
 class CalibrationParameters(PosesParameters):
     """
-    As the options of ``contactbench calibrate``; angles of the mount in degrees.
+    As the options of ``contactbench calibrate fit``; angles of the mount in degrees.
 
     Attributes
     ----------
@@ -167,7 +167,7 @@ class CalibrationParameters(PosesParameters):
 def calibration(
     inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
-    """Calibrate from ``poses``: the bytes that ``contactbench calibrate`` writes at that time."""
+    """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
     import numpy as np
 
     from contactbench.pipeline.calibration import ContactTask, PoseNoise, calibrate

@@ -63,7 +63,7 @@ def probe(
     Prepare a probe from ``mesh``: the bytes that ``contactbench probe prepare`` writes.
 
     ``alignment``, an input that may be left out, is what ``contactbench probe align --save`` wrote; ``regions``,
-    another, what ``contactbench region export`` wrote of the aligned outer surface: see
+    another, what ``contactbench probe regions export`` wrote of the aligned outer surface: see
     `contactbench.pipeline.preparation.painted`. For `remember` see `dense_of`.
     """
     from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of

@@ -47,7 +47,7 @@ class Outcome(StrEnum):
 
 class CheckParameters(BaseModel):
     """
-    Parameters of both checks: as the options of ``contactbench check``, angles of the mount in degrees.
+    Parameters of both checks: as the options of ``contactbench calibrate check``, angles of the mount in degrees.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ def sha256_of(file: Path) -> str:
 
 def read_check(kind: str, file: Path) -> dict[str, Any]:
     """
-    Read what ``contactbench check --out`` wrote.
+    Read what ``contactbench calibrate check --out`` wrote.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def read_check(kind: str, file: Path) -> dict[str, Any]:
     InputError
         It cannot be read, or is something else.
     """
-    remedy = f"choose a file that `contactbench check {kind.removeprefix('known_')} --out` wrote."
+    remedy = f"choose a file that `contactbench calibrate check {kind.removeprefix('known_')} --out` wrote."
     try:
         content = json.loads(file.read_bytes())
     except (OSError, ValueError, RecursionError) as error:

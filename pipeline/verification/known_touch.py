@@ -123,7 +123,7 @@ _MUST_SHOW = MISTAKES[:4]
 
 class TouchParameters(CheckParameters):
     """
-    As the options of ``contactbench check touch``.
+    As the options of ``contactbench calibrate check touch``.
 
     Attributes
     ----------

@@ -81,7 +81,7 @@ _ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 
 class WeightParameters(CheckParameters):
     """
-    As the options of ``contactbench check weight``.
+    As the options of ``contactbench calibrate check weight``.
 
     Attributes
     ----------

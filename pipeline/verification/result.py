@@ -36,7 +36,7 @@ _Three = tuple[_Number, _Number, _Number]
 
 class VerificationParameters(BaseModel):
     """
-    As the options of ``contactbench verify``; lengths in mm, angles in degrees, times in s.
+    As the options of ``contactbench verify touches``; lengths in mm, angles in degrees, times in s.
 
     ``times`` are figures of solves measured before: (count, median, p99). They are given, not measured here, because
     the same parameters must give the same bytes. Forces at which a touch begins and ends: 2 and 1 N if left out, less

@@ -115,7 +115,7 @@ def survey(session: Session) -> ExportView:
 
 def built(session: Session, *, unverified: bool) -> RuntimeConfig:
     """
-    Build what ``contactbench config export SESSION`` writes, to the byte.
+    Build what ``contactbench bundle export SESSION`` writes, to the byte.
 
     Raises
     ------
@@ -266,7 +266,7 @@ def told(found: Differences) -> tuple[str, ...]:
     ]
     if len(fields) > _MOST_DIFFERENCES:
         said.append(
-            f"And {len(fields) - _MOST_DIFFERENCES} more fields: `contactbench config diff` lists them."
+            f"And {len(fields) - _MOST_DIFFERENCES} more fields: `contactbench bundle diff` lists them."
         )
     if found.mesh is not None:
         one, other = found.mesh["facets"]

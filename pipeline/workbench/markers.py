@@ -121,12 +121,12 @@ def imported(file: Path) -> Markers:
 
 
 def spread(probe: Probe, count: int, region: int | None = None) -> Markers:
-    """Return markers spread evenly over a probe, or a region of it; as ``contactbench markers generate``."""
+    """Return markers spread evenly over a probe, or a region of it; as ``contactbench probe markers generate``."""
     return _rounded(spread_markers(probe, count, region))
 
 
 def grid(probe: Probe, pitch: float, region: int | None = None) -> Markers:
-    """Return markers on a grid of a pitch, m; as ``contactbench markers generate --grid``."""
+    """Return markers on a grid of a pitch, m; as ``contactbench probe markers generate --grid``."""
     return _rounded(grid_markers(probe, pitch, region))
 
 

@@ -1,8 +1,8 @@
 """
 A closed loop on the virtual bench, watched while it runs.
 
-It runs in a process of its own, which is ``contactbench control run BUNDLE --real-time --frames``: whatever it costs,
-the window goes on, and what is seen is what the command does.
+It runs in a process of its own, which is ``contactbench bench control run BUNDLE --real-time --frames``: whatever it
+costs, the window goes on, and what is seen is what the command does.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ _LAST_WORDS = 2_000
 @dataclass(frozen=True)
 class MotionChoice:
     """
-    What is run, as the options of ``contactbench control run``.
+    What is run, as the options of ``contactbench bench control run``.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ class MotionChoice:
         chosen = [] if self.variant is None else ["--variant", self.variant]
         chosen += ["--mount", "0,0,0"] if self.unturned else []
         return [
-            *("control", "run", str(bundle), "--robot", self.robot, "--motion", self.motion),
+            *("bench", "control", "run", str(bundle), "--robot", self.robot, "--motion", self.motion),
             *("--period", f"{self.period_s:g}", "--size", f"{self.size:g}", "--seconds", f"{_LONGEST_S:g}"),
             *(*chosen, "--unverified", "--real-time", "--frames"),
         ]
@@ -166,7 +166,7 @@ class MotionRun:
         None: it has not begun.
     newest : Frame or None
     outcome : dict or None
-        What ``contactbench control run --json`` says at the end.
+        What ``contactbench bench control run --json`` says at the end.
 
     Raises
     ------

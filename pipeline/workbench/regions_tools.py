@@ -168,7 +168,7 @@ def _mask(
 
 def give(model: RegionModel, found: Found, *, protect: bool, erase: bool) -> None:
     """
-    Make what was found one step of the model, as the commands ``contactbench region ...`` do.
+    Make what was found one step of the model, as the commands ``contactbench probe regions ...`` do.
 
     Growing, shrinking and smoothing give the region its new shape and leave other regions alone; the rest is
     added to it or, with `erase`, taken out of it.

@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from contactbench.app import cli
+from contactbench.app import commands
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session
 
@@ -27,13 +27,13 @@ def run(*arguments, **environment):
 def test_help_names_the_window_and_imports_no_qt():
     result = run("--help")
     assert result.returncode == 0
-    assert all(name in result.stdout for name in ("gui", "heatmap-viewer", "locate"))
+    assert all(name in result.stdout for name in ("gui", "heatmap", "locate"))
     heavy = ("PySide6", "vtkmodules", "numpy")
     code = f"import sys, contactbench.app.cli; sys.exit(any(name in sys.modules for name in {heavy}))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-@pytest.mark.parametrize("arguments", [(), ("gui",), ("heatmap-viewer",)])
+@pytest.mark.parametrize("arguments", [(), ("gui",), ("heatmap", "view")])
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only there is a screen a variable")
 def test_without_a_screen_there_is_a_sentence(arguments):
     result = run(*arguments)
@@ -43,9 +43,9 @@ def test_without_a_screen_there_is_a_sentence(arguments):
 
 
 def test_without_qt_there_is_a_sentence(monkeypatch):
-    monkeypatch.setattr(cli, "find_spec", lambda name: None if name == "PySide6" else object())
+    monkeypatch.setattr(commands, "find_spec", lambda name: None if name == "PySide6" else object())
     with pytest.raises(InputError, match=r"PySide6.*pip install 'contactbench\[gui\]'"):
-        cli.check_screen()
+        commands.check_screen()
 
 
 def test_the_window_opens_and_ends(tmp_path):

@@ -89,7 +89,7 @@ def test_a_verified_session_is_exported_to_the_bytes_of_the_command(window, tmp_
     assert page.show_folder.isVisible()
     folder = window.desk.folder
     done = CliRunner().invoke(
-        cli.app, ["config", "export", str(folder), "--out", str(tmp_path / "command.zip")]
+        cli.app, ["bundle", "export", str(folder), "--out", str(tmp_path / "command.zip")]
     )
     assert done.exit_code == 0, done.stderr
     assert (tmp_path / "window.zip").read_bytes() == (tmp_path / "command.zip").read_bytes()
@@ -130,7 +130,7 @@ def test_gains_come_along_and_can_be_taken_out_again(window, tmp_path):
     window.wait(lambda: page.exported is not None)
     assert RuntimeConfig.load(tmp_path / "with.zip").model.controller == controller
     result = CliRunner().invoke(
-        cli.app, ["config", "export", str(window.desk.folder), "--out", str(tmp_path / "same.zip")]
+        cli.app, ["bundle", "export", str(window.desk.folder), "--out", str(tmp_path / "same.zip")]
     )
     assert result.exit_code == 0, result.output
     assert (tmp_path / "same.zip").read_bytes() == (tmp_path / "with.zip").read_bytes()

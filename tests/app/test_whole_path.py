@@ -33,9 +33,9 @@ def test_from_the_first_start_to_a_checked_bundle(make_window, tmp_path):
     assert not (tmp_path / "pictures").exists(), "nothing was in the way"
 
     (session,) = (tmp_path / "home" / "sessions").iterdir()
-    checked = json.loads(contactbench("config", "check", bundle, "--json"))
+    checked = json.loads(contactbench("bundle", "check", bundle, "--json"))
     assert checked["verified"], checked
-    contactbench("config", "export", session, "--out", tmp_path / "headless.zip")
+    contactbench("bundle", "export", session, "--out", tmp_path / "headless.zip")
     assert (tmp_path / "headless.zip").read_bytes() == bundle.read_bytes()
     assert "differ" not in contactbench("session", "replay", session)
 

@@ -14,7 +14,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-from contactbench.app.cli import check_screen
+from contactbench.app.commands import check_screen
 from contactbench.pipeline.errors import InputError
 
 # Name: where the function is. The first line of its module's docstring is its help.

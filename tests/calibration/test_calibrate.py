@@ -313,7 +313,7 @@ def test_gravity_that_points_up_is_refused():
     level, words = verdict_of(calibrate(turned_over, NOISE))
     assert level == Level.REFUSE
     assert "away from down" in words
-    assert "contactbench diagnose" in words
+    assert "contactbench calibrate diagnose" in words
 
 
 @pytest.mark.parametrize(

@@ -74,11 +74,11 @@ def test_a_file_gives_what_the_arrays_give(recording: Recording, file: Path) -> 
 
 def test_the_command_writes_poses_that_calibrate_reads(file: Path, tmp_path: Path) -> None:
     poses, out = tmp_path / "poses.csv", tmp_path / "c.json"
-    result = invoke("captures", file, "--out", poses, "--json")
+    result = invoke("calibrate", "captures", file, "--out", poses, "--json")
     assert result.exit_code == 0
     assert len(json.loads(result.stdout)["poses"]) == len(capture_file(file).poses)
-    assert invoke("calibrate", poses, "--out", out).exit_code == 0
-    again = invoke("captures", file, "--out", tmp_path / "again.csv", "--calibration", out)
+    assert invoke("calibrate", "fit", poses, "--out", out).exit_code == 0
+    again = invoke("calibrate", "captures", file, "--out", tmp_path / "again.csv", "--calibration", out)
     assert again.exit_code == 0
 
 
@@ -86,14 +86,14 @@ def test_a_recording_that_never_stands_still(file: Path, tmp_path: Path) -> None
     rows = file.read_text(encoding="utf-8").splitlines()
     short = tmp_path / "short.csv"
     short.write_text("\n".join(rows[:120]) + "\n", encoding="utf-8")
-    result = invoke("captures", short, "--out", tmp_path / "p.csv")
+    result = invoke("calibrate", "captures", short, "--out", tmp_path / "p.csv")
     assert result.exit_code == 1
     assert not (tmp_path / "p.csv").exists()
 
 
 def test_calibrate_captures_by_itself(recording: Recording, file: Path, tmp_path: Path) -> None:
     found = capture_file(file)
-    result = invoke("calibrate", file, "--out", tmp_path / "c.json", "--json")
+    result = invoke("calibrate", "fit", file, "--out", tmp_path / "c.json", "--json")
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
     assert facts["poses"] == len(found.poses)
@@ -148,14 +148,14 @@ def rows_of(recording: Recording, count: int) -> np.ndarray:
     return np.column_stack([np.arange(count) / recording.rate, recording.wrenches[chosen], quaternions])
 
 
-@pytest.mark.parametrize("command", ["calibrate", "diagnose"])
+@pytest.mark.parametrize("command", ["fit", "diagnose"])
 @pytest.mark.parametrize("count", [800, 9000])
 def test_moving_rows_are_no_poses(recording: Recording, tmp_path: Path, count: int, command: str) -> None:
     moving = tmp_path / "moving.csv"
     write_csv(moving, COLUMNS, rows_of(recording, count).tolist())
-    options = ("--out", tmp_path / "c.json") if command == "calibrate" else ()
+    options = ("--out", tmp_path / "c.json") if command == "fit" else ()
     begin = time.process_time()
-    result = invoke(command, moving, *options)
+    result = invoke("calibrate", command, moving, *options)
     assert time.process_time() - begin < 5
     assert result.exit_code == 2
     assert "stands still nowhere" in str(result.exception) + result.stderr
@@ -166,7 +166,9 @@ def test_moving_rows_are_no_poses(recording: Recording, tmp_path: Path, count: i
 def test_rows_without_times_are_refused(recording: Recording, tmp_path: Path, count: int) -> None:
     rows = rows_of(recording, count)
     write_csv(tmp_path / "a.csv", COLUMNS[1:], rows[:, 1:].tolist())
-    with pytest.raises(PoseFileError, match=r"more than 200 rows, .* as column t: contactbench calibrate"):
+    with pytest.raises(
+        PoseFileError, match=r"more than 200 rows, .* as column t: contactbench calibrate fit"
+    ):
         read_any_poses(tmp_path / "a.csv")
     rows[:, 0] *= recording.rate
     write_csv(tmp_path / "b.csv", COLUMNS, rows.tolist())

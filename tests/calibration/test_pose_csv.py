@@ -224,7 +224,9 @@ def test_a_recording_is_no_list_of_poses():
 
 def test_samples_are_no_poses():
     rows = [f"{0.005 * number},{GOOD}" for number in range(60)]
-    with pytest.raises(PoseFileError, match=r"a recording, 60 rows 5 ms apart, .* contactbench captures"):
+    with pytest.raises(
+        PoseFileError, match=r"a recording, 60 rows 5 ms apart, .* contactbench calibrate captures"
+    ):
         read(f"t,{QUATERNION}", *rows)
     assert len(read(f"t,{QUATERNION}", *[f"0,{GOOD}"] * 60).poses) == 60  # a column of zeros is no time
 

@@ -1,4 +1,4 @@
-"""check weight and check touch, as a person at a terminal and a session use them."""
+"""calibrate check weight and calibrate check touch, as a person at a terminal and a session use them."""
 
 import json
 from pathlib import Path
@@ -40,7 +40,7 @@ def fixed_date(monkeypatch: pytest.MonkeyPatch) -> None:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("check")
     poses = write_quaternions(folder / "poses.csv", weighed())
-    assert invoke("calibrate", poses, "--out", folder / "c.json").exit_code == 0
+    assert invoke("calibrate", "fit", poses, "--out", folder / "c.json").exit_code == 0
     save_probe(mesh(2_000), folder / "probe.ply")
     hung(folder / "empty.csv", 0.0)
     hung(folder / "hung.csv", 3.0)
@@ -90,14 +90,14 @@ def weigh(folder: Path, *more: object, loaded: str = "hung.csv") -> Any:
         "--loaded",
         folder / loaded,
     )
-    return invoke("check", "weight", *files, "--mass", 3.0, "--mass-sigma", 0.0005, *more)
+    return invoke("calibrate", "check", "weight", *files, "--mass", 3.0, "--mass-sigma", 0.0005, *more)
 
 
 def press(folder: Path, *more: object, recording: str = "press.csv") -> Any:
     point = ",".join(f"{1e3 * each:.3f}" for each in side()[0])
     files = ("--calibration", folder / "c.json", "--probe", folder / "probe.ply", folder / recording)
     where = () if "--markers" in more or "--point" in more else ("--point", point)
-    return invoke("check", "touch", *files, *where, *more)
+    return invoke("calibrate", "check", "touch", *files, *where, *more)
 
 
 # ---- weight --------------------------------------------------------------------------------------
@@ -134,7 +134,7 @@ def test_an_unknown_weight_cannot_tell(folder: Path) -> None:
 
 def test_a_refused_calibration_is_said(folder: Path, tmp_path: Path) -> None:
     blind = write_quaternions(tmp_path / "few.csv", spun())
-    assert invoke("calibrate", blind, "--out", tmp_path / "few.json").exit_code == 1
+    assert invoke("calibrate", "fit", blind, "--out", tmp_path / "few.json").exit_code == 1
     result = weigh(folder, "--calibration", tmp_path / "few.json")
     assert result.exit_code == 1
     assert "The calibration was refused" in said(result)

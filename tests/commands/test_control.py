@@ -1,4 +1,4 @@
-"""``contactbench control``: a bundle on a virtual robot, and never on a real one."""
+"""``contactbench bench control``: a bundle on a virtual robot, and never on a real one."""
 
 import json
 
@@ -20,7 +20,7 @@ def bundle(tmp_path_factory):
 
 
 def run(*arguments):
-    return runner.invoke(app, ["control", *map(str, arguments)])
+    return runner.invoke(app, ["bench", "control", *map(str, arguments)])
 
 
 def test_a_bundle_tracks_on_the_virtual_arm_and_ends_safe(bundle, tmp_path):

@@ -1,4 +1,4 @@
-"""``contactbench control run --frames``: each period as it happens, and an end when nobody reads any more."""
+"""``contactbench bench control run --frames``: each period as it happens, and an end when nobody reads any more."""
 
 import subprocess
 import sys
@@ -19,7 +19,7 @@ def bundle(tmp_path_factory):
 
 
 def arguments(bundle, *more):
-    return ["control", "run", str(bundle), "--robot", "virtual://platform", "--seconds", "2", *more]
+    return ["bench", "control", "run", str(bundle), "--robot", "virtual://platform", "--seconds", "2", *more]
 
 
 def test_each_period_is_a_line_and_the_last_one_says_what_came_of_it(bundle):

@@ -39,7 +39,7 @@ def poses(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def calibration(tmp_path: Path, poses: Path) -> Path:
-    assert invoke("calibrate", poses, *EULER, "--out", tmp_path / "c.json").exit_code == 0
+    assert invoke("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json").exit_code == 0
     return tmp_path / "c.json"
 
 
@@ -47,7 +47,7 @@ def calibration(tmp_path: Path, poses: Path) -> Path:
 
 
 def test_a_good_calibration(tmp_path: Path, poses: Path) -> None:
-    result = invoke("calibrate", poses, *EULER, "--out", tmp_path / "c.json", "--json")
+    result = invoke("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     assert found["verdict"] == "good"
@@ -61,7 +61,7 @@ def test_a_good_calibration(tmp_path: Path, poses: Path) -> None:
 
 def test_quaternions_need_no_option(tmp_path: Path, calibration: Path) -> None:
     file = write_quaternions(tmp_path / "q.csv", weighed())
-    assert invoke("calibrate", file, "--out", tmp_path / "q.json").exit_code == 0
+    assert invoke("calibrate", "fit", file, "--out", tmp_path / "q.json").exit_code == 0
     assert load_calibration(tmp_path / "q.json").mass == pytest.approx(
         load_calibration(calibration).mass, rel=1e-9
     )
@@ -71,7 +71,7 @@ def test_the_bumped_pose_is_named(tmp_path: Path) -> None:
     weighing = bump(weighed(), 1 / 9, np.random.default_rng(0))
     file = write_euler(tmp_path / "b.csv", weighing)
     noise = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque)
-    result = invoke("calibrate", file, *EULER, "--out", tmp_path / "b.json", *noise, "--json")
+    result = invoke("calibrate", "fit", file, *EULER, "--out", tmp_path / "b.json", *noise, "--json")
     name = f"pose {1 + int(np.flatnonzero(weighing.bumped)[0])}"
     assert [rejection["name"] for rejection in json.loads(result.stdout)["rejected"]] == [name]
     assert f"{name} is left out: " in said(result)
@@ -91,7 +91,7 @@ def test_a_drift_is_told_with_its_rate_and_the_bias_at_the_end(tmp_path: Path) -
     share = np.linspace(-1, 0, 12)[:, None]
     drift = np.array([0.5, 0.0, 0.0, 0.0, 0.015, 0.0])
     file = timed(tmp_path / "drift.csv", weighing, share * drift)
-    result = invoke("calibrate", file, *EULER, "--out", tmp_path / "d.json", "--json")
+    result = invoke("calibrate", "fit", file, *EULER, "--out", tmp_path / "d.json", "--json")
     facts = json.loads(result.stdout)
     assert facts["causes"][0]["key"] == "drift"
     assert facts["causes"][0]["sentence"] in said(result)
@@ -109,7 +109,7 @@ def test_a_drift_is_told_with_its_rate_and_the_bias_at_the_end(tmp_path: Path) -
 
 
 def test_what_is_plain_needs_no_words(tmp_path: Path, poses: Path) -> None:
-    result = invoke("calibrate", poses, *EULER, "--out", tmp_path / "c.json", "--json")
+    result = invoke("calibrate", "fit", poses, *EULER, "--out", tmp_path / "c.json", "--json")
     facts = json.loads(result.stdout)
     assert facts["causes"][0]["key"] == "plain"
     assert facts["causes"][0]["sentence"] not in said(result)
@@ -126,7 +126,7 @@ def test_what_is_plain_needs_no_words(tmp_path: Path, poses: Path) -> None:
 )
 def test_the_noise_of_the_orientations(tmp_path: Path, poses: Path, option: str, degrees: float) -> None:
     options = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque, "--orientation-noise", option)
-    result = invoke("calibrate", poses, *EULER, *options, "--out", tmp_path / "c.json", "--json")
+    result = invoke("calibrate", "fit", poses, *EULER, *options, "--out", tmp_path / "c.json", "--json")
     assert json.loads(result.stdout)["orientation_noise_deg"] == pytest.approx(degrees)
     assert f"orientation noise {degrees:.2g} " in said(result)
 
@@ -139,19 +139,19 @@ def test_a_robot_that_hangs(tmp_path: Path, down: tuple[int, int, int]) -> None:
     file = write_quaternions(tmp_path / "ceiling.csv", replace(weighing, poses=turned))
     said_down = ("--down", ",".join(map(str, down)))
     out = tmp_path / "c.json"
-    assert invoke("calibrate", file, "--out", out).exit_code == 1
-    result = invoke("calibrate", file, *said_down, "--out", out, "--json")
+    assert invoke("calibrate", "fit", file, "--out", out).exit_code == 1
+    result = invoke("calibrate", "fit", file, *said_down, "--out", out, "--json")
     assert result.exit_code == 0
     facts = json.loads(result.stdout)
     assert facts["verdict"] == "good"
     np.testing.assert_allclose(facts["down_W"], down / np.linalg.norm(down), atol=1e-15)
     noise = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque)
-    assert invoke("diagnose", file, *said_down, *noise).exit_code == 0
+    assert invoke("calibrate", "diagnose", file, *said_down, *noise).exit_code == 0
 
 
 def test_blind_poses_are_refused_in_words_and_numbers_withheld(tmp_path: Path) -> None:
     file = write_euler(tmp_path / "s.csv", spun())
-    result = invoke("calibrate", file, *EULER, "--out", tmp_path / "s.json")
+    result = invoke("calibrate", "fit", file, *EULER, "--out", tmp_path / "s.json")
     assert result.exit_code == 1
     assert "REFUSE: Every pose has the same tilt" in said(result)
     assert "mass unknown" in said(result)
@@ -169,7 +169,9 @@ def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
         for pose, angles in zip(weighing.poses, Rotation.from_matrix(R_WE).as_rotvec(), strict=True):
             rows.writerow([*pose.force, *pose.torque, *angles])
     written = ("--rotation-vector", "--radians")
-    result = invoke("calibrate", file, *written, "--estimate-mount", "--out", tmp_path / "m.json", "--json")
+    result = invoke(
+        "calibrate", "fit", file, *written, "--estimate-mount", "--out", tmp_path / "m.json", "--json"
+    )
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     angle = np.degrees(np.linalg.norm(Rotation.from_matrix(np.array(found["R_SE"]) @ R_ES).as_rotvec()))
@@ -179,7 +181,10 @@ def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
     np.testing.assert_allclose(mount.R_SE, found["R_SE"], atol=1e-12)
     # The same rotation given by hand leads to the same load, and compensate uses the one that was found.
     assert (
-        invoke("calibrate", file, *written, "--mount", "0,0,30", "--out", tmp_path / "k.json").exit_code == 0
+        invoke(
+            "calibrate", "fit", file, *written, "--mount", "0,0,30", "--out", tmp_path / "k.json"
+        ).exit_code
+        == 0
     )
     kept = load_record(tmp_path / "k.json").mount
     assert kept is not None
@@ -194,7 +199,9 @@ def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
         "\n".join([text[0], *(f"{i},{row}" for i, row in enumerate(text[1:]))]) + "\n", encoding="utf-8"
     )
     assert (
-        invoke("compensate", tmp_path / "m.json", recording, *written, "--out", tmp_path / "w.csv").exit_code
+        invoke(
+            "calibrate", "compensate", tmp_path / "m.json", recording, *written, "--out", tmp_path / "w.csv"
+        ).exit_code
         == 0
     )
     rows = np.loadtxt(tmp_path / "w.csv", delimiter=",", skiprows=1)
@@ -204,7 +211,7 @@ def test_the_unknown_mount_is_found(tmp_path: Path) -> None:
 def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None:
     for name in ("a", "b"):
         out, report = tmp_path / f"{name}.json", tmp_path / f"{name}.html"
-        assert invoke("calibrate", poses, *EULER, "--out", out, "--report", report).exit_code == 0
+        assert invoke("calibrate", "fit", poses, *EULER, "--out", out, "--report", report).exit_code == 0
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
     assert (tmp_path / "a.html").read_bytes() == (tmp_path / "b.html").read_bytes()
     assert "Gravity calibration" in (tmp_path / "a.html").read_text(encoding="utf-8")
@@ -233,7 +240,7 @@ def test_same_input_same_bytes_and_a_report(tmp_path: Path, poses: Path) -> None
     ],
 )
 def test_wrong_options(tmp_path: Path, poses: Path, options: tuple[object, ...], message: str) -> None:
-    result = invoke("calibrate", poses, *options, "--out", tmp_path / "c.json")
+    result = invoke("calibrate", "fit", poses, *options, "--out", tmp_path / "c.json")
     assert result.exit_code == 2
     assert message in said(result)
     assert not (tmp_path / "c.json").exists()
@@ -241,7 +248,7 @@ def test_wrong_options(tmp_path: Path, poses: Path, options: tuple[object, ...],
 
 def test_the_poses_are_not_overwritten(poses: Path) -> None:
     before = poses.read_bytes()
-    result = invoke("calibrate", poses, *EULER, "--out", poses)
+    result = invoke("calibrate", "fit", poses, *EULER, "--out", poses)
     assert result.exit_code == 2
     assert poses.read_bytes() == before
 
@@ -251,7 +258,7 @@ def test_a_wrong_file_leaves_the_earlier_calibration(poses: Path, calibration: P
     poses.write_text(
         poses.read_text(encoding="utf-8").replace("\n10.0,", "\nten,").replace("fy", "fyy"), encoding="utf-8"
     )
-    result = invoke("calibrate", poses, *EULER, "--out", calibration, "--json")
+    result = invoke("calibrate", "fit", poses, *EULER, "--out", calibration, "--json")
     assert result.exit_code == 2
     assert "column fy missing" in json.loads(result.stdout)["error"]
     assert calibration.read_bytes() == before
@@ -259,18 +266,11 @@ def test_a_wrong_file_leaves_the_earlier_calibration(poses: Path, calibration: P
 
 def test_columns_that_are_not_named_after_their_axes_are_pointed_out(tmp_path: Path) -> None:
     file = write_euler(tmp_path / "zyx.csv", weighed(), "ZYX")
-    result = invoke("calibrate", file, "--euler", "ZYX", "--out", tmp_path / "z.json")
+    result = invoke("calibrate", "fit", file, "--euler", "ZYX", "--out", tmp_path / "z.json")
     assert result.exit_code == 0
     assert "column rx is read as the angle about z" in said(result)
     plain = write_euler(tmp_path / "xyz.csv", weighed())
-    assert "column rx" not in said(invoke("calibrate", plain, *EULER, "--out", tmp_path / "x.json"))
-
-
-@pytest.mark.parametrize("command", ["calibrate", "diagnose", "verify-still", "compensate"])
-def test_help_has_an_example(command: str) -> None:
-    result = invoke(command, "--help")
-    assert result.exit_code == 0
-    assert f"Example: contactbench {command}" in " ".join(result.stdout.split())
+    assert "column rx" not in said(invoke("calibrate", "fit", plain, *EULER, "--out", tmp_path / "x.json"))
 
 
 # ---- diagnose ------------------------------------------------------------------------------------
@@ -279,16 +279,16 @@ def test_help_has_an_example(command: str) -> None:
 def test_transposed_orientations_are_recognised_and_the_remedy_works(tmp_path: Path) -> None:
     file = write_euler(tmp_path / "t.csv", weighed(), transposed=True)
     noise = ("--noise-force", NOISE.force, "--noise-torque", NOISE.torque)
-    result = invoke("diagnose", file, *EULER, *noise, "--json")
+    result = invoke("calibrate", "diagnose", file, *EULER, *noise, "--json")
     assert result.exit_code == 1
     assert json.loads(result.stdout)["consistent"] is False
     assert "Pass --inverse" in said(result)
-    assert invoke("diagnose", file, *EULER, *noise, "--inverse").exit_code == 0
-    assert invoke("calibrate", file, *EULER, "--inverse", "--out", tmp_path / "t.json").exit_code == 0
+    assert invoke("calibrate", "diagnose", file, *EULER, *noise, "--inverse").exit_code == 0
+    assert invoke("calibrate", "fit", file, *EULER, "--inverse", "--out", tmp_path / "t.json").exit_code == 0
 
 
 def test_orientation_noise_goes_with_the_noise(poses: Path) -> None:
-    result = invoke("diagnose", poses, *EULER, "--orientation-noise", "tracker")
+    result = invoke("calibrate", "diagnose", poses, *EULER, "--orientation-noise", "tracker")
     assert result.exit_code == 2
     assert "give --noise-force and --noise-torque too" in said(result)
 
@@ -300,7 +300,7 @@ def test_held_out_poses_verify(tmp_path: Path, calibration: Path) -> None:
     rng = np.random.default_rng(7)
     weighing = weigh(TRUTH, Rotation.random(6, rng).as_matrix(), NOISE, rng)
     held_out = write_euler(tmp_path / "held.csv", weighing)
-    result = invoke("verify-still", calibration, held_out, *EULER, "--json")
+    result = invoke("calibrate", "check", "still", calibration, held_out, *EULER, "--json")
     assert result.exit_code == 0
     assert json.loads(result.stdout)["passed"] is True
 
@@ -311,7 +311,7 @@ def test_another_tool_does_not_verify(tmp_path: Path, calibration: Path) -> None
     held_out = write_euler(
         tmp_path / "held.csv", weigh(heavier, Rotation.random(6, rng).as_matrix(), NOISE, rng)
     )
-    assert invoke("verify-still", calibration, held_out, *EULER).exit_code == 1
+    assert invoke("calibrate", "check", "still", calibration, held_out, *EULER).exit_code == 1
 
 
 # ---- compensate ----------------------------------------------------------------------------------
@@ -323,7 +323,7 @@ def test_what_is_left_of_an_untouched_recording_is_noise(tmp_path: Path, calibra
         tmp_path / "r.csv", weigh(TRUTH, Rotation.random(400, rng).as_matrix(), NOISE, rng)
     )
     out = tmp_path / "w.csv"
-    result = invoke("compensate", calibration, recording, *EULER, "--out", out, "--json")
+    result = invoke("calibrate", "compensate", calibration, recording, *EULER, "--out", out, "--json")
     assert result.exit_code == 0
     assert json.loads(result.stdout)["rows"] == 400
     left = np.loadtxt(out, delimiter=",", skiprows=1)[:, 1:]
@@ -332,14 +332,16 @@ def test_what_is_left_of_an_untouched_recording_is_noise(tmp_path: Path, calibra
 
 
 def test_a_refused_calibration_is_used_with_a_warning(tmp_path: Path, poses: Path) -> None:
-    invoke("calibrate", write_euler(tmp_path / "s.csv", spun()), *EULER, "--out", tmp_path / "s.json")
-    result = invoke("compensate", tmp_path / "s.json", poses, *EULER, "--out", tmp_path / "w.csv")
+    invoke("calibrate", "fit", write_euler(tmp_path / "s.csv", spun()), *EULER, "--out", tmp_path / "s.json")
+    result = invoke(
+        "calibrate", "compensate", tmp_path / "s.json", poses, *EULER, "--out", tmp_path / "w.csv"
+    )
     assert result.exit_code == 0
     assert "warning:" in said(result)
 
 
 def test_json_and_dash_contradict(calibration: Path, poses: Path) -> None:
-    result = invoke("compensate", calibration, poses, *EULER, "--out", "-", "--json")
+    result = invoke("calibrate", "compensate", calibration, poses, *EULER, "--out", "-", "--json")
     assert result.exit_code == 2
 
 
@@ -347,6 +349,6 @@ def test_a_tampered_calibration_is_refused(tmp_path: Path, calibration: Path, po
     calibration.write_text(
         calibration.read_text(encoding="utf-8").replace('"mass_kg": 0.6', '"mass_kg": 1.6'), encoding="utf-8"
     )
-    result = invoke("compensate", calibration, poses, *EULER, "--out", tmp_path / "w.csv")
+    result = invoke("calibrate", "compensate", calibration, poses, *EULER, "--out", tmp_path / "w.csv")
     assert result.exit_code == 2
     assert not (tmp_path / "w.csv").exists()

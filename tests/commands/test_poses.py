@@ -31,12 +31,12 @@ def said(result: Any) -> str:
 @pytest.fixture
 def blind(tmp_path: Path) -> Path:
     file = write_euler(tmp_path / "s.csv", spun())
-    assert invoke("calibrate", file, "--euler", "xyz", "--out", tmp_path / "s.json").exit_code == 1
+    assert invoke("calibrate", "fit", file, "--euler", "xyz", "--out", tmp_path / "s.json").exit_code == 1
     return tmp_path / "s.json"
 
 
 def test_the_next_pose_of_a_blind_set_tilts(blind: Path) -> None:
-    result = invoke("next-pose", blind, "--json")
+    result = invoke("calibrate", "next", blind, "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     w, x, y, z = found["quaternion_WS"]
@@ -49,7 +49,7 @@ def test_the_next_pose_of_a_blind_set_tilts(blind: Path) -> None:
 
 
 def test_the_next_pose_of_a_robot_is_within_its_limits(blind: Path) -> None:
-    found = json.loads(invoke("next-pose", blind, *ARM, "--json").stdout)
+    found = json.loads(invoke("calibrate", "next", blind, *ARM, "--json").stdout)
     joints = np.radians(found["joints_deg"])
     assert Robot.named("elfin3").within_limits(joints)
     np.testing.assert_allclose(np.degrees(joints[:3]), [0, -17, 69])  # only the wrist moves
@@ -57,7 +57,7 @@ def test_the_next_pose_of_a_robot_is_within_its_limits(blind: Path) -> None:
 
 def test_a_plan_leads_to_the_error_that_it_predicts(tmp_path: Path) -> None:
     out = tmp_path / "plan.csv"
-    result = invoke("plan-poses", 6, *ARM, "--out", out, "--json")
+    result = invoke("calibrate", "plan", 6, *ARM, "--out", out, "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     text = out.read_text(encoding="utf-8").splitlines()
@@ -76,7 +76,7 @@ def test_a_plan_leads_to_the_error_that_it_predicts(tmp_path: Path) -> None:
 @pytest.mark.parametrize("down", ["0,0,-1", "0,0,1", "3,0,0"])
 def test_plans_and_tilts_count_from_down(tmp_path: Path, down: str) -> None:
     result = invoke(
-        "plan-poses", 6, "--max-tilt", 40, "--down", down, "--out", tmp_path / "plan.csv", "--json"
+        "calibrate", "plan", 6, "--max-tilt", 40, "--down", down, "--out", tmp_path / "plan.csv", "--json"
     )
     found = json.loads(result.stdout)
     R_WS = Rotation.from_quat(np.roll(found["quaternions_WS"], -1, axis=1)).as_matrix()
@@ -104,12 +104,7 @@ def test_plans_and_tilts_count_from_down(tmp_path: Path, down: str) -> None:
     ],
 )
 def test_wrong_arguments(tmp_path: Path, arguments: tuple[object, ...], message: str) -> None:
-    result = invoke("plan-poses", *arguments, "--out", tmp_path / "p.csv")
+    result = invoke("calibrate", "plan", *arguments, "--out", tmp_path / "p.csv")
     assert result.exit_code == 2
     assert message in said(result)
     assert not (tmp_path / "p.csv").exists()
-
-
-@pytest.mark.parametrize("command", ["next-pose", "plan-poses"])
-def test_help_has_an_example(command: str) -> None:
-    assert f"Example: contactbench {command}" in " ".join(invoke(command, "--help").stdout.split())

@@ -7,24 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-import typer
 from mcap_ros2.writer import Writer
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
 from contactbench.pipeline import cli
-from contactbench.pipeline.commands.recording import recording_app
 from contactbench.pipeline.devices.sample import FlangeSample, Status, WrenchSample
 from contactbench.pipeline.recording import DeviceInfo, RecordingInfo, RecordingWriter, read_recording
 from contactbench.pipeline.recording.ros2_types import DEFINITIONS, WRENCH_STAMPED
-
-
-@pytest.fixture(scope="module")
-def app() -> typer.Typer:
-    """The group by itself, with the program's way of ending on wrong input."""
-    app = typer.Typer(cls=cli.app.info.cls, pretty_exceptions_enable=False)
-    app.add_typer(recording_app, name="recording")
-    return app
 
 
 @pytest.fixture
@@ -40,12 +30,12 @@ def file(tmp_path: Path) -> Path:
     return tmp_path / "r.mcap"
 
 
-def invoke(app: typer.Typer, *arguments: object) -> Any:
-    return CliRunner().invoke(app, ["recording", *map(str, arguments)])
+def invoke(*arguments: object) -> Any:
+    return CliRunner().invoke(cli.app, ["record", *map(str, arguments)])
 
 
-def test_info(app: typer.Typer, file: Path) -> None:
-    result = invoke(app, "info", file, "--json")
+def test_info(file: Path) -> None:
+    result = invoke("info", file, "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     assert found["complete"]
@@ -56,7 +46,7 @@ def test_info(app: typer.Typer, file: Path) -> None:
     assert "/wrench: 100 wrenches in 1.00 s (99.0 Hz), 1 lost, 0 unusable." in result.stderr
 
 
-def test_info_counts_what_is_unhealthy(app: typer.Typer, tmp_path: Path) -> None:
+def test_info_counts_what_is_unhealthy(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 5.0)) as writer:
         for number in range(100):
             time, delay = 5 + number / 100, 0.15 if number in (7, 8) else 0.002
@@ -64,7 +54,7 @@ def test_info_counts_what_is_unhealthy(app: typer.Typer, tmp_path: Path) -> None
             wrench = WrenchSample(time, (1.0, 2.0, 3.0), (0.1, 0.2, 0.3), arrival=time + delay)
             writer.wrench(replace(wrench, status=status.get(number, Status.OK)))
             writer.flange(FlangeSample(time, np.eye(3), np.zeros(3)))
-    result = invoke(app, "info", tmp_path / "r.mcap", "--json")
+    result = invoke("info", tmp_path / "r.mcap", "--json")
     wrench, flange = json.loads(result.stdout)["topics"]
     assert wrench["flags"] == {"overrange": 1, "raw": 1, "late": 1, "clock": 2}
     assert (wrench["unusable"], wrench["late"], wrench["frozen"]) == (3, 2, 0)
@@ -77,40 +67,40 @@ def test_info_counts_what_is_unhealthy(app: typer.Typer, tmp_path: Path) -> None
     ) in result.stderr
 
 
-def test_info_counts_frozen_readings(app: typer.Typer, tmp_path: Path) -> None:
+def test_info_counts_frozen_readings(tmp_path: Path) -> None:
     chance = np.random.default_rng(4)
     with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 5.0)) as writer:
         for number in range(1000):
             if not 500 <= number < 700:
                 values = tuple(chance.normal(size=6).tolist())
             writer.wrench(WrenchSample(5 + number / 100, values[:3], values[3:]))
-    result = invoke(app, "info", tmp_path / "r.mcap", "--json")
+    result = invoke("info", tmp_path / "r.mcap", "--json")
     wrench = json.loads(result.stdout)["topics"][0]
     assert (wrench["frozen"], wrench["unusable"]) == (201, 201)
     assert "201 frozen" in result.stderr
 
 
-def test_info_of_a_file_that_is_cut_off(app: typer.Typer, file: Path) -> None:
+def test_info_of_a_file_that_is_cut_off(file: Path) -> None:
     file.write_bytes(file.read_bytes()[:-100])
-    result = invoke(app, "info", file, "--json")
+    result = invoke("info", file, "--json")
     assert result.exit_code == 1
     assert "cut off" in json.loads(result.stdout)["warnings"][0]
 
 
 @pytest.mark.parametrize("ending", ["csv", "npz", "CSV"])
-def test_convert(app: typer.Typer, file: Path, ending: str) -> None:
+def test_convert(file: Path, ending: str) -> None:
     out = file.with_name(f"out.{ending}")
-    result = invoke(app, "convert", file, "--out", out, "--json")
+    result = invoke("convert", file, "--out", out, "--json")
     assert result.exit_code == 0
     assert json.loads(result.stdout) == {"out": str(out), "complete": True, "warnings": []}
     assert out.stat().st_size > 100
 
 
-def test_a_converted_recording_shows_its_still_poses(app: typer.Typer, file: Path) -> None:
+def test_a_converted_recording_shows_its_still_poses(file: Path) -> None:
     out = file.with_name("out.csv")
-    assert invoke(app, "convert", file, "--out", out).exit_code == 0
+    assert invoke("convert", file, "--out", out).exit_code == 0
     poses = file.with_name("poses.csv")
-    result = CliRunner().invoke(cli.app, ["captures", str(out), "--out", str(poses)])
+    result = CliRunner().invoke(cli.app, ["calibrate", "captures", str(out), "--out", str(poses)])
     assert result.exit_code == 1  # one pose is too few; but the table was understood
     assert "100 readings" in result.stderr
 
@@ -126,8 +116,8 @@ def bag(file: Path, topics: int = 1) -> Path:
     return file
 
 
-def test_import_ros2(app: typer.Typer, tmp_path: Path) -> None:
-    result = invoke(app, "import-ros2", bag(tmp_path / "b.mcap"), "--out", tmp_path / "r.mcap", "--json")
+def test_import_ros2(tmp_path: Path) -> None:
+    result = invoke("import-ros2", bag(tmp_path / "b.mcap"), "--out", tmp_path / "r.mcap", "--json")
     assert result.exit_code == 1  # there are no poses in it
     assert json.loads(result.stdout)["wrenches"] == 10
     assert read_recording(tmp_path / "r.mcap").wrenches["/wrench"].wrenches[0, 2] == 4.0
@@ -147,38 +137,33 @@ def test_import_ros2(app: typer.Typer, tmp_path: Path) -> None:
     ],
 )
 def test_wrong_input(
-    app: typer.Typer, file: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], message: str
+    file: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], message: str
 ) -> None:
     monkeypatch.chdir(file.parent)
     bag(Path("b.mcap"))
     bag(Path("two.mcap"), 2)
-    result = invoke(app, *arguments)
+    result = invoke(*arguments)
     assert result.exit_code == 2
     assert message in " ".join(result.stderr.replace("│", " ").split())
     assert not Path("x.mcap").exists()
 
 
-@pytest.mark.parametrize("command", ["info", "convert", "import-ros2"])
-def test_help_has_an_example(app: typer.Typer, command: str) -> None:
-    assert "Example: contactbench recording" in invoke(app, command, "--help").stdout
-
-
-def test_info_of_times_that_are_almost_one_moment(app: typer.Typer, tmp_path: Path) -> None:
+def test_info_of_times_that_are_almost_one_moment(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 0.0)) as writer:
         for time in (0.0, 5e-324):
             writer.wrench(WrenchSample(time, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    result = invoke(app, "info", tmp_path / "r.mcap", "--json")
+    result = invoke("info", tmp_path / "r.mcap", "--json")
     assert result.exit_code == 0
     assert json.loads(result.stdout)["topics"][0]["rate"] is None
 
 
-def test_names_in_a_file_cannot_steer_the_terminal(app: typer.Typer, tmp_path: Path) -> None:
+def test_names_in_a_file_cannot_steer_the_terminal(tmp_path: Path) -> None:
     device = DeviceInfo("wrench", "/wrench", "\x1b]0;title\x07\x1b[2J", "\x9b31m")
     with RecordingWriter(
         tmp_path / "r.mcap", RecordingInfo(10**18, 0.0, (device,), tool="\x1b[31mx")
     ) as writer:
         writer.wrench(WrenchSample(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    result = invoke(app, "info", tmp_path / "r.mcap")
+    result = invoke("info", tmp_path / "r.mcap")
     assert "written by \ufffd[31mx" in result.stderr
     assert not set("\x1b\x07\x9b") & set(result.stderr)
 
@@ -196,25 +181,25 @@ def turning(file: Path, touched: bool = False) -> Path:
     return file
 
 
-def test_delay(app: typer.Typer, tmp_path: Path) -> None:
-    result = invoke(app, "delay", turning(tmp_path / "r.mcap"), "--json")
+def test_delay(tmp_path: Path) -> None:
+    result = invoke("delay", turning(tmp_path / "r.mcap"), "--json")
     assert result.exit_code == 0
     found = json.loads(result.stdout)
     assert found["seconds"] == pytest.approx(0.02, abs=1e-3)
     assert found["doubt"] == ""
 
 
-def test_a_doubtful_delay_is_told(app: typer.Typer, tmp_path: Path) -> None:
-    result = invoke(app, "delay", turning(tmp_path / "r.mcap", touched=True), "--json")
+def test_a_doubtful_delay_is_told(tmp_path: Path) -> None:
+    result = invoke("delay", turning(tmp_path / "r.mcap", touched=True), "--json")
     assert result.exit_code == 1
     assert "was something touched" in json.loads(result.stdout)["doubt"]
     assert "was something touched" in result.stderr
 
 
-def test_delay_needs_one_of_each(app: typer.Typer, tmp_path: Path) -> None:
+def test_delay_needs_one_of_each(tmp_path: Path) -> None:
     with RecordingWriter(tmp_path / "r.mcap", RecordingInfo(10**18, 0.0)) as writer:
         writer.wrench(WrenchSample(0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    result = invoke(app, "delay", tmp_path / "r.mcap")
+    result = invoke("delay", tmp_path / "r.mcap")
     assert result.exit_code == 2
     shown = " ".join(result.stderr.replace("│", " ").split())
     assert "one sensor and one robot are needed, and it holds 1 and 0" in shown

@@ -1,4 +1,4 @@
-"""contactbench region ..."""
+"""contactbench probe regions ..."""
 
 from __future__ import annotations
 
@@ -10,20 +10,15 @@ from typing import Any
 import numpy as np
 import pytest
 import trimesh
-import typer
 from typer.testing import CliRunner
 
-from contactbench.pipeline import cli
-from contactbench.pipeline.commands.region import region_app
+from contactbench.pipeline.cli import app
 from contactbench.pipeline.mesh import Probe, load_probe, save_probe
 from contactbench.pipeline.mesh.regions import undo_file
 
-app = typer.Typer(cls=cli._Commands, rich_markup_mode=None)
-app.add_typer(region_app, name="region")
-
 
 def invoke(*arguments: object) -> Any:
-    return CliRunner().invoke(app, ["region", *map(str, arguments)])
+    return CliRunner().invoke(app, ["probe", "regions", *map(str, arguments)])
 
 
 def done(*arguments: object) -> dict[str, Any]:
@@ -388,7 +383,7 @@ def test_transfer(mesh: Path, tmp_path: Path) -> None:
     assert regions.exit_code == 0
     refused = invoke("import", new, tmp_path / "r.json")
     assert refused.exit_code == 2
-    assert "contactbench region transfer" in said(refused)
+    assert "contactbench probe regions transfer" in said(refused)
     found = done("transfer", mesh, new)
     assert found["unmatched"] == 0
     assert found["regions"][0]["after_mm2"] == pytest.approx(1600)
@@ -439,18 +434,3 @@ def test_wrong_arguments_change_nothing(mesh: Path, arguments: tuple[str, ...], 
     # Typer frames and wraps what it says itself.
     assert message in " ".join(said(result).replace("│", " ").split())
     assert (mesh.read_bytes(), mesh.with_suffix(".json").read_bytes()) == before
-
-
-COMMANDS = [
-    *("list", "add", "remove", "rename", "reorder", "colour", "box", "plane", "flood", "brush", "grow"),
-    *("mark", "undo", "redo"),
-    *("shrink", "smooth", "mirror", "clear", "transfer", "export", "import"),
-]
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_help_has_an_example(command: str) -> None:
-    shown = invoke(command, "--help")
-    assert shown.exit_code == 0
-    assert f"Example: contactbench region {command}" in " ".join(shown.stdout.split())
-    assert command in invoke("--help").stdout

@@ -36,7 +36,7 @@ def poses(tmp_path_factory):
 
 @pytest.fixture
 def weighed_session(folder, poses):
-    facts("add", folder, poses, "--kind", "poses", "--sensor", "42")
+    facts("add", folder, poses, "--kind", "poses", "--serial", "42")
     facts("compute", folder, "calibration", "c.json", "--set", "euler=xyz", "--set", "contact_force=8")
     return folder
 
@@ -122,7 +122,7 @@ def test_a_damaged_session_is_told_of_with_1_and_written_by_nobody(damaged):
     found = facts("info", damaged, code=1)
     assert "is damaged" in found["damage"]
     assert found["results"][0]["stale"]
-    for command in (("note", damaged, "x"), ("rezero", damaged, "--sensor", "1", "--reason", "x")):
+    for command in (("note", damaged, "x"), ("rezero", damaged, "--serial", "1", "--reason", "x")):
         assert "session salvage" in str(invoke(*command).exception)
     assert {str(file): file.read_bytes() for file in damaged.rglob("*") if file.is_file()} == before
 
@@ -142,9 +142,9 @@ def test_every_command_that_writes_says_so_where_nothing_can_be_written(weighed_
         ("compute", weighed_session, "calibration", "c.json"),
         ("note", weighed_session, "x"),
         ("set", weighed_session, "calibration.tip=null"),
-        ("rezero", weighed_session, "--sensor", "1", "--reason", "x"),
+        ("rezero", weighed_session, "--serial", "1", "--reason", "x"),
         ("repair", weighed_session),
-        ("record", weighed_session, "--sensor", "virtual://bench", "--seconds", "1"),
+        ("record", weighed_session, "--source", "virtual://bench", "--seconds", "1"),
     ):
         result = CliRunner().invoke(app, ["session", *map(str, command), "--json"])
         assert result.exit_code == 2, command
@@ -158,7 +158,6 @@ def test_the_help_names_every_kind_that_can_be_computed():
     words = " ".join(invoke("compute", "--help").stdout.split())
     for kind in RECOMPUTE:
         assert f"{kind}, from" in words, kind
-    assert "Example: contactbench session salvage" in invoke("salvage", "--help").stdout
 
 
 def test_there_and_back_as_an_archive(weighed_session, tmp_path):

@@ -61,7 +61,7 @@ def test_weight_that_nobody_took_off(name):
     judged = located(name, wrenches_of(name) + load).plausibility
     assert [trial.name for trial in judged.likely] == ["not_compensated"]
     assert judged.likely[0].share > 0.98
-    assert "contactbench compensate" in judged.sentences()[1]
+    assert "contactbench calibrate compensate" in judged.sentences()[1]
 
 
 @pytest.mark.parametrize(("axis", "degrees", "back"), [("x", 90, "90"), ("y", -90, "-90"), ("x", 180, "180")])
@@ -78,7 +78,7 @@ def test_what_no_usual_mistake_explains_is_not_given_one(name):
     wrenches[:, 3:] += np.cross([0.0, 0.0, 0.08], wrenches[:, :3])  # 80 mm too far
     judged = located(name, wrenches).plausibility
     assert judged.likely == ()
-    assert "Check the position in --mount" in judged.sentences()[1]
+    assert "Check the position in --place" in judged.sentences()[1]
     assert judged.miss_m > 0.01
 
 

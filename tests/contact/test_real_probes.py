@@ -62,7 +62,7 @@ def test_the_command_runs_on_it_and_says_what_is_wrong(real_probe, tmp_path):
     _, wrenches = outer_touches(real_probe, 200, np.random.default_rng(2))
     rows = "\n".join(f"{i / 200},{','.join(map(repr, map(float, row)))}" for i, row in enumerate(wrenches))
     (tmp_path / "w.csv").write_text(f"t,fx,fy,fz,mx,my,mz\n{rows}\n", encoding="utf-8")
-    arguments = ["locate", "--probe", str(path), "--units", "mm", "--mount", "0,0,160,90,0,0", "--json"]
+    arguments = ["locate", "--probe", str(path), "--units", "mm", "--place", "0,0,160,90,0,0", "--json"]
     result = CliRunner().invoke(app, [*arguments, str(tmp_path / "w.csv"), "--out", str(tmp_path / "c.csv")])
     assert result.exit_code == 0, result.stderr
     summary = json.loads(result.stdout)

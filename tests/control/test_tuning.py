@@ -1,4 +1,4 @@
-"""Gains: the highest that leave the wanted margins, and a file that config export takes."""
+"""Gains: the highest that leave the wanted margins, and a file that bundle export takes."""
 
 import json
 import math

@@ -241,10 +241,6 @@ def test_people_get_the_table_and_sentences(tmp_path: Path) -> None:
     assert f"The files are in {tmp_path}." in said
 
 
-def test_help_has_an_example() -> None:
-    assert "Example: contactbench demo" in invoke("--help").stdout
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

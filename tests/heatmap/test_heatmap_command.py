@@ -1,4 +1,4 @@
-"""``contactbench heatmap`` on what ``locate`` wrote, and on a recording."""
+"""``contactbench heatmap draw`` on what ``locate`` wrote, and on a recording."""
 
 import json
 from pathlib import Path
@@ -66,7 +66,7 @@ def run(*arguments, code=0):
 
 
 def facts(*arguments):
-    return json.loads(run("heatmap", *arguments, "--json").stdout)
+    return json.loads(run("heatmap", "draw", *arguments, "--json").stdout)
 
 
 @pytest.mark.parametrize("suffix", ["png", "ply", "glb"])
@@ -162,7 +162,7 @@ def test_weighed_by_confidence(bench):
     shared = ["--probe", bench / "p.ply", "--out", bench / "sure.ply"]
     old = without(bench / "contacts.csv", "confidence")
     assert facts(old, *shared)["total"] == N
-    done = run("heatmap", old, *shared, "--by-confidence", code=2)
+    done = run("heatmap", "draw", old, *shared, "--by-confidence", code=2)
     assert "without-confidence.csv: these contacts do not say how sure they are" in " ".join(
         done.output.split()
     )
@@ -189,7 +189,7 @@ def test_a_confidence_that_is_none_is_refused(bench):
     cells[place] = "1.5"
     wrong = bench / "wrong.csv"
     wrong.write_text("\n".join([*text[:3], ",".join(cells), *text[4:]]), encoding="utf-8")
-    done = run("heatmap", wrong, "--probe", bench / "p.ply", "--out", bench / "x.ply", code=2)
+    done = run("heatmap", "draw", wrong, "--probe", bench / "p.ply", "--out", bench / "x.ply", code=2)
     assert "wrong.csv: row 3: the confidence is 1.5" in " ".join(done.output.split())
 
 
@@ -227,7 +227,7 @@ def test_a_film_of_contacts(bench):
     assert said["contacts"] == N
     assert out.read_bytes().startswith(b"GIF8")
     errors = ["--quantity", "error", "--markers", bench / "m.csv", "--speed", 50]
-    run("heatmap", bench / "contacts.csv", "--probe", bench / "p.ply", "--out", out, *errors)
+    run("heatmap", "draw", bench / "contacts.csv", "--probe", bench / "p.ply", "--out", out, *errors)
 
 
 @pytest.mark.parametrize(
@@ -251,6 +251,6 @@ def test_a_film_of_contacts(bench):
 )
 def test_wrong_use_is_refused(bench, monkeypatch, arguments, words):
     monkeypatch.chdir(bench)
-    done = run("heatmap", *arguments, "--probe", "p.ply", code=2)
+    done = run("heatmap", "draw", *arguments, "--probe", "p.ply", code=2)
     assert words in " ".join(done.output.split())
     assert not Path("x.ply").exists()

@@ -82,7 +82,7 @@ def verified(tmp_path_factory):
 
 def drawn(folder, *arguments, code=0):
     done = CliRunner().invoke(
-        app, ["heatmap", *map(str, arguments), "--out", str(folder / "e.ply"), "--json"]
+        app, ["heatmap", "draw", *map(str, arguments), "--out", str(folder / "e.ply"), "--json"]
     )
     assert done.exit_code == code, done.output
     return done

@@ -257,7 +257,15 @@ def test_a_pdf_or_the_remedy(page, monkeypatch):
 
 def test_the_command(files):
     out = files / "report.html"
-    arguments = ["report", "--verification", files / "v.json", "--calibration", files / "c.json", "--probe"]
+    arguments = [
+        "verify",
+        "report",
+        "--verification",
+        files / "v.json",
+        "--calibration",
+        files / "c.json",
+        "--probe",
+    ]
     arguments += [files / "p.ply", "--out", out, "--serial", "M8128=SN 7", "--operator", "A. B.", "--json"]
     done = CliRunner().invoke(app, [str(each) for each in arguments])
     assert done.exit_code == 0, done.output
@@ -354,7 +362,7 @@ def test_a_check_of_another_calibration_is_not_shown_as_one_of_this(given):
 
 def test_the_command_takes_the_checks_and_refuses_other_files(files, tmp_path):
     (tmp_path / "w.json").write_text(json.dumps(known("known_weight")), encoding="utf-8")
-    arguments = ["report", "--verification", files / "v.json", "--probe", files / "p.ply", "--out"]
+    arguments = ["verify", "report", "--verification", files / "v.json", "--probe", files / "p.ply", "--out"]
     options = ["--known-weight", tmp_path / "w.json"]
     result = CliRunner().invoke(app, list(map(str, [*arguments, tmp_path / "r.html", *options])))
     assert result.exit_code == 0, result.stderr

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from click.testing import Result
 
 COUNT = 1_500
-BENCH = ("--sensor", "virtual://bench", "--pose", "virtual://bench")
+BENCH = ("--source", "virtual://bench", "--pose", "virtual://bench")
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def run(*arguments: object) -> Result:
 
 def replay(folder: Path, speed: str = "step") -> tuple[str, ...]:
     address = f"replay://{folder / 'r.mcap'}?speed={speed}"
-    return ("--sensor", address, "--pose", address)
+    return ("--source", address, "--pose", address)
 
 
 def test_all_outputs_say_the_same(folder: Path, tmp_path: Path) -> None:
@@ -134,7 +134,7 @@ def test_another_sensor_and_another_rate_are_said(folder: Path, tmp_path: Path) 
     file = record(tmp_path / "o.mcap", every_other, about)
     address = f"replay://{file}?speed=step"
     out = tmp_path / "c.jsonl"
-    streams = ("--sensor", address, "--pose", "still://?rpy=0,0,0")
+    streams = ("--source", address, "--pose", "still://?rpy=0,0,0")
     refused = run(folder / "bundle", *streams, "--out", out)
     assert refused.exit_code == 2
     assert "--other-sensor" in refused.stderr

@@ -68,7 +68,7 @@ def test_a_recording_gives_the_same_bytes(
     file = record(tmp_path / "r.mcap", mixed)
     address = f"replay://{file}?speed=step"
     told = tmp_path / "told.jsonl"
-    arguments = ["run", str(folder), "--sensor", address, "--pose", address, "--out", str(told)]
+    arguments = ["run", str(folder), "--source", address, "--pose", address, "--out", str(told)]
     assert CliRunner().invoke(app, arguments).exit_code == 0
     out = told.read_text(encoding="utf-8").splitlines()
     expected = run(example, folder, given="\n".join(input_lines(mixed))).splitlines()
@@ -97,7 +97,7 @@ def test_what_a_contact_lies_on_is_told_alike(example: Path, tmp_path: Path) -> 
         mixed.append(wrench(t, clamped.gravity.predict(level) + touch + rng.normal(0, 0.001, 6)))
     file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
     address = f"replay://{file}?speed=step"
-    arguments = ["run", str(tmp_path / "bundle"), "--sensor", address, "--pose", address, "--out", str(told)]
+    arguments = ["run", str(tmp_path / "bundle"), "--source", address, "--pose", address, "--out", str(told)]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 0, done.stderr
     lines = told.read_text(encoding="utf-8").splitlines()
@@ -125,7 +125,7 @@ def test_the_zero_is_told_alike(example: Path, bundle: tuple[Path, RuntimeConfig
         mixed.append(wrench(t, reading + rng.normal(0, [0.02] * 3 + [0.001] * 3)))
     file, told = record(tmp_path / "r.mcap", mixed), tmp_path / "told.jsonl"
     address = f"replay://{file}?speed=step"
-    arguments = ["run", str(folder), "--sensor", address, "--pose", address, "--out", str(told)]
+    arguments = ["run", str(folder), "--source", address, "--pose", address, "--out", str(told)]
     done = CliRunner().invoke(app, arguments)
     assert done.exit_code == 0, done.stderr
     out = told.read_text(encoding="utf-8").splitlines()

@@ -80,7 +80,7 @@ def recording(tmp_path_factory):
 
 
 def test_from_a_recording_to_a_calibration_that_is_the_same_again(folder, recording, tmp_path):
-    done("add", folder, recording, "--kind", "recording", "--sensor", "42")
+    done("add", folder, recording, "--kind", "recording", "--serial", "42")
     done("compute", folder, "captures", "poses.csv", "--set", "delay=0")
     done("compute", folder, "calibration", "c.json")
     with Session.open(folder, write=False) as session:
@@ -90,10 +90,10 @@ def test_from_a_recording_to_a_calibration_that_is_the_same_again(folder, record
         assert json.loads((folder / calibration.file.path).read_bytes())["mass_kg"] == pytest.approx(
             0.62, abs=0.03
         )
-    assert invoke("captures", recording, "--out", tmp_path / "p.csv").exit_code == 0
+    assert invoke("calibrate", "captures", recording, "--out", tmp_path / "p.csv").exit_code == 0
     assert made.read_bytes() == (tmp_path / "p.csv").read_bytes()
     assert done("replay", folder)["same"] == 2
-    stale = done("rezero", folder, "--sensor", "42", "--reason", "new cable")["stale"]
+    stale = done("rezero", folder, "--serial", "42", "--reason", "new cable")["stale"]
     assert stale == ["calibration c.json", "captures poses.csv"]
     assert "re-zeroed" in done("compute", folder, "calibration", "d.json")["stale"][0]
 
@@ -190,7 +190,7 @@ def test_companions_are_given_or_found(ball, tmp_path):
 
 def test_an_alignment_is_an_input_of_a_probe(folder, ball, tmp_path):
     saved = tmp_path / "where.json"
-    options = ("--mount", "0,0,40,0,0,90", "--out", tmp_path / "aligned.ply", "--save", saved)
+    options = ("--place", "0,0,40,0,0,90", "--out", tmp_path / "aligned.ply", "--save", saved)
     assert invoke("probe", "align", ball, *options).exit_code == 0
     done("add", folder, ball.with_suffix(".stl"), "--kind", "mesh")
     done("add", folder, saved, "--kind", "alignment")

@@ -69,7 +69,10 @@ def test_two_tables_are_joined_as_by_the_command(tmp_path):
     assert "no pose within 0.25 s beside them" in told[0]
     options = ["--robot-poses", str(robot), "--euler", "xyz", "--delay", "0.03", "--out"]
     written = tmp_path / "command.csv"
-    assert CliRunner().invoke(cli.app, ["captures", str(sensor), *options, str(written)]).exit_code == 0
+    assert (
+        CliRunner().invoke(cli.app, ["calibrate", "captures", str(sensor), *options, str(written)]).exit_code
+        == 0
+    )
     assert made == {"poses.csv": written.read_bytes()}
 
 
@@ -86,7 +89,7 @@ def test_orientation_noise_and_down_are_those_of_the_command(tmp_path):
     made = json.loads(calibration({"poses": file}, given, created)["c.json"])
     options = ["--orientation-noise", "tracker", "--down", "0,0,-1", "--euler", "xyz", "--out"]
     out = tmp_path / "c.json"
-    assert CliRunner().invoke(cli.app, ["calibrate", str(file), *options, str(out)]).exit_code == 0
+    assert CliRunner().invoke(cli.app, ["calibrate", "fit", str(file), *options, str(out)]).exit_code == 0
     command = json.loads(out.read_bytes())
     assert {**made, "created": ""} == {**command, "created": ""}
     with pytest.raises(InputError, match="down_W"):

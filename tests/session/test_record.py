@@ -59,7 +59,7 @@ def recorded(folder, name="a.mcap"):
 def test_a_sensor_and_a_robot_become_an_input_with_counters(folder):
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device, emulator("elfin") as arm:
         options = ("--pose", arm.url, "--seconds", 1, "--serial", "SN 7", "--note", "first", "--json")
-        result = invoke("session", "record", folder, "--sensor", device.url, *options)
+        result = invoke("session", "record", folder, "--source", device.url, *options)
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
     with Session.open(folder, write=False) as session:
@@ -79,7 +79,7 @@ def test_a_sensor_and_a_robot_become_an_input_with_counters(folder):
 
 
 def test_a_sensor_that_says_nothing_leaves_nothing_but_words(folder):
-    result = invoke("session", "record", folder, "--sensor", "sri+serial:///dev/none", "--seconds", 0.3)
+    result = invoke("session", "record", folder, "--source", "sri+serial:///dev/none", "--seconds", 0.3)
     assert result.exit_code == 1
     with Session.open(folder, write=False) as session:
         assert session.state.inputs == ()
@@ -92,7 +92,7 @@ def test_a_rezero_and_a_stall_in_the_stream_become_events(folder):
     steady = sine((0.01,) * 6, 3.0, (5.0, -2.0, 13.5, 0.4, -0.2, 0.05))
     with emulator("sri", "tcp", rate=200.0, signal=steady, script=script) as device:
         result = invoke(
-            "session", "record", folder, "--sensor", device.url, "--seconds", 2, "--name", "a.mcap", "--json"
+            "session", "record", folder, "--source", device.url, "--seconds", 2, "--name", "a.mcap", "--json"
         )
     assert result.exit_code == 0, result.stderr
     assert len(json.loads(result.stdout)["suspicions"]) == 1
@@ -108,7 +108,7 @@ def test_a_recording_can_be_replayed_into_a_session(folder, tmp_path):
         for sample in samples(400):
             writer.wrench(sample)
     address = f"replay://{tmp_path / 'a.mcap'}?speed=step"
-    result = invoke("session", "record", folder, "--sensor", address)
+    result = invoke("session", "record", folder, "--source", address)
     assert result.exit_code == 0, result.stderr
     with Session.open(folder, write=False) as session:
         [stored] = session.state.inputs
@@ -118,10 +118,10 @@ def test_a_recording_can_be_replayed_into_a_session(folder, tmp_path):
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("--sensor", "nonsense"),
-        ("--sensor", "elfin+tcp://127.0.0.1"),
-        ("--sensor", "sri+tcp://127.0.0.1", "--seconds", "0"),
-        ("--sensor", "sri+tcp://127.0.0.1", "--seconds", "1", "--name", "../a.mcap"),
+        ("--source", "nonsense"),
+        ("--source", "elfin+tcp://127.0.0.1"),
+        ("--source", "sri+tcp://127.0.0.1", "--seconds", "0"),
+        ("--source", "sri+tcp://127.0.0.1", "--seconds", "1", "--name", "../a.mcap"),
     ],
 )
 def test_wrong_input_ends_with_2_and_leaves_nothing(folder, arguments):
@@ -136,7 +136,7 @@ def test_words_and_a_rezero_are_in_the_journal(folder, tmp_path):
         sha256 = session.add_input(tmp_path / "p.csv", "poses", sensor="42").action.file.sha256
         session.add_result("report", "r.txt", {"r.txt": b""}, {"poses": sha256}, {})
     assert invoke("session", "note", folder, "new cable").exit_code == 0
-    result = invoke("session", "rezero", folder, "--sensor", "42", "--reason", "new cable", "--json")
+    result = invoke("session", "rezero", folder, "--serial", "42", "--reason", "new cable", "--json")
     assert json.loads(result.stdout)["stale"] == ["report r.txt"]
     with Session.open(folder, write=False) as session:
         assert session.state.notes[-1].text == "new cable"
@@ -188,7 +188,7 @@ def test_a_sample_that_cannot_be_recorded_is_counted_and_a_full_disk_ends_it(tmp
 def test_a_killed_recording_is_adopted_by_repair(folder):
     code = "import sys; from contactbench.pipeline.cli import main; main()"
     with emulator("sri", "tcp", rate=200.0, signal=moving()) as device:
-        command = [sys.executable, "-c", code, "session", "record", str(folder), "--sensor", device.url]
+        command = [sys.executable, "-c", code, "session", "record", str(folder), "--source", device.url]
         with subprocess.Popen(
             [*command, "--serial", "SN 7", "--name", "a.mcap"], cwd=ROOT, stderr=subprocess.DEVNULL
         ) as child:

@@ -49,7 +49,7 @@ def test_a_calibration_has_the_bytes_of_the_command(session, poses, tmp_path, mo
     created = np.datetime64(record.action.created[:-1]).astype("datetime64[s]").astype(int)
     monkeypatch.setenv("SOURCE_DATE_EPOCH", str(created))
     options = ("--euler", "xyz", "--tip", "0,0,120", "--noise-force", 0.05, "--noise-torque", 0.002)
-    assert invoke("calibrate", poses, *options, "--out", tmp_path / "c.json").exit_code == 0
+    assert invoke("calibrate", "fit", poses, *options, "--out", tmp_path / "c.json").exit_code == 0
     stored = session.folder / record.action.files["calibration.json"].path
     assert stored.read_bytes() == (tmp_path / "c.json").read_bytes()
     assert [each.outcome for each in replay(session)] == [Outcome.SAME]

@@ -211,7 +211,7 @@ def test_a_stepwise_replay_into_a_session_waits_for_the_disk(folder, tmp_path, m
             writer.wrench(sample)
     monkeypatch.setattr("contactbench.pipeline.session.live.Recorder", partial(Recorder, most_waiting=5))
     address = f"replay://{tmp_path / 'a.mcap'}?speed=step"
-    result = CliRunner().invoke(session_app, ["record", str(folder), "--sensor", address, "--json"])
+    result = CliRunner().invoke(session_app, ["record", str(folder), "--source", address, "--json"])
     assert result.exit_code == 0, result.stderr
     assert json.loads(result.stdout)["dropped"] == 0
     [kept] = inputs(folder)

@@ -81,7 +81,7 @@ def arguments(folder, recording="touches.csv"):
     options = [
         part for role in ("probe", "calibration", "markers") for part in (f"--{role}", str(given[role]))
     ]
-    return ["verify", *options, str(given["recording"])]
+    return ["verify", "touches", *options, str(given["recording"])]
 
 
 def test_a_good_bench_passes_and_every_touch_is_accounted_for(good):
@@ -320,16 +320,37 @@ def test_the_command_leaves_markers_out(files, good, tmp_path):
 def test_markers_are_generated_and_snapped_by_command(files, tmp_path):
     run, made, moved = CliRunner(), tmp_path / "m.csv", tmp_path / "s.csv"
     ended = run.invoke(
-        app, ["markers", "generate", str(files / "probe.ply"), "--all", "--count", "5", "--out", str(made)]
+        app,
+        [
+            "probe",
+            "markers",
+            "generate",
+            str(files / "probe.ply"),
+            "--all",
+            "--count",
+            "5",
+            "--out",
+            str(made),
+        ],
     )
     assert ended.exit_code == 0, ended.output
     ended = run.invoke(
         app,
-        ["markers", "snap", str(made), "--probe", str(files / "probe.ply"), "--out", str(moved), "--json"],
+        [
+            "probe",
+            "markers",
+            "snap",
+            str(made),
+            "--probe",
+            str(files / "probe.ply"),
+            "--out",
+            str(moved),
+            "--json",
+        ],
     )
     assert ended.exit_code == 0
     assert max(json.loads(ended.stdout)["moved_mm"].values()) < 1e-4
-    wrong = run.invoke(app, ["markers", "generate", str(files / "probe.ply"), "--out", str(made)])
+    wrong = run.invoke(app, ["probe", "markers", "generate", str(files / "probe.ply"), "--out", str(made)])
     assert wrong.exit_code == 2
 
 

@@ -38,7 +38,7 @@ def calibrated(made, tmp_path):
 
 
 def command(*arguments):
-    return CliRunner().invoke(cli.app, ["config", "export", *map(str, arguments)])
+    return CliRunner().invoke(cli.app, ["bundle", "export", *map(str, arguments)])
 
 
 def states(session):
@@ -96,7 +96,7 @@ def test_what_is_given_to_the_command_counts_more_than_the_session(verified, tmp
     with Session.open(verified, by="ada") as session:
         session.set_parameter("config.sensor", "M8128")
         session.set_parameter("config.no_filter", True)
-    made = command(verified, "--sensor", "other", "--filter", "--out", tmp_path / "b")
+    made = command(verified, "--model", "other", "--filter", "--out", tmp_path / "b")
     assert made.exit_code == 0, made.stderr
     model = RuntimeConfig.load(tmp_path / "b").model
     assert model.sensor.model == "other"

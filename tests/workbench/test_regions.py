@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from workbench.region_sessions import CENTRE, RADIUS, ball_shell, desk, folder, made_session  # noqa: F401
 
-from contactbench.pipeline.commands.region_session import Session as CommandSession
+from contactbench.pipeline.commands.regions import Session as CommandSession
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.colours import PLAIN
 from contactbench.pipeline.mesh.engines import Cancelled
@@ -319,7 +319,7 @@ def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
         ["grow", "{}", "Lens", "--distance=2"],
         ["mirror", "{}", "Lens", "--normal=0,0,1", "--point=0,0,80"],
     ):
-        ran = CliRunner().invoke(app, ["region", *(part.format(mesh) for part in command)])
+        ran = CliRunner().invoke(app, ["probe", "regions", *(part.format(mesh) for part in command)])
         assert ran.exit_code == 0, ran.output
     work = RegionsWork(load_probe_file(mesh), None)  # with the file's own rounding
     texts = [work.step(lambda model: model.add("Lens"))]
@@ -331,7 +331,7 @@ def test_painting_by_commands_gives_the_same_regions(work, tmp_path):
     texts.append(work.give(work.finder(Mirror((0, 0, 0.08), (0, 0, 1)), 1)()))
     assert np.array_equal(work.model.labels, CommandSession(mesh).model.labels)
     for text in reversed(texts):  # undone by command as in the window
-        ran = CliRunner().invoke(app, ["region", "undo", str(mesh), "--json"])
+        ran = CliRunner().invoke(app, ["probe", "regions", "undo", str(mesh), "--json"])
         assert json.loads(ran.stdout)["undone"] == text
         assert work.undo()
         assert np.array_equal(work.model.labels, CommandSession(mesh).model.labels)

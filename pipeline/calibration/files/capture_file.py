@@ -121,7 +121,7 @@ def capture_recording(
 
     Sensor and robot have times of their own: the flange's orientation is interpolated to each wrench, never
     extrapolated, nor across a gap of more than 0.25 s. The poses of an MCAP file are those of the table that
-    ``contactbench recording convert`` makes. The robot's base B is taken as W.
+    ``contactbench record convert`` makes. The robot's base B is taken as W.
 
     Parameters
     ----------

@@ -188,8 +188,8 @@ def is_recorded_table(file: Path) -> bool:
                 f" and samples at most {_CLOSEST_POSES_S} s apart. Record faster, or shorten the table."
             )
         raise reader.error(
-            f"{many}. If this is a recording, add the time of each row in s as column t: contactbench calibrate and"
-            " contactbench captures then find the still poses in it."
+            f"{many}. If this is a recording, add the time of each row in s as column t: contactbench calibrate fit and"
+            " contactbench calibrate captures then find the still poses in it."
         )
 
 

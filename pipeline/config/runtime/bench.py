@@ -121,11 +121,11 @@ def export_from_files(
     calibration, probe : path
         JSON, and PLY with its JSON beside it.
     verification, report : path, optional
-        JSON of ``contactbench verify``, and the HTML report.
+        JSON of ``contactbench verify touches``, and the HTML report.
     settings : ExportSettings
     created : datetime
     known_weight, known_touch : path, optional
-        JSON of ``contactbench check``.
+        JSON of ``contactbench calibrate check``.
     unverified : bool
         See `build_config`.
 

@@ -1,5 +1,5 @@
 """
-What a config says of the known weight and the known touch: summaries of the JSON files of ``contactbench check``.
+What a config says of the known weight and the known touch: summaries of what ``calibrate check`` wrote.
 
 Neither has to be there. But one that failed shows that the sensor's sign, unit or scale is wrong, and then every force
 that a robot acts on: such a config counts as unverified, whatever the markers said.

@@ -31,7 +31,7 @@ _Six = tuple[_Positive, _Positive, _Positive, _Positive, _Positive, _Positive]
 
 class ExportOptions(BaseModel):
     """
-    As the options of ``contactbench config export``; None: what the session or the files know.
+    As the options of ``contactbench bundle export``; None: what the session or the files know.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class ExportOptions(BaseModel):
     max_force, max_torque : float
         What a controller must never exceed, N and N·m.
     controller : ControllerPart or None
-        Gains, as the part ``controller`` of a file that ``contactbench control tune`` writes.
+        Gains, as the part ``controller`` of a file that ``contactbench bench control tune`` writes.
     sensor_frame, world_frame : str
         S and W, as the robot description names them.
     sensor_name : str or None

@@ -1,4 +1,4 @@
-"""What a config says of a verification: a summary of the JSON file that ``contactbench verify`` wrote."""
+"""What a config says of a verification: a summary of the JSON file that ``contactbench verify touches`` wrote."""
 
 from __future__ import annotations
 

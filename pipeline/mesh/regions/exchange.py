@@ -238,7 +238,9 @@ def _fill(labels: npt.NDArray[np.int32], rank: int, runs: list[Any], name: str) 
 
 def _check_mesh(mesh: dict[str, Any], probe: Probe) -> None:
     facets = _of(mesh, "facets", int)
-    remedy = "Transfer them from the mesh that they were made for instead (contactbench region transfer)."
+    remedy = (
+        "Transfer them from the mesh that they were made for instead (contactbench probe regions transfer)."
+    )
     if facets != len(probe.faces):
         raise RegionError(
             f"the regions are for a mesh of {str(facets)[:20]} facets, this one has {len(probe.faces)}. {remedy}"

@@ -168,7 +168,7 @@ def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> tuple[str, .
     if region_ratio != 1 and not probe.preferred.any():
         told.append(
             f"The region ratio is {region_ratio:g}, but the mesh has no region: facets are spread evenly. Mark one"
-            " first (contactbench region add)."
+            " first (contactbench probe regions add)."
         )
     return tuple(told)
 

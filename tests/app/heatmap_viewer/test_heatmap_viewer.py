@@ -219,7 +219,7 @@ def test_what_is_saved_is_what_the_command_writes(qtbot, viewer, files, tmp_path
     arguments = [files / "one.mcap", "--probe", files / "p.ply", "--calibration", files / "c.json"]
     arguments += ["--quantity", "force", "--bandwidth", 3, "--from", 0.5, "--to", 3.25, "--force-from", 2.5]
     arguments += ["--speed", 20, "--out", theirs]
-    done = CliRunner().invoke(commands, ["heatmap", *map(str, arguments)])
+    done = CliRunner().invoke(commands, ["heatmap", "draw", *map(str, arguments)])
     assert done.exit_code == 0, done.output
     assert mine.read_bytes() == theirs.read_bytes()
 
@@ -275,7 +275,7 @@ def saved_mesh(qtbot, viewer, file, monkeypatch):
 
 
 def command(*arguments):
-    done = CliRunner().invoke(commands, ["heatmap", *map(str, arguments)])
+    done = CliRunner().invoke(commands, ["heatmap", "draw", *map(str, arguments)])
     assert done.exit_code == 0, done.output
 
 

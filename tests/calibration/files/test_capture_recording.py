@@ -117,7 +117,16 @@ def test_the_poses_lead_to_the_load(file: Path, taken: Recording) -> None:
 def test_a_delay_is_estimated_and_said(taken: Recording, tmp_path: Path) -> None:
     late = write(tmp_path / "late.mcap", taken, late=LATE)
     result = invoke(
-        "captures", late, "--delay", "auto", "--mount", "10,-20,70", "--out", tmp_path / "p.csv", "--json"
+        "calibrate",
+        "captures",
+        late,
+        "--delay",
+        "auto",
+        "--mount",
+        "10,-20,70",
+        "--out",
+        tmp_path / "p.csv",
+        "--json",
     )
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
@@ -139,13 +148,13 @@ def test_no_pose_is_carried_over_a_gap(taken: Recording, tmp_path: Path) -> None
 
 def test_calibrate_takes_a_recording(file: Path, tmp_path: Path) -> None:
     out = tmp_path / "c.json"
-    result = invoke("calibrate", file, "--mount", "10,-20,70", "--out", out, "--json")
+    result = invoke("calibrate", "fit", file, "--mount", "10,-20,70", "--out", out, "--json")
     assert result.exit_code == 0, result.stderr
     assert json.loads(result.stdout)["poses"] >= 5
     assert "no good" in said(result)
     poses = tmp_path / "p.csv"
-    assert invoke("captures", file, "--mount", "10,-20,70", "--out", poses).exit_code == 0
-    assert invoke("calibrate", poses, "--out", tmp_path / "d.json").exit_code == 0
+    assert invoke("calibrate", "captures", file, "--mount", "10,-20,70", "--out", poses).exit_code == 0
+    assert invoke("calibrate", "fit", poses, "--out", tmp_path / "d.json").exit_code == 0
     one, other = (json.loads((tmp_path / name).read_bytes()) for name in ("c.json", "d.json"))
     assert one["mass_kg"] == pytest.approx(other["mass_kg"], rel=1e-9)
 
@@ -160,7 +169,7 @@ def test_calibrate_takes_a_recording(file: Path, tmp_path: Path) -> None:
     ],
 )
 def test_what_does_not_fit_is_said(file: Path, tmp_path: Path, options: tuple[str, ...], words: str) -> None:
-    result = invoke("captures", file, *options, "--out", tmp_path / "p.csv")
+    result = invoke("calibrate", "captures", file, *options, "--out", tmp_path / "p.csv")
     assert result.exit_code == 2
     assert words in said(result) + " " + str(result.exception)
     assert not (tmp_path / "p.csv").exists()
@@ -191,16 +200,16 @@ def test_two_tables_give_what_the_recording_gives(file: Path, taken: Recording, 
     assert "no good" in found.warnings[0]
 
 
-@pytest.mark.parametrize("command", ["calibrate", "captures"])
+@pytest.mark.parametrize("command", ["fit", "captures"])
 def test_the_commands_join_two_tables(taken: Recording, tmp_path: Path, command: str) -> None:
     sensor, robot = tables(tmp_path, taken, late=LATE)
     options = ("--robot-poses", robot, "--euler", "xyz", "--mount", "10,-20,70", "--delay", "auto")
-    result = invoke(command, sensor, *options, "--out", tmp_path / "out", "--json")
+    result = invoke("calibrate", command, sensor, *options, "--out", tmp_path / "out", "--json")
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
     assert "ms later than the robot" in said(result)
     assert "left out, " in said(result)
-    if command == "calibrate":
+    if command == "fit":
         assert facts["mass_kg"] == pytest.approx(taken.model.mass, abs=0.01)
         assert f"{facts['poses']} still poses found" in facts["notes"][0]
     else:
@@ -210,12 +219,12 @@ def test_the_commands_join_two_tables(taken: Recording, tmp_path: Path, command:
 def test_the_other_commands_join_two_tables(taken: Recording, tmp_path: Path) -> None:
     sensor, robot = tables(tmp_path, taken)
     options = ("--robot-poses", robot, "--euler", "xyz", "--mount", "10,-20,70")
-    assert invoke("calibrate", sensor, *options, "--out", tmp_path / "c.json").exit_code == 0
-    checked = invoke("verify-still", tmp_path / "c.json", sensor, *options, "--json")
+    assert invoke("calibrate", "fit", sensor, *options, "--out", tmp_path / "c.json").exit_code == 0
+    checked = invoke("calibrate", "check", "still", tmp_path / "c.json", sensor, *options, "--json")
     assert checked.exit_code == 0, checked.stderr
     assert "still poses found" in json.loads(checked.stdout)["notes"][0]
     assert "left out, " in said(checked)
-    diagnosed = invoke("diagnose", sensor, *options, "--json")
+    diagnosed = invoke("calibrate", "diagnose", sensor, *options, "--json")
     assert "still poses found" in json.loads(diagnosed.stdout)["notes"][0]
     assert "left out, " in said(diagnosed)
 

@@ -1,4 +1,4 @@
-"""``contactbench config``: export from files and from a session, check, diff, schema; exit codes."""
+"""``contactbench bundle``: export from files and from a session, check, diff, schema; exit codes."""
 
 import dataclasses
 import hashlib
@@ -29,7 +29,7 @@ RATE = ("--rate", 1000)
 
 
 def invoke(*arguments):
-    return CliRunner().invoke(cli.app, ["config", *map(str, arguments)])
+    return CliRunner().invoke(cli.app, ["bundle", *map(str, arguments)])
 
 
 def sha256(file):
@@ -130,7 +130,7 @@ def files_of(bench):
 
 
 def test_export_check_and_the_same_bytes_again(bench):
-    options = ("--sensor", "M8128", "--serial", "42", "--rate", 500, "--cutoff", 20, "--operator", "Ada",
+    options = ("--model", "M8128", "--serial", "42", "--rate", 500, "--cutoff", 20, "--operator", "Ada",
                "--saturation", "400,400,400,20,20,20", "--region-only")  # fmt: skip
     made = invoke("export", *files_of(bench), *options, "--out", bench / "b.zip", "--json")
     assert made.exit_code == 0, made.stderr

@@ -214,7 +214,7 @@ def test_the_command_says_it(files: dict[str, bytes], tmp_path: Path) -> None:
         folder.mkdir()
         for name, data in content.items():
             (folder / name).write_bytes(data)
-        return CliRunner().invoke(app, ["config", "check", str(folder), *options])
+        return CliRunner().invoke(app, ["bundle", "check", str(folder), *options])
 
     good = check(files, "--json")
     assert good.exit_code == 0

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from contactbench.pipeline.commands.emulate import emulate_app
-from contactbench.pipeline.devices.emulate import EmulatorError
+from contactbench.pipeline.cli import app
 from contactbench.pipeline.devices.transport import line_to
 from contactbench.pipeline.devices.url import DeviceAddress
 
@@ -18,32 +17,34 @@ runner = CliRunner()
 
 
 def test_the_first_line_is_the_address():
-    ended = runner.invoke(emulate_app, ["sri", "--pty", "--seconds", "0.05", "--fault", "stall@2+0.5"])
+    ended = runner.invoke(
+        app, ["bench", "emulate", "sri", "--pty", "--seconds", "0.05", "--fault", "stall@2+0.5"]
+    )
     assert ended.exit_code == 0
     assert DeviceAddress.parse(ended.stdout.splitlines()[0]).baud == 115_200
-    ended = runner.invoke(emulate_app, ["rdt", "--port", "0", "--seconds", "0.05", "--json"])
+    ended = runner.invoke(app, ["bench", "emulate", "rdt", "--port", "0", "--seconds", "0.05", "--json"])
     assert DeviceAddress.parse(json.loads(ended.stdout)["url"]).profile == "ati"
     assert "0 commands refused" in ended.stderr
 
 
 @pytest.mark.parametrize("options", [["--pty", "--port", "1"], ["--seconds", "0"]])
 def test_contradictions_are_refused(options: list[str]):
-    assert runner.invoke(emulate_app, ["sri", *options]).exit_code == 2
+    assert runner.invoke(app, ["bench", "emulate", "sri", *options]).exit_code == 2
 
 
 def test_wrong_devices_and_faults_are_refused():
     for arguments in (["other"], ["bota", "--port", "0"], ["sri", "--fault", "rest@1"]):
-        assert isinstance(runner.invoke(emulate_app, arguments).exception, EmulatorError)
+        assert "error:" in runner.invoke(app, ["bench", "emulate", *arguments]).stderr
 
 
 def test_wrong_tools_are_refused():
-    assert runner.invoke(emulate_app, ["ur", "--tool", "0,0,0"]).exit_code == 2
-    assert isinstance(runner.invoke(emulate_app, ["sri", "--tool", "0,0,0,0,0,0"]).exception, EmulatorError)
+    assert runner.invoke(app, ["bench", "emulate", "ur", "--tool", "0,0,0"]).exit_code == 2
+    assert "error:" in runner.invoke(app, ["bench", "emulate", "sri", "--tool", "0,0,0,0,0,0"]).stderr
     arguments = ["ur", "--tool", "0,0,0.1,0,0,1", "--quirk", "older", "--seconds", "0.05"]
-    assert runner.invoke(emulate_app, arguments).exit_code == 0
+    assert runner.invoke(app, ["bench", "emulate", *arguments]).exit_code == 0
 
 
-COMMAND = [sys.executable, "-m", "contactbench.pipeline.commands.emulate"]
+COMMAND = [sys.executable, "-m", "contactbench.pipeline.cli", "bench", "emulate"]
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

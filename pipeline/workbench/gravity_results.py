@@ -9,7 +9,7 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import wrong_with
-from contactbench.pipeline.session.live import RECORDING
+from contactbench.pipeline.session.live import RECORDING, next_recording
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
 from contactbench.pipeline.workbench.gravity_settings import (
@@ -64,14 +64,7 @@ class Outcome:
 
 def next_name(state: State, folder: Path, *, check: bool = False) -> str:
     """Return the name of the next recording of this step that neither the session nor its folder has."""
-    stem = _CHECK if check else _STEM
-    known = {each.name for each in state.inputs} | {
-        file.name.partition("unfinished-")[2] for file in (folder / "raw").glob("unfinished-*")
-    }
-    number = 1
-    while f"{stem}{number}.mcap" in known:
-        number += 1
-    return f"{stem}{number}.mcap"
+    return next_recording(state, folder, (_CHECK if check else _STEM).removesuffix("-"))
 
 
 def interrupted(state: State) -> Input | None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
 from contactbench.pipeline.workbench.export_checklist import newest
@@ -183,7 +184,7 @@ class KnownChecks:
                 )
             serial = self._desk.state.settings.get("devices.serial")
             known = serial.value if serial is not None and isinstance(serial.value, str) else None
-            name = _next_name(self._desk.state, self._desk.folder, reading.stem)
+            name = next_recording(self._desk.state, self._desk.folder, reading.stem)
             self._tape = Tape.start(self._desk, self._live, name, known or None).result(_PATIENCE_S)
             self._end, self.reading = self._live.follow(reading.feed), reading
 
@@ -255,14 +256,3 @@ def check_recordings(
     made = session.state.current_results.get(("report", REPORT))
     if made is not None and made.mark is None and newest(session.state, "verification") is not None:
         compute(session, "report", REPORT, newest_inputs(session.state, "report"), {})
-
-
-def _next_name(state: State, folder: Path, stem: str) -> str:
-    """Return the name of the next recording of this kind that neither the session nor its folder has."""
-    known = {each.name for each in state.inputs} | {
-        file.name.partition("unfinished-")[2] for file in (folder / "raw").glob("unfinished-*")
-    }
-    number = 1
-    while f"{stem}-{number}.mcap" in known:
-        number += 1
-    return f"{stem}-{number}.mcap"

@@ -12,6 +12,7 @@ from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
 from contactbench.pipeline.session.files import chunks_of
 from contactbench.pipeline.session.making import folder_for
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE
+from contactbench.pipeline.workbench.undoing import UNDONE, put_input, put_result
 
 if TYPE_CHECKING:
     from contactbench.pipeline.session import Session, State
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.probe import Mesh, Preview
 
 ALIGNMENT, ALIGNMENT_FILE = "alignment", "alignment.json"
-_UNDONE = "undone"
 
 
 @dataclass(frozen=True)
@@ -107,28 +107,10 @@ def bring_back(session: Session, wanted: Before) -> None:
     Nothing is ever taken out of a session: where there was no probe, the one that is there is rejected.
     """
     now = before(session.state)
-    _again(session, wanted.mesh, now.mesh)
-    _again(session, wanted.alignment, now.alignment)
-    if wanted.result is None:
-        if now.result is not None:
-            session.mark(PROBE, PROBE_FILE, "rejected", _UNDONE)
-        return
-    action = wanted.result.action
-    files = {name: (session.folder / ref.path).read_bytes() for name, ref in action.files.items()}
-    session.add_result(
-        action.kind, action.name, files, action.inputs, action.parameters, created=action.created
-    )
-
-
-def _again(session: Session, wanted: Input | None, now: Input | None) -> None:
-    if wanted is None or now is None or wanted.content == now.content:
-        return
-    file = session.folder / wanted.file.path
-    beside = {name: session.folder / ref.path for name, ref in wanted.companions.items()}
-    if wanted.kind == "mesh":
-        chunks = {name: chunks_of(path) for name, path in beside.items()}
-        session.change_mesh(wanted.name, chunks_of(file), chunks)
-        return
-    session.add_input(
-        file, wanted.kind, name=wanted.name, sensor=wanted.sensor, companions=beside, about=wanted.about
-    )
+    for used, there in ((wanted.mesh, now.mesh), (wanted.alignment, now.alignment)):
+        if used is not None and there is not None and used.content != there.content:
+            put_input(session, used)
+    if wanted.result is not None:
+        put_result(session, wanted.result)
+    elif now.result is not None:
+        session.mark(PROBE, PROBE_FILE, "rejected", UNDONE)

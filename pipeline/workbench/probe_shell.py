@@ -16,7 +16,7 @@ from contactbench.pipeline.preparation.painted import painted_regions
 from contactbench.pipeline.preparation.prepare import place
 from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of
 from contactbench.pipeline.session.making import read_parameters
-from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.session.recompute import laid_out, newest_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -122,9 +122,8 @@ def shell_file_of(
             "This probe came from elsewhere, and the session does not have the mesh behind it: choose the mesh in step"
             " 3, Probe, to paint on it."
         )
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
-        files = lay_out(desk.folder, state, wanted, Path(scratch))
+    wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
+    with laid_out(desk.folder, state, wanted) as files:
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
         dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
         if "alignment" in files:
@@ -161,8 +160,7 @@ def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionRep
     if not given:
         return shell.regions, ()
     newest = max(given, key=lambda each: each.number)
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = lay_out(desk.folder, state, {REGIONS: newest.content}, Path(scratch))
+    with laid_out(desk.folder, state, {REGIONS: newest.content}) as files:
         return painted_regions(shell, files[REGIONS])
 
 
@@ -195,6 +193,5 @@ def used_probe(desk: Desk) -> Probe | None:
     recipe = recipe_of(desk.state)
     if recipe is None or recipe.result is None:
         return None
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = lay_out(desk.folder, desk.state, {PROBE: recipe.result.content}, Path(scratch))
+    with laid_out(desk.folder, desk.state, {PROBE: recipe.result.content}) as files:
         return load_probe_file(files[PROBE]).probe

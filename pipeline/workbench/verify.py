@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import re
-import tempfile
 import threading
 import time
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.session.recompute import lay_out
+from contactbench.pipeline.session.recompute import laid_out
 from contactbench.pipeline.verification.markers import with_normals
 from contactbench.pipeline.workbench.export_checklist import newest
 from contactbench.pipeline.workbench.markers import KIND
@@ -22,6 +20,7 @@ from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchVie
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
@@ -70,10 +69,7 @@ def tool_of(folder: Path, state: State) -> Tool:
     content = tool_key(state)
     if content is None:
         raise InputError(why_locked(state))
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = lay_out(
-            folder, state, dict(zip(("probe", "calibration"), content, strict=True)), Path(scratch)
-        )
+    with laid_out(folder, state, dict(zip(("probe", "calibration"), content, strict=True))) as files:
         calibration = load_calibration(files["calibration"])
         probe = load_surface(files["probe"])
     if calibration.verdict.level is Level.REFUSE:

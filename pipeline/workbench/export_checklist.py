@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.session.state import Input, Result
 
 Stale = dict[tuple[str, str], tuple[str, ...]]
-_REJECTED = "rejected"
 
 
 class CheckState(StrEnum):
@@ -57,15 +56,6 @@ class CheckItem:
     def holds(self) -> bool:
         """Whether nothing has to be done about it."""
         return self.state in (CheckState.DONE, CheckState.OPTIONAL)
-
-
-def newest(state: State, kind: str) -> Result | Input | None:
-    """Return the newest result of a kind, or input that was brought in as one."""
-    found: list[Result | Input] = [
-        each for each in state.current_results.values() if each.action.kind == kind
-    ]
-    found += [each for each in state.current_inputs.values() if each.kind == kind]
-    return max(found, key=lambda each: each.number, default=None)
 
 
 def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
@@ -108,7 +98,7 @@ def _sensor(state: State) -> CheckItem:
 
 
 def _calibration(folder: Path, state: State, stale: Stale) -> CheckItem:
-    found = newest(state, "calibration")
+    found = state.newest("calibration")
     item = _standing("Calibration", found, stale, Step.GRAVITY, "Calibrate the sensor with this tool.")
     if item is not None or found is None:
         return item or _missing("Calibration", "Calibrate the sensor with this tool.", Step.GRAVITY)
@@ -123,7 +113,7 @@ def _calibration(folder: Path, state: State, stale: Stale) -> CheckItem:
 
 
 def _probe(state: State, stale: Stale) -> CheckItem:
-    found = newest(state, "probe")
+    found = state.newest("probe")
     item = _standing("Probe", found, stale, Step.PROBE, "Prepare the probe's mesh.")
     if item is not None or found is None:
         return item or _missing("Probe", "Prepare the probe's mesh.", Step.PROBE)
@@ -131,12 +121,12 @@ def _probe(state: State, stale: Stale) -> CheckItem:
 
 
 def _regions(folder: Path, state: State) -> CheckItem:
-    probe = newest(state, "probe")
+    probe = state.newest("probe")
     named = 0 if probe is None else _named_regions(folder, probe)
     if named:
         words = "one priority region" if named == 1 else f"{named} priority regions"
         return CheckItem("Regions", CheckState.DONE, f"The probe has {words}.", Step.REGIONS)
-    if newest(state, "regions") is not None:
+    if state.newest("regions") is not None:
         return CheckItem(
             "Regions",
             CheckState.MISSING,
@@ -163,7 +153,7 @@ def _named_regions(folder: Path, probe: Result | Input) -> int:
 
 def _verification(folder: Path, state: State, stale: Stale) -> CheckItem:
     name, remedy = "Verification", "Touch the markers, so that somebody has shown that it is right."
-    found = newest(state, "verification")
+    found = state.newest("verification")
     item = _standing(name, found, stale, Step.VERIFY, remedy)
     if item is not None or found is None:
         return item or _missing(name, remedy, Step.VERIFY)
@@ -199,7 +189,7 @@ def _checks(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
 def _check(
     folder: Path, state: State, stale: Stale, name: str, kind: str, remedy: str, step: Step
 ) -> CheckItem:
-    found = newest(state, kind)
+    found = state.newest(kind)
     item = _standing(name, found, stale, step, remedy)
     if item is not None or found is None:
         unseen = f"Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. {remedy}"
@@ -213,7 +203,7 @@ def _check(
 
 def _report(state: State, stale: Stale) -> CheckItem:
     remedy = "Finish a verification: its report goes into the bundle."
-    found = newest(state, "report")
+    found = state.newest("report")
     item = _standing("Report", found, stale, Step.VERIFY, remedy)
     if item is not None or found is None:
         return item or _missing("Report", remedy, Step.VERIFY)
@@ -230,9 +220,9 @@ def _standing(
     """Return the line of what is not there, rejected or stale; None: it holds."""
     if found is None:
         return None
-    mark = getattr(found, "mark", None)
-    if mark is not None and mark.mark == _REJECTED:
-        return CheckItem(name, CheckState.FAILED, f"It was rejected. {mark.reason} {remedy}".strip(), step)
+    if found.mark is not None and found.rejected:
+        words = f"It was rejected. {found.mark.reason} {remedy}".strip()
+        return CheckItem(name, CheckState.FAILED, words, step)
     if reasons := stale.get(found.slot, ()):
         return CheckItem(name, CheckState.STALE, f"{reasons[0]} Do it again.", step)
     return None
@@ -258,12 +248,12 @@ def _day(found: Result | Input) -> str:
 def results_of(state: State) -> Mapping[str, str]:
     """Return kind -> content of the newest results that a bundle is made of: what an export is an export of."""
     kinds = ("calibration", "probe", "verification", *CHECK_KINDS, "report")
-    found = {kind: newest(state, kind) for kind in kinds}
+    found = {kind: state.newest(kind) for kind in kinds}
     return {kind: each.content for kind, each in found.items() if each is not None}
 
 
 def refuse_without(state: State) -> None:
     """InputError unless there is what no bundle can do without."""
     for kind, what in (("calibration", "Calibrate first"), ("probe", "prepare the probe first")):
-        if newest(state, kind) is None:
+        if state.newest(kind) is None:
             raise InputError(f"There is no {kind} yet: nothing can be exported. {what[0].upper()}{what[1:]}.")

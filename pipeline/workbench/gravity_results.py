@@ -205,7 +205,7 @@ def outcome_of(folder: Path, state: State) -> Outcome | None:
         Its file cannot be read.
     """
     result = state.current_results.get(("calibration", CALIBRATION_FILE))
-    if result is None or (result.mark is not None and result.mark.mark == "rejected"):
+    if result is None or result.rejected:
         return None
     fitted = load_calibration(folder / result.file.path)
     poses = state.result_with(result.action.inputs.get("poses", ""))

@@ -13,7 +13,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
-from contactbench.pipeline.workbench.export_checklist import newest
 from contactbench.pipeline.workbench.tape import Tape
 from contactbench.pipeline.workbench.verify_settings import REPORT
 
@@ -65,7 +64,7 @@ def known_outcome(
         Its file cannot be read.
     """
     found = state.current_results.get((kind, FILES[kind]))
-    if found is None or (found.mark is not None and found.mark.mark == "rejected"):
+    if found is None or found.rejected:
         return None
     content = read_check(kind, folder / found.file.path)
     reasons = stale.get(found.slot, ())
@@ -182,10 +181,8 @@ class KnownChecks:
                 raise InputError(
                     "Nothing tells the sensor's orientation: choose a source of poses in step 1, Devices."
                 )
-            serial = self._desk.state.settings.get("devices.serial")
-            known = serial.value if serial is not None and isinstance(serial.value, str) else None
             name = next_recording(self._desk.state, self._desk.folder, reading.stem)
-            self._tape = Tape.start(self._desk, self._live, name, known or None).result(_PATIENCE_S)
+            self._tape = Tape.start(self._desk, self._live, name).result(_PATIENCE_S)
             self._end, self.reading = self._live.follow(reading.feed), reading
 
     def keep(self) -> str:
@@ -254,5 +251,5 @@ def check_recordings(
     """
     compute(session, kind, FILES[kind], newest_inputs(session.state, kind, recordings), given)
     made = session.state.current_results.get(("report", REPORT))
-    if made is not None and made.mark is None and newest(session.state, "verification") is not None:
+    if made is not None and made.mark is None and session.state.newest("verification") is not None:
         compute(session, "report", REPORT, newest_inputs(session.state, "report"), {})

@@ -17,13 +17,12 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
-from contactbench.pipeline.preparation.alignment import from_angles, from_json
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
 from contactbench.pipeline.preparation.painted import put_on
 from contactbench.pipeline.preparation.prepare import place
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
-from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of, prepared
+from contactbench.pipeline.session.make_probe import ProbeParameters, alignment_of, dense_of, prepared
 from contactbench.pipeline.session.making import PREFIX, read_parameters
 from contactbench.pipeline.session.recompute import lay_out
 from contactbench.pipeline.workbench.probe_shell import PROBE_FILE, REGIONS, recipe_of
@@ -224,18 +223,14 @@ class ProbeWork:
         files = lay_out(self.desk.folder, state, wanted, self._place())
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
         known = {each.name for each in fields(Plan)} & set(ProbeParameters.model_fields)
-        alignment = None
-        if "alignment" in files:
-            alignment = from_json(files["alignment"].read_bytes(), "alignment")
-        elif given.mount is not None:
-            alignment = from_angles(list(given.mount[:3]), list(given.mount[3:]))
+        alignment = alignment_of(given, files.get("alignment"))
         plan = Plan(alignment=alignment, **{name: getattr(given, name) for name in known})
         return self.take(files["mesh"], plan.units, progress, cancelled), plan
 
     @property
     def has_regions(self) -> bool:
         """Whether somebody painted regions in this session."""
-        return any(each.kind == REGIONS for each in self.desk.state.inputs)
+        return self.desk.state.newest(REGIONS) is not None
 
     # ---- what comes of it ------------------------------------------------------------------------
 
@@ -280,11 +275,11 @@ class ProbeWork:
     def _regions(self, plan: Plan) -> tuple[dict[str, Path], str]:
         """Return the session's regions as a file, and their content; neither where there are none."""
         state = self.desk.state
-        given = [each for each in state.current_inputs.values() if each.kind == REGIONS]
-        if not given or not plan.painted:
+        kept = state.newest(REGIONS)
+        if kept is None or not plan.painted:
             return {}, ""
-        content = max(given, key=lambda each: each.number).content
-        return lay_out(self.desk.folder, state, {REGIONS: content}, self._place()), content
+        files = lay_out(self.desk.folder, state, {REGIONS: kept.content}, self._place())
+        return files, kept.content
 
 
 def _inspected(file: Path, units: str, progress: Progress, cancelled: Cancel) -> Inspection:

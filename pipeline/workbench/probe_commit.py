@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
 from contactbench.pipeline.session.files import chunks_of
-from contactbench.pipeline.session.making import folder_for
+from contactbench.pipeline.session.make_probe import probe_files
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE
 from contactbench.pipeline.workbench.undoing import UNDONE, put_input, put_result
 
@@ -68,9 +65,7 @@ def commit(session: Session, preview: Preview) -> Record:
 
 def files_of(preview: Preview) -> dict[str, bytes]:
     """Return the probe's files, as a session computes them."""
-    with folder_for(PROBE_FILE, ".ply") as out:
-        save_probe_file(preview.done.content, out)
-        return {file.name: file.read_bytes() for file in (out, sidecar_of(out))}
+    return probe_files(preview.done.content, PROBE_FILE)
 
 
 def _mesh(session: Session, mesh: Mesh) -> str:
@@ -91,12 +86,9 @@ def _mesh(session: Session, mesh: Mesh) -> str:
 
 
 def _alignment(session: Session, text: str) -> str:
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        file = Path(scratch) / ALIGNMENT_FILE
-        file.write_text(text, encoding="utf-8")
-        known = session.state.current_inputs.get((ALIGNMENT, ALIGNMENT_FILE))
-        if known is None or (session.folder / known.file.path).read_bytes() != file.read_bytes():
-            session.add_input(file, ALIGNMENT, name=ALIGNMENT_FILE)
+    known = session.state.current_inputs.get((ALIGNMENT, ALIGNMENT_FILE))
+    if known is None or (session.folder / known.file.path).read_bytes() != text.encode():
+        session.add_input(text.encode(), ALIGNMENT, name=ALIGNMENT_FILE)
     return session.state.current_inputs[ALIGNMENT, ALIGNMENT_FILE].content
 
 

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
-from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file, sidecar_of
-from contactbench.pipeline.preparation.alignment import from_angles, from_json
+from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.preparation.painted import painted_regions
 from contactbench.pipeline.preparation.prepare import place
-from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of
+from contactbench.pipeline.session.make_probe import ProbeParameters, alignment_of, dense_of, probe_files
 from contactbench.pipeline.session.making import read_parameters
 from contactbench.pipeline.session.recompute import laid_out, newest_inputs
 
@@ -62,9 +59,7 @@ def recipe_of(state: State) -> Recipe | None:
     What was set since in the session's parameters of the kind ``probe`` counts.
     """
     made = [
-        each
-        for each in state.current_results.values()
-        if each.action.kind == PROBE and (each.mark is None or each.mark.mark != "rejected")
+        each for each in state.current_results.values() if each.action.kind == PROBE and not each.rejected
     ]
     settings = {
         key.partition(".")[2]: setting
@@ -126,11 +121,7 @@ def shell_file_of(
     with laid_out(desk.folder, state, wanted) as files:
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
         dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
-        if "alignment" in files:
-            return place(dense, from_json(files["alignment"].read_bytes(), "alignment"))
-        if given.mount is not None:
-            return place(dense, from_angles(list(given.mount[:3]), list(given.mount[3:])))
-        return place(dense, None)
+        return place(dense, alignment_of(given, files.get("alignment")))
 
 
 def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionReport, ...]]:
@@ -155,12 +146,10 @@ def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionRep
     InputError
         They do not belong to this surface.
     """
-    state = desk.state
-    given = [each for each in state.current_inputs.values() if each.kind == REGIONS]
-    if not given:
+    kept = desk.state.newest(REGIONS)
+    if kept is None:
         return shell.regions, ()
-    newest = max(given, key=lambda each: each.number)
-    with laid_out(desk.folder, state, {REGIONS: newest.content}) as files:
+    with laid_out(desk.folder, desk.state, {REGIONS: kept.content}) as files:
         return painted_regions(shell, files[REGIONS])
 
 
@@ -179,13 +168,8 @@ def keep_regions(session: Session, regions: RegionSet, shell: ProbeFile) -> Reco
     shell : ProbeFile
         From `shell_file_of`.
     """
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        folder = Path(scratch)
-        surface, file = folder / _PAINTED, folder / REGIONS_FILE
-        save_probe_file(shell, surface)
-        file.write_bytes(encode_json(regions, shell.probe))
-        beside = {each.name: each for each in (surface, sidecar_of(surface))}
-        return session.add_input(file, REGIONS, name=REGIONS_FILE, companions=beside)
+    painted, surface = encode_json(regions, shell.probe), probe_files(shell, _PAINTED)
+    return session.add_input(painted, REGIONS, name=REGIONS_FILE, companions=surface)
 
 
 def used_probe(desk: Desk) -> Probe | None:

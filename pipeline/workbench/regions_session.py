@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import Input
     from contactbench.pipeline.workbench.desk import Desk
 
 # What changes the number of facets, and not the surface that is painted on.
@@ -47,15 +46,9 @@ class Standing(StrEnum):
     APPLIED = "applied"
 
 
-def stored(state: State) -> Input | None:
-    """Return the regions that the session keeps."""
-    kept = [each for each in state.current_inputs.values() if each.kind == REGIONS]
-    return max(kept, key=lambda each: each.number, default=None)
-
-
 def standing(state: State) -> Standing:
     """Say whether the newest probe has the regions that the session keeps."""
-    kept, recipe = stored(state), recipe_of(state)
+    kept, recipe = state.newest(REGIONS), recipe_of(state)
     if kept is None:
         return Standing.NONE
     if recipe is None or recipe.result is None:
@@ -126,11 +119,11 @@ def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | Non
     Record or None
         None: nothing was to be added; also where there are no regions and never were any.
     """
-    kept = stored(session.state)
+    kept = session.state.newest(REGIONS)
     if kept is None and not regions.regions:
         return None
     digest = hashlib.sha256(encode_json(regions, shell.probe)).hexdigest()
-    if kept is not None and kept.name == REGIONS_FILE and kept.file.sha256 == digest:
+    if kept is not None and kept.slot[1] == REGIONS_FILE and kept.file.sha256 == digest:
         return None
     return keep_regions(session, regions, shell)
 
@@ -164,7 +157,7 @@ def apply(
         `cancelled` answered True; nothing was recorded.
     """
     state = desk.state
-    recipe, kept = recipe_of(state), stored(state)
+    recipe, kept = recipe_of(state), state.newest(REGIONS)
     if recipe is None or recipe.result is None:
         raise InputError("There is no probe yet: prepare it in the step Probe; it takes the regions along.")
     name, parameters = recipe.result.action.name, dict(recipe.parameters)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.workbench.export import RESULTS
-from contactbench.pipeline.workbench.export_checklist import newest, results_of
+from contactbench.pipeline.workbench.export_checklist import results_of
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 
@@ -48,7 +48,7 @@ class Facts:
 
 def read_facts(folder: Path, state: State) -> Facts:
     """Read what a session's small JSON files say; what cannot be read is left out: whoever needs it says why."""
-    calibration, verification = newest(state, "calibration"), newest(state, "verification")
+    calibration, verification = state.newest("calibration"), state.newest("verification")
     fit = _verdict(_content(folder, calibration))
     content = _content(folder, verification)
     judged = _verdict(content)
@@ -155,20 +155,15 @@ class _Judge:
 
     def _newest(self, kind: str) -> Result | Input | None:
         """Return what a step gave; None also for what somebody undid or rejected: it is to be done again."""
-        found = newest(self._state, kind)
-        mark = getattr(found, "mark", None)
-        return None if mark is not None and mark.mark == "rejected" else found
-
-    def _setting(self, key: str) -> Any:
-        found = self._state.settings.get(key)
-        return None if found is None else found.value
+        found = self._state.newest(kind)
+        return None if found is None or found.rejected else found
 
     def _why_stale(self, found: Result | Input) -> str | None:
         reasons = self._stale.get(found.slot, ())
         return reasons[0] if reasons else None
 
     def devices(self) -> StepStatus:
-        sensor, poses = self._setting(SENSOR), self._setting(POSES)
+        sensor, poses = self._state.setting(SENSOR), self._state.setting(POSES)
         if not sensor:
             words = "Choose the sensor and where its orientation comes from, then test the connection."
             return StepStatus(StepState.READY, words)
@@ -183,7 +178,7 @@ class _Judge:
     def gravity(self) -> StepStatus:
         found = self._calibration
         if found is None:
-            if not self._setting(SENSOR):
+            if not self._state.setting(SENSOR):
                 return StepStatus(StepState.LOCKED, "Choose the devices first.")
             words = "Hold the tool still in about six orientations; the next one is shown."
             return StepStatus(StepState.READY, words)
@@ -241,7 +236,7 @@ class _Judge:
             return StepStatus(
                 StepState.LOCKED, "Verify first; for trials, an unverified bundle can be written."
             )
-        exported = self._setting(RESULTS)
+        exported = self._state.setting(RESULTS)
         if not exported:
             return StepStatus(StepState.READY, "See what is in the bundle, then export it.")
         if exported != dict(results_of(self._state)):

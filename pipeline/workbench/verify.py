@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import re
 import threading
 import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import laid_out
 from contactbench.pipeline.verification.markers import with_normals
-from contactbench.pipeline.workbench.export_checklist import newest
 from contactbench.pipeline.workbench.markers import KIND
 from contactbench.pipeline.workbench.markers import kept as read_kept
 from contactbench.pipeline.workbench.verify_outcome import Outcome, judge_recording, outcome_of
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.markers import Markers
     from contactbench.pipeline.workbench.tape import Tape
 
-_NAME = re.compile(r"verify-(\d+)\.mcap")
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
 
 
@@ -81,26 +79,18 @@ def tool_of(folder: Path, state: State) -> Tool:
 
 def tool_key(state: State) -> tuple[str, str] | None:
     """Return the hashes of a session's newest probe and calibration; None: one is missing."""
-    probe, calibration = newest(state, "probe"), newest(state, "calibration")
+    probe, calibration = state.newest("probe"), state.newest("calibration")
     return None if probe is None or calibration is None else (probe.content, calibration.content)
 
 
 def why_locked(state: State, *kinds: str) -> str:
     """Say what is missing before touches can be located, of some kinds or of all; empty: nothing."""
-    missing = [kind for kind in kinds or ("calibration", "probe") if newest(state, kind) is None]
+    missing = [kind for kind in kinds or ("calibration", "probe") if state.newest(kind) is None]
     if not missing:
         return ""
     steps = {"calibration": "calibrate in step 2, Gravity", "probe": "prepare the probe in step 3, Probe"}
     todo = ", and ".join(steps[kind] for kind in missing)
     return f"A contact cannot be located without {' and '.join(missing)}: {todo}."
-
-
-def next_name(state: State) -> str:
-    """Return the name of the next recording of touches."""
-    taken = [
-        int(found[1]) for kind, name in state.current_inputs if (found := _NAME.fullmatch(name)) and kind
-    ]
-    return f"verify-{max(taken, default=0) + 1}.mcap"
 
 
 class VerifyWork:
@@ -169,7 +159,7 @@ class VerifyWork:
     def _used(self, tool: Tool, markers: Markers) -> dict[str, str]:
         """Return what the touches are judged with, by role: also if there is something newer when they are."""
         state = self._desk.do(lambda session: session.state).result()  # after all that waits to be written
-        kept = newest(state, KIND)
+        kept = state.newest(KIND)
         if kept is None or read_kept(self._desk.folder, state) != markers:
             raise InputError("The markers are not in the session yet: wait a moment, then start again.")
         probe, calibration = tool.content
@@ -197,12 +187,8 @@ class VerifyWork:
     def _record(self) -> None:
         from contactbench.pipeline.workbench.tape import Tape
 
-        serial = self._desk.state.settings.get("devices.serial")
-        known = (
-            serial.value if serial is not None and isinstance(serial.value, str) and serial.value else None
-        )
-        self._name = next_name(self._desk.state)
-        self._tape = Tape.start(self._desk, self._live, self._name, known).result()
+        self._name = next_recording(self._desk.state, self._desk.folder, "verify")
+        self._tape = Tape.start(self._desk, self._live, self._name).result()
 
     def _stop(self) -> TouchView | None:
         """End the following; returns what was seen last."""

@@ -123,6 +123,7 @@ def test_undoing_brings_back_the_probe_before(work, tmp_path):
     desk = work.desk
     nothing = before(desk.state)
     used(work, work.take(egg(tmp_path)))
+    desk.do(lambda session: session.mark("probe", "probe.ply", "accepted", "it fits")).result(30)
     first = before(desk.state)
     other = replace(PLAN, alignment=from_angles([1, 2, 33], [0, 0, 90]))
     used(work, work.take(egg(tmp_path, "b.stl", facets=2)), other)
@@ -132,6 +133,7 @@ def test_undoing_brings_back_the_probe_before(work, tmp_path):
     now = before(desk.state)
     assert (now.mesh.content, now.alignment.content) == (first.mesh.content, first.alignment.content)
     assert now.result.content == first.result.content
+    assert (now.result.mark.mark, now.result.mark.reason) == ("accepted", "it fits")
     assert desk.stale["probe", "probe.ply"] == ()
     desk.do(lambda session: bring_back(session, nothing)).result(30)
     assert recipe_of(desk.state).result is None

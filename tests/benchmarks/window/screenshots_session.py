@@ -97,7 +97,7 @@ def touch_all(live: Live, touches: LiveTouches, most: int = _MOST) -> None:
 
 def _weigh(desk: Desk, live: Live) -> None:
     work = GravityWork(gravity_settings(desk.state), live_R_ES=live.R_ES)
-    tape = Tape.start(desk, live, gravity_results.next_name(desk.state, desk.folder), "VB-0001").result()
+    tape = Tape.start(desk, live, gravity_results.next_name(desk.state, desk.folder)).result()
     end = live.follow(work.feed)
     try:
         for _ in range(_MOST):

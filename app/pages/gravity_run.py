@@ -12,9 +12,8 @@ from contactbench.app.bench import Weight
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench import gravity_results as results
-from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_check import GravityCheck
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.pipeline.workbench.tape import Tape
 
@@ -24,9 +23,8 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
+    from contactbench.pipeline.workbench.gravity_fit import Finding, GravitySettings
     from contactbench.pipeline.workbench.gravity_results import Outcome
-    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
-    from contactbench.pipeline.workbench.gravity_solving import Finding
 
 
 _DIGITS = re.compile(r"\d+")

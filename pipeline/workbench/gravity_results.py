@@ -11,13 +11,14 @@ from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import wrong_with
 from contactbench.pipeline.session.live import RECORDING, next_recording
 from contactbench.pipeline.session.recompute import compute
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
-from contactbench.pipeline.workbench.gravity_settings import (
+from contactbench.pipeline.workbench.gravity_fit import (
     CALIBRATION_FILE,
     POSES_FILE,
+    Finding,
+    findings,
     gravity_settings,
 )
-from contactbench.pipeline.workbench.gravity_solving import Finding, findings
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
 from contactbench.pipeline.workbench.undoing import put_result
 
 if TYPE_CHECKING:

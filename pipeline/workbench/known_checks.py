@@ -92,8 +92,7 @@ class StillReading:
 
     def feed(self, block: Block) -> None:
         """Take samples."""
-        known = np.isfinite(block.wrenches).all(axis=1) & np.isfinite(block.R_WS).all(axis=(1, 2))
-        known &= ~block.saturated
+        known = block.known
         if not known.any():
             return
         with self._lock:

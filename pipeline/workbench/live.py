@@ -55,6 +55,18 @@ class Block:
     R_WS: NDArray[np.float64]
     saturated: NDArray[np.bool_]
 
+    @property
+    def whole(self) -> NDArray[np.bool_]:
+        """(n,): the wrench is a reading, not saturated."""
+        good: NDArray[np.bool_] = np.isfinite(self.wrenches).all(axis=1) & ~self.saturated
+        return good
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """(n,): it is whole, and the orientation is known."""
+        good: NDArray[np.bool_] = self.whole & np.isfinite(self.R_WS).all(axis=(1, 2))
+        return good
+
 
 @dataclass(frozen=True)
 class Tap:

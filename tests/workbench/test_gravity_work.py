@@ -6,10 +6,9 @@ from workbench.gravity_bench import batches, block
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.session.state import State
-from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_check import GravityCheck
+from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
 from contactbench.pipeline.workbench.live import Block
 
 PLAIN = gravity_settings(State())

@@ -15,7 +15,7 @@ from contactbench.pipeline.verification.known import TOUCH, WEIGHT
 from contactbench.pipeline.workbench import gravity_results
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread

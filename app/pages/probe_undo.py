@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QUndoCommand
 
-from contactbench.pipeline.workbench.probe_commit import Before, before, bring_back, commit
+from contactbench.pipeline.workbench.probe import Before, before, bring_back, commit
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -14,7 +14,7 @@ from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
 from contactbench.pipeline.workbench.tape import Tape
-from contactbench.pipeline.workbench.verify_settings import REPORT
+from contactbench.pipeline.workbench.verify import REPORT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping

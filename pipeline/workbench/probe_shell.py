@@ -1,4 +1,4 @@
-"""The dense, aligned outer surface of a session's probe: what regions are painted on, and what holds them."""
+"""The dense, aligned outer surface of a session's probe: what regions are painted on."""
 
 from __future__ import annotations
 
@@ -6,12 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.regions import RegionSet
-from contactbench.pipeline.mesh.regions.exchange import encode_json
 from contactbench.pipeline.mesh.sidecar import load_probe_file
-from contactbench.pipeline.preparation.painted import painted_regions
 from contactbench.pipeline.preparation.prepare import place
-from contactbench.pipeline.session.make_probe import ProbeParameters, alignment_of, dense_of, probe_files
+from contactbench.pipeline.session.make_probe import ProbeParameters, alignment_of, dense_of
 from contactbench.pipeline.session.making import read_parameters
 from contactbench.pipeline.session.recompute import laid_out, newest_inputs
 
@@ -19,17 +16,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session import State
     from contactbench.pipeline.session.state import Result
     from contactbench.pipeline.workbench.desk import Desk
 
 PROBE, PROBE_FILE = "probe", "probe.ply"
 REGIONS, REGIONS_FILE = "regions", "regions.json"
-# The surface that regions were painted on lies beside them under this name.
-_PAINTED = "painted.ply"
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +100,7 @@ def shell_file_of(
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
 ) -> ProbeFile:
-    """Return what `shell_of` does, with its history; for `regions_on` and `keep_regions`."""
+    """Return what `shell_of` does, with its history; for `regions_on` and `keep`."""
     state = desk.state
     recipe = recipe_of(state)
     if recipe is None:
@@ -122,54 +115,6 @@ def shell_file_of(
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
         dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
         return place(dense, alignment_of(given, files.get("alignment")))
-
-
-def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionReport, ...]]:
-    """
-    Return the session's regions on a shell: as they were painted, or carried over from an older one.
-
-    Parameters
-    ----------
-    desk : Desk
-    shell : ProbeFile
-        From `shell_file_of`.
-
-    Returns
-    -------
-    regions : RegionSet
-        Those of the mesh file where nobody painted any.
-    carried : tuple of RegionReport
-        What carrying over did to each; empty where they are as they were painted.
-
-    Raises
-    ------
-    InputError
-        They do not belong to this surface.
-    """
-    kept = desk.state.newest(REGIONS)
-    if kept is None:
-        return shell.regions, ()
-    with laid_out(desk.folder, desk.state, {REGIONS: kept.content}) as files:
-        return painted_regions(shell, files[REGIONS])
-
-
-def keep_regions(session: Session, regions: RegionSet, shell: ProbeFile) -> Record:
-    """
-    Put regions into a session, with the surface that they were painted on, so that they outlive changes of it.
-
-    As ``contactbench session add SESSION regions.json --kind regions --companion painted.ply`` does.
-
-    Parameters
-    ----------
-    session : Session
-        Open for writing; for `Desk.do`.
-    regions : RegionSet
-        On the shell.
-    shell : ProbeFile
-        From `shell_file_of`.
-    """
-    painted, surface = encode_json(regions, shell.probe), probe_files(shell, _PAINTED)
-    return session.add_input(painted, REGIONS, name=REGIONS_FILE, companions=surface)
 
 
 def used_probe(desk: Desk) -> Probe | None:

@@ -11,9 +11,10 @@ import numpy as np
 
 from contactbench.pipeline.verification.locating import Placing, memory, sample_noise
 from contactbench.pipeline.verification.protocol import State, Touch, TouchEvent, TouchProtocol
-from contactbench.pipeline.workbench.verify_settings import Turns
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
@@ -26,6 +27,40 @@ if TYPE_CHECKING:
 _SMOOTH = 10  # samples that the shown force is the mean of
 _RECENT_S = 1.0
 _FEWEST = 40  # samples that noise is told from
+
+
+@dataclass
+class Turns:
+    """
+    The order in which markers are touched, where it is given; it can be changed while touches go on.
+
+    A protocol asks for ``order[accepted % len(order)]``; written out touch by touch, a marker can be left out, or
+    touched again, without a change of what was asked before.
+
+    Attributes
+    ----------
+    names : list of str
+        One for each touch.
+    """
+
+    names: list[str]
+
+    @classmethod
+    def of(cls, order: Sequence[str], repeats: int, windows: int) -> Turns:
+        """Return every marker in its turn, once per repeat and force window."""
+        return cls([name for _ in range(repeats * windows) for name in order])
+
+    def skip(self, accepted: int) -> bool:
+        """Leave out the marker that would come next, this time and all others; whether there was one."""
+        if accepted >= len(self.names):
+            return False
+        name = self.names[accepted]
+        self.names[accepted:] = [each for each in self.names[accepted:] if each != name]
+        return True
+
+    def repeat(self, accepted: int, name: str) -> None:
+        """Have a marker touched next."""
+        self.names.insert(min(accepted, len(self.names)), name)
 
 
 @dataclass(frozen=True)

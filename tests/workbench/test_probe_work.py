@@ -16,7 +16,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.session.replay import Outcome, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork
+from contactbench.pipeline.workbench.probe import Plan, ProbeWork, before, bring_back, commit, files_of
 from contactbench.pipeline.workbench.probe_alignment import (
     PointPair,
     back_to_mesh,
@@ -26,7 +26,6 @@ from contactbench.pipeline.workbench.probe_alignment import (
     by_points,
     numbers_of,
 )
-from contactbench.pipeline.workbench.probe_commit import before, bring_back, commit, files_of
 from contactbench.pipeline.workbench.probe_ladder import trade_of
 from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_of, used_probe
 

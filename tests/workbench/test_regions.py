@@ -18,7 +18,17 @@ from contactbench.pipeline.mesh.regions import Brush, RegionError
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.regions import RegionsWork
+from contactbench.pipeline.workbench.regions import (
+    Box,
+    Clear,
+    Flood,
+    Grow,
+    Mirror,
+    Plane,
+    RegionsWork,
+    Shrink,
+    Smooth,
+)
 from contactbench.pipeline.workbench.regions_session import (
     Standing,
     apply,
@@ -26,16 +36,6 @@ from contactbench.pipeline.workbench.regions_session import (
     open_work,
     standing,
     surface_key,
-)
-from contactbench.pipeline.workbench.regions_tools import (
-    Box,
-    Clear,
-    Flood,
-    Grow,
-    Mirror,
-    Plane,
-    Shrink,
-    Smooth,
 )
 
 TOP = CENTRE + [0, 0, RADIUS]

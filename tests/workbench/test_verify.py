@@ -12,8 +12,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import Markers, keep, spread
-from contactbench.pipeline.workbench.verify import VerifyWork, tool_key, tool_of, why_locked
-from contactbench.pipeline.workbench.verify_outcome import outcome_of
+from contactbench.pipeline.workbench.verify import VerifyWork, outcome_of, tool_key, tool_of, why_locked
 
 
 class Work:

@@ -19,8 +19,7 @@ from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork
-from contactbench.pipeline.workbench.probe_commit import commit
+from contactbench.pipeline.workbench.probe import Plan, ProbeWork, commit
 from contactbench.pipeline.workbench.regions_session import apply, open_work
 from contactbench.pipeline.workbench.regions_session import keep as keep_regions
 from contactbench.pipeline.workbench.tape import Tape

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.workbench.export import RESULTS
-from contactbench.pipeline.workbench.export_checklist import results_of
+from contactbench.pipeline.workbench.export_checklist import (
+    content_of,
+    day_of,
+    figures_of,
+    results_of,
+    verdict_of,
+)
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 
@@ -48,46 +53,23 @@ class Facts:
 
 def read_facts(folder: Path, state: State) -> Facts:
     """Read what a session's small JSON files say; what cannot be read is left out: whoever needs it says why."""
-    calibration, verification = state.newest("calibration"), state.newest("verification")
-    fit = _verdict(_content(folder, calibration))
-    content = _content(folder, verification)
-    judged = _verdict(content)
+    calibration, verification = (
+        {} if found is None else content_of(folder, found)
+        for found in map(state.newest, ("calibration", "verification"))
+    )
+    fit, judged = verdict_of(calibration), verdict_of(verification)
     passed = judged.get("passed")
     return Facts(
         str(fit.get("level", "")),
         _first(fit),
         passed if isinstance(passed, bool) else None,
-        _first(judged) or _figures(content),
+        _first(judged) or figures_of(verification),
     )
-
-
-def _content(folder: Path, found: Result | Input | None) -> dict[str, Any]:
-    if found is None:
-        return {}
-    try:
-        content = json.loads((folder / found.file.path).read_bytes())
-    except (OSError, ValueError):
-        return {}
-    return content if isinstance(content, dict) else {}
-
-
-def _verdict(content: Mapping[str, Any]) -> dict[str, Any]:
-    found = content.get("verdict")
-    return found if isinstance(found, dict) else {}
 
 
 def _first(verdict: Mapping[str, Any]) -> str:
     reasons = verdict.get("reasons")
     return str(reasons[0]) if isinstance(reasons, list) and reasons else ""
-
-
-def _figures(content: Mapping[str, Any]) -> str:
-    overall = content.get("overall")
-    mean = overall.get("mean_mm") if isinstance(overall, dict) else None
-    most = overall.get("max_mm") if isinstance(overall, dict) else None
-    if not isinstance(mean, int | float) or not isinstance(most, int | float):
-        return ""
-    return f"{mean:.2f} mm on average, {most:.2f} mm at most"
 
 
 # ---- the steps -------------------------------------------------------------------------------------
@@ -188,7 +170,7 @@ class _Judge:
         if self._facts.calibration == "refuse":
             return StepStatus(StepState.FAILED, f"The calibration was refused. {why} Calibrate again.")
         usable = " It is usable, not good." if self._facts.calibration == "usable" else ""
-        return StepStatus(StepState.DONE, f"Calibrated on {_day(found)}.{usable}")
+        return StepStatus(StepState.DONE, f"Calibrated on {day_of(found)}.{usable}")
 
     def probe(self) -> StepStatus:
         found = self._probe
@@ -198,7 +180,7 @@ class _Judge:
             )
         if why := self._why_stale(found):
             return StepStatus(StepState.STALE, f"{why} Prepare it again.")
-        return StepStatus(StepState.DONE, f"Prepared on {_day(found)}.")
+        return StepStatus(StepState.DONE, f"Prepared on {day_of(found)}.")
 
     def regions(self) -> StepStatus:
         where = standing(self._state)
@@ -227,7 +209,7 @@ class _Judge:
             return StepStatus(
                 StepState.FAILED, f"It did not pass. {why} See what to mend, then verify again."
             )
-        return StepStatus(StepState.DONE, f"Passed: {why}." if why else f"Verified on {_day(found)}.")
+        return StepStatus(StepState.DONE, f"Passed: {why}." if why else f"Verified on {day_of(found)}.")
 
     def export(self) -> StepStatus:
         if missing := self._missing():
@@ -263,7 +245,3 @@ class _Judge:
 def _device_name(address: str) -> str:
     scheme = address.partition("://")[0]
     return {"virtual": "the virtual bench", "replay": "a recording"}.get(scheme, address.partition("?")[0])
-
-
-def _day(found: Result | Input) -> str:
-    return found.at[:16].replace("T", " ") + " UTC"

@@ -34,7 +34,6 @@ from contactbench.pipeline.session.make_probe import (
 from contactbench.pipeline.session.making import PREFIX, read_parameters
 from contactbench.pipeline.session.recompute import lay_out
 from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
-from contactbench.pipeline.workbench.undoing import UNDONE, put_input, put_result
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -50,9 +49,8 @@ if TYPE_CHECKING:
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None
-    from contactbench.pipeline.session import Session, State
+    from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import Input, Result
 
 _PORTION = 2**20
 # Of the time that taking a mesh needs: copying it, and looking at it.
@@ -328,31 +326,6 @@ def _part(progress: Progress, low: float, high: float) -> Progress:
     return lambda share: progress(low + share * (high - low))
 
 
-@dataclass(frozen=True)
-class Before:
-    """
-    What the session said of the probe at some moment: what undoing brings back.
-
-    Attributes
-    ----------
-    mesh, alignment : Input or None
-    result : Result or None
-    """
-
-    mesh: Input | None
-    alignment: Input | None
-    result: Result | None
-
-
-def before(state: State) -> Before:
-    """Return what a session says of the probe now."""
-    return Before(
-        state.mesh,
-        state.current_inputs.get((ALIGNMENT, ALIGNMENT_FILE)),
-        state.current_results.get((PROBE, PROBE_FILE)),
-    )
-
-
 def commit(session: Session, preview: Preview) -> Record:
     """
     Put a prepared probe, and what it was made from, into a session; for `Desk.do`.
@@ -360,7 +333,7 @@ def commit(session: Session, preview: Preview) -> Record:
     As ``contactbench session add SESSION MESH --kind mesh``, the same of the alignment, and ``contactbench session
     compute SESSION probe probe.ply --set ...`` do, with the same bytes.
     """
-    files = files_of(preview)
+    files = probe_files(preview.done.content, PROBE_FILE)
     session.check_writable()
     inputs = {"mesh": _mesh(session, preview.mesh)}
     if preview.plan.alignment is not None:
@@ -369,11 +342,6 @@ def commit(session: Session, preview: Preview) -> Record:
         inputs["regions"] = preview.regions
     now = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     return session.add_result(PROBE, PROBE_FILE, files, inputs, preview.plan.parameters, created=now)
-
-
-def files_of(preview: Preview) -> dict[str, bytes]:
-    """Return the probe's files, as a session computes them."""
-    return probe_files(preview.done.content, PROBE_FILE)
 
 
 def _mesh(session: Session, mesh: Mesh) -> str:
@@ -398,19 +366,3 @@ def _alignment(session: Session, text: str) -> str:
     if known is None or (session.folder / known.file.path).read_bytes() != text.encode():
         session.add_input(text.encode(), ALIGNMENT, name=ALIGNMENT_FILE)
     return session.state.current_inputs[ALIGNMENT, ALIGNMENT_FILE].content
-
-
-def bring_back(session: Session, wanted: Before) -> None:
-    """
-    Append what makes the session say of the probe what it said before; for `Desk.do`.
-
-    Nothing is ever taken out of a session: where there was no probe, the one that is there is rejected.
-    """
-    now = before(session.state)
-    for used, there in ((wanted.mesh, now.mesh), (wanted.alignment, now.alignment)):
-        if used is not None and there is not None and used.content != there.content:
-            put_input(session, used)
-    if wanted.result is not None:
-        put_result(session, wanted.result)
-    elif now.result is not None:
-        session.mark(PROBE, PROBE_FILE, "rejected", UNDONE)

@@ -69,13 +69,13 @@ def recipe_of(state: State) -> Recipe | None:
     return Recipe(newest_inputs(state, PROBE), given)
 
 
-def shell_of(
+def shell_file_of(
     desk: Desk,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-) -> Probe:
+) -> ProbeFile:
     """
-    Return the surface that regions are painted on: closed, in S, with all its facets.
+    Return the surface that regions are painted on, with its history: closed, in S, with all its facets.
 
     It takes seconds the first time, so call it in a worker; the same mesh and parameters give the same one at once.
 
@@ -92,15 +92,6 @@ def shell_of(
     Cancelled
         `cancelled` answered True.
     """
-    return shell_file_of(desk, progress, cancelled).probe
-
-
-def shell_file_of(
-    desk: Desk,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> ProbeFile:
-    """Return what `shell_of` does, with its history; for `regions_on` and `keep`."""
     state = desk.state
     recipe = recipe_of(state)
     if recipe is None:

@@ -38,24 +38,12 @@ class CheckState(StrEnum):
 
 @dataclass(frozen=True)
 class CheckItem:
-    """
-    One line of the checklist.
+    """One line of the checklist."""
 
-    Attributes
-    ----------
-    name : str
-        What it is.
-    state : CheckState
-    sentence : str
-        What came of it, or what to do.
-    step : Step
-        Where that is done.
-    """
-
-    name: str
+    name: str  # What it is
     state: CheckState
-    sentence: str
-    step: Step
+    sentence: str  # What came of it, or what to do
+    step: Step  # Where that is done
 
     @property
     def holds(self) -> bool:

@@ -43,51 +43,23 @@ _NO_POSE = "The sensor's readings come, but no orientation with them: nothing ca
 
 @dataclass(frozen=True, eq=False)
 class GravityView:
-    """
-    How it stands.
-
-    Attributes
-    ----------
-    state : StillState
-    sentence : str
-        For the technician.
-    seconds : float or None
-        Until it is still; None: cannot be told.
-    progress : float
-        Share of the averaging that is done, 0 to 1.
-    captured : bool
-        The present pose has its capture, and counts.
-    wanted : bool
-        The present pose was asked for, and is captured as soon as it is averaged.
-    R_WS : (3, 3) or None
-        How the sensor stands.
-    rows : tuple of PoseRow
-        All poses, oldest first, also those that do not count.
-    count, expected : int
-        Poses that count, and about how many it will take.
-    solved : Solved
-    errors : tuple of float
-        The calibration's share of the contact error after each change, worst 1 sigma, m.
-    revision : int
-        Grows with every change of rows and what follows from them.
-    busy : bool
-        Something is being computed.
-    """
+    """How it stands."""
 
     state: StillState
-    sentence: str
-    seconds: float | None
-    progress: float
-    captured: bool
-    wanted: bool
-    R_WS: NDArray[np.float64] | None
-    rows: tuple[PoseRow, ...]
-    count: int
+    sentence: str  # For the technician
+    seconds: float | None  # Until it is still; None: cannot be told
+    progress: float  # Share of the averaging that is done, 0 to 1
+    captured: bool  # The present pose has its capture, and counts
+    wanted: bool  # The present pose was asked for, and is captured as soon as it is averaged
+    R_WS: NDArray[np.float64] | None  # (3, 3); How the sensor stands
+    rows: tuple[PoseRow, ...]  # All poses, oldest first, also those that do not count
+    count: int  # count, expected: Poses that count, and about how many it will take
     expected: int
     solved: Solved
+    # The calibration's share of the contact error after each change, worst 1 sigma, m
     errors: tuple[float, ...]
-    revision: int
-    busy: bool
+    revision: int  # Grows with every change of rows and what follows from them
+    busy: bool  # Something is being computed
 
 
 class GravityWork:

@@ -43,18 +43,11 @@ _CANDIDATES = 300
 
 @dataclass(frozen=True)
 class GravitySettings:
-    """
-    How poses are read and calibrated.
+    """How poses are read and calibrated."""
 
-    Attributes
-    ----------
-    parameters : CalibrationParameters
-        Those with which the session will compute its calibration; `mount` is R_ES as angles in degrees.
-    max_tilt : float
-        Largest angle between the sensor's z axis and straight down that can be reached, degrees.
-    """
-
+    # Those with which the session will compute its calibration; `mount` is R_ES as angles in degrees
     parameters: CalibrationParameters
+    # Largest angle between the sensor's z axis and straight down that can be reached, degrees
     max_tilt: float = 180.0
 
     @property
@@ -112,62 +105,31 @@ def gravity_settings(state: State) -> GravitySettings:
 
 @dataclass(frozen=True)
 class Finding:
-    """
-    Something that the poses say, and what would mend it.
-
-    Attributes
-    ----------
-    key : str
-    sentence : str
-        What, and what to do.
-    settings : tuple of (str, JSON value)
-        Parameters of the session that mend it, once the technician confirms; empty: there are none.
-    leave_out : tuple of int
-        Or: indices of poses that are better left out.
-    remedy : str
-        What confirming does, in a few words; empty where nothing can be confirmed.
-    """
+    """Something that the poses say, and what would mend it."""
 
     key: str
-    sentence: str
+    sentence: str  # What, and what to do
+    # (str, JSON value); Parameters of the session that mend it, once the technician confirms; empty:
+    # there are none
     settings: tuple[tuple[str, Any], ...] = ()
-    leave_out: tuple[int, ...] = ()
-    remedy: str = ""
+    leave_out: tuple[int, ...] = ()  # Or: indices of poses that are better left out
+    remedy: str = ""  # What confirming does, in a few words; empty where nothing can be confirmed
 
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """
-    A pose to take next.
+    """A pose to take next."""
 
-    Attributes
-    ----------
-    R_WS : (3, 3)
-    sentence : str
-        How to hold the sensor, and what it gains.
-    error_after : float
-        Predicted share of the calibration in the contact error with it, m.
-    """
-
-    R_WS: NDArray[np.float64]
-    sentence: str
-    error_after: float
+    R_WS: NDArray[np.float64]  # (3, 3)
+    sentence: str  # How to hold the sensor, and what it gains
+    error_after: float  # Predicted share of the calibration in the contact error with it, m
 
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """
-    What the taken poses amount to.
+    """What the taken poses amount to."""
 
-    Attributes
-    ----------
-    calibration : Calibration or None
-        None: there are fewer than three.
-    proposal : Proposal or None
-    findings : tuple of Finding
-    """
-
-    calibration: Calibration | None
+    calibration: Calibration | None  # None: there are fewer than three
     proposal: Proposal | None
     findings: tuple[Finding, ...]
 

@@ -28,43 +28,21 @@ class PoseState(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class PoseRow:
-    """
-    A pose for a table.
+    """A pose for a table."""
 
-    Attributes
-    ----------
-    name : str
-        Such as "pose 3".
-    time : float
-        A moment within it, s on the recording's clock; NaN: of an earlier recording.
-    R_WS : (3, 3) or None
-        None: nobody knows any more.
-    words : str
-        How the sensor stood, or what happened.
-    state : PoseState
-    reason : str
-        Why it does not count, or is doubted.
-    sigmas : float
-        The larger of how far force and torque are from what the poses predict, as a normal deviate; NaN: not
-        computed.
-    force_sigmas, torque_sigmas : float
-    earlier : bool
-        It is of an interrupted recording, and cannot be left out by its time.
-    changeable : bool
-        It can be left out and taken back.
-    """
-
-    name: str
-    time: float
-    R_WS: NDArray[np.float64] | None
-    words: str
+    name: str  # Such as "pose 3"
+    time: float  # A moment within it, s on the recording's clock; NaN: of an earlier recording
+    R_WS: NDArray[np.float64] | None  # (3, 3); None: nobody knows any more
+    words: str  # How the sensor stood, or what happened
     state: PoseState
-    reason: str = ""
+    reason: str = ""  # Why it does not count, or is doubted
+    # The larger of how far force and torque are from what the poses predict, as a normal deviate; NaN: not
+    # computed
     sigmas: float = float("nan")
     force_sigmas: float = float("nan")
     torque_sigmas: float = float("nan")
-    earlier: bool = False
-    changeable: bool = True
+    earlier: bool = False  # It is of an interrupted recording, and cannot be left out by its time
+    changeable: bool = True  # It can be left out and taken back
 
 
 def short_description(R_WS: NDArray[np.float64]) -> str:

@@ -36,26 +36,13 @@ _DIFFERS = 0.1  # of the contact error: less is what a few samples more or less 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """
-    A calibration that is in the session.
-
-    Attributes
-    ----------
-    calibration : Calibration
-    rows : tuple of PoseRow
-    recording : str
-        Name of the recording that it was made from; empty: from poses that were brought in.
-    leave_out : tuple of float
-        Moments of the poses that were left out, s.
-    findings : tuple of Finding
-        What is wrong, and what would mend it.
-    """
+    """A calibration that is in the session."""
 
     calibration: Calibration
     rows: tuple[PoseRow, ...]
-    recording: str
-    leave_out: tuple[float, ...]
-    findings: tuple[Finding, ...] = ()
+    recording: str  # Name of the recording that it was made from; empty: from poses that were brought in
+    leave_out: tuple[float, ...]  # Moments of the poses that were left out, s
+    findings: tuple[Finding, ...] = ()  # What is wrong, and what would mend it
 
     @property
     def changeable(self) -> bool:

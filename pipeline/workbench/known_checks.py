@@ -33,23 +33,12 @@ _PATIENCE_S = 30.0
 
 @dataclass(frozen=True)
 class KnownOutcome:
-    """
-    A check that the session has.
-
-    Attributes
-    ----------
-    outcome : Outcome
-    sentence : str
-    stale : str
-        Why it no longer holds; empty: it does.
-    parameters : mapping
-        That it was computed with.
-    """
+    """A check that the session has."""
 
     outcome: Outcome
     sentence: str
-    stale: str = ""
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+    stale: str = ""  # Why it no longer holds; empty: it does
+    parameters: Mapping[str, Any] = field(default_factory=dict)  # That it was computed with
 
 
 def known_outcome(

@@ -128,28 +128,14 @@ def _put(store: NDArray[np.float64], place: int, new: NDArray[np.float64]) -> No
 
 @dataclass(frozen=True, eq=False)
 class Reading:
-    """
-    The newest moment.
+    """The newest moment."""
 
-    Attributes
-    ----------
-    time : float
-        s.
-    raw, compensated : (6,)
-        N and N·m; filtered; NaN without a calibration.
-    R_WS : (3, 3)
-        NaN where no pose is known.
-    contact : Contact or None
-        None: nothing touches, or there is no probe or no calibration.
-    on : str or None
-        What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none.
-    """
-
-    time: float
-    raw: NDArray[np.float64]
+    time: float  # s
+    raw: NDArray[np.float64]  # raw, compensated: (6,); N and N·m; filtered; NaN without a calibration
     compensated: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
-    contact: Contact | None
+    R_WS: NDArray[np.float64]  # (3, 3); NaN where no pose is known
+    contact: Contact | None  # None: nothing touches, or there is no probe or no calibration
+    # What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none
     on: str | None = None
 
 
@@ -239,25 +225,14 @@ class Moment:
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """
-    Samples that came together, each with the orientation that the sensor had; n of them.
+    """Samples that came together, each with the orientation that the sensor had; n of them."""
 
-    Attributes
-    ----------
-    times : (n,)
-        s, on the samples' clock.
-    wrenches : (n, 6)
-        Raw, S, N and N·m.
-    R_WS : (n, 3, 3)
-        NaN where no pose is known, or the reading is not to be used: the sensor hangs or flags it, or its time is a
-        guess.
-    saturated : (n,) bool
-    """
-
-    times: NDArray[np.float64]
-    wrenches: NDArray[np.float64]
+    times: NDArray[np.float64]  # (n,); s, on the samples' clock
+    wrenches: NDArray[np.float64]  # (n, 6); Raw, S, N and N·m
+    # (n, 3, 3); NaN where no pose is known, or the reading is not to be used: the sensor hangs or flags it,
+    # or its time is a guess
     R_WS: NDArray[np.float64]
-    saturated: NDArray[np.bool_]
+    saturated: NDArray[np.bool_]  # (n,) bool
 
     @property
     def whole(self) -> NDArray[np.bool_]:
@@ -274,23 +249,12 @@ class Block:
 
 @dataclass(frozen=True)
 class Tap:
-    """
-    Who gets all that the devices give, as they give it, in the streams' threads.
+    """Who gets all that the devices give, as they give it, in the streams' threads."""
 
-    Attributes
-    ----------
-    wrenches, flanges : callable
-        Get samples, oldest first.
-    health : callable
-        Gets "sensor" or "robot", and the health that changed.
-    closed : callable
-        Called when the devices are closed: nothing more comes.
-    """
-
-    wrenches: Callable[[Sequence[WrenchSample]], None]
+    wrenches: Callable[[Sequence[WrenchSample]], None]  # wrenches, flanges: Get samples, oldest first
     flanges: Callable[[Sequence[FlangeSample]], None]
-    health: Callable[[str, Health], None]
-    closed: Callable[[], None] = lambda: None
+    health: Callable[[str, Health], None]  # Gets "sensor" or "robot", and the health that changed
+    closed: Callable[[], None] = lambda: None  # Called when the devices are closed: nothing more comes
 
 
 class Live:

@@ -35,16 +35,9 @@ _EMPTY = (",".join(COLUMNS) + "\n").encode()
 
 @dataclass(frozen=True, eq=False)
 class Markers:
-    """
-    Markers of a session, perhaps none.
+    """Markers of a session, perhaps none."""
 
-    Attributes
-    ----------
-    all : tuple of Marker
-        Points in S, m.
-    """
-
-    all: tuple[Marker, ...] = ()
+    all: tuple[Marker, ...] = ()  # Points in S, m
 
     def __len__(self) -> int:
         return len(self.all)

@@ -60,27 +60,13 @@ ALIGNMENT, ALIGNMENT_FILE = "alignment", "alignment.json"
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """
-    A mesh file that was taken: a copy of it, so that nobody changes it under the work.
+    """A mesh file that was taken: a copy of it, so that nobody changes it under the work."""
 
-    Attributes
-    ----------
-    file : Path
-        The copy, under its own name, with what belongs to it beside it.
-    companions : mapping
-        Name -> file beside it.
-    inspection : Inspection
-    original : ProbeFile
-        As the file has it, m.
-    sha256 : str
-        Of the file.
-    """
-
-    file: Path
-    companions: Mapping[str, Path]
+    file: Path  # The copy, under its own name, with what belongs to it beside it
+    companions: Mapping[str, Path]  # Name -> file beside it
     inspection: Inspection
-    original: ProbeFile
-    sha256: str
+    original: ProbeFile  # As the file has it, m
+    sha256: str  # Of the file
 
     @property
     def unit_asked(self) -> bool:
@@ -91,38 +77,20 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Plan:
-    """
-    What is chosen: as the options of ``contactbench probe prepare``, lengths in mm.
-
-    Attributes
-    ----------
-    units : str
-    close : tuple of str
-        How openings are closed, the largest first; empty: as it seems best.
-    alpha, gap : float or None
-        Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe.
-    alignment : Alignment or None
-        None: the mesh stays in its own frame.
-    facets, max_deviation, max_contact_error
-        The target: one of them, or none.
-    engine : str
-    region_ratio : float
-        Facets per area in the regions over that outside.
-    painted : bool
-        Whether the session's regions go on it.
-    """
+    """What is chosen: as the options of ``contactbench probe prepare``, lengths in mm."""
 
     units: str = "auto"
-    close: tuple[str, ...] = ()
+    close: tuple[str, ...] = ()  # How openings are closed, the largest first; empty: as it seems best
+    # alpha, gap: Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe
     alpha: float | None = None
     gap: float | None = None
-    alignment: Alignment | None = None
-    facets: int | None = None
+    alignment: Alignment | None = None  # None: the mesh stays in its own frame
+    facets: int | None = None  # facets, max_deviation, max_contact_error: The target: one of them, or none
     max_deviation: float | None = None
     max_contact_error: float | None = None
     engine: str = "auto"
-    region_ratio: float = 1.0
-    painted: bool = True
+    region_ratio: float = 1.0  # Facets per area in the regions over that outside
+    painted: bool = True  # Whether the session's regions go on it
 
     @property
     def parameters(self) -> dict[str, Any]:
@@ -143,29 +111,14 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Preview:
-    """
-    What a plan gives.
-
-    Attributes
-    ----------
-    plan : Plan
-    mesh : Mesh
-    placed : ProbeFile
-        The outer surface with all its facets, where it will be.
-    done : Preparation
-        The probe, and what was done.
-    regions : str
-        Content of the session's regions that are on it; empty: none.
-    deviation : (n,) float64
-        Distance of each vertex of `placed` from the probe, m.
-    """
+    """What a plan gives."""
 
     plan: Plan
     mesh: Mesh
-    placed: ProbeFile
-    done: Preparation
-    regions: str
-    deviation: NDArray[np.float64]
+    placed: ProbeFile  # The outer surface with all its facets, where it will be
+    done: Preparation  # The probe, and what was done
+    regions: str  # Content of the session's regions that are on it; empty: none
+    deviation: NDArray[np.float64]  # (n,) float64; Distance of each vertex of `placed` from the probe, m
 
 
 class ProbeWork:

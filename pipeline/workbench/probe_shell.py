@@ -27,22 +27,11 @@ REGIONS, REGIONS_FILE = "regions", "regions.json"
 
 @dataclass(frozen=True, eq=False)
 class Recipe:
-    """
-    How the session's probe is made.
+    """How the session's probe is made."""
 
-    Attributes
-    ----------
-    inputs : mapping
-        Role -> hash.
-    parameters : mapping
-        As `ProbeParameters`, without the name.
-    result : Result or None
-        The probe that was made so; None: it is only planned.
-    """
-
-    inputs: Mapping[str, str]
-    parameters: Mapping[str, Any]
-    result: Result | None = None
+    inputs: Mapping[str, str]  # Role -> hash
+    parameters: Mapping[str, Any]  # As `ProbeParameters`, without the name
+    result: Result | None = None  # The probe that was made so; None: it is only planned
 
 
 def recipe_of(state: State) -> Recipe | None:

@@ -107,26 +107,13 @@ _WORDS: dict[type, str] = {
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """
-    What a tool found.
-
-    Attributes
-    ----------
-    tool : Tool
-    rank : int
-        Of the region that it was for.
-    mask : (m,) bool
-    sentence : str
-        What to know about it; may be empty.
-    revision : int
-        Of the regions that it looked at.
-    """
+    """What a tool found."""
 
     tool: Tool
-    rank: int
-    mask: NDArray[np.bool_]
-    sentence: str
-    revision: int
+    rank: int  # Of the region that it was for
+    mask: NDArray[np.bool_]  # (m,) bool
+    sentence: str  # What to know about it; may be empty
+    revision: int  # Of the regions that it looked at
 
 
 def find(graph: FacetGraph, labels: NDArray[np.int32], rank: int, tool: Tool, revision: int = 0) -> Found:
@@ -196,25 +183,13 @@ def give(model: RegionModel, found: Found, *, protect: bool, erase: bool) -> Non
 
 @dataclass(frozen=True)
 class RegionRow:
-    """
-    One region for a list.
+    """One region for a list."""
 
-    Attributes
-    ----------
-    name, colour : str
-        The colour as ``#rrggbb``.
-    facets : int
-    area : float
-        m².
-    untouchable : bool
-        Nothing can touch it.
-    """
-
-    name: str
+    name: str  # name, colour: The colour as ``#rrggbb``
     colour: str
     facets: int
-    area: float
-    untouchable: bool = False
+    area: float  # m²
+    untouchable: bool = False  # Nothing can touch it
 
 
 class RegionsWork:

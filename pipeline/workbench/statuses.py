@@ -30,25 +30,12 @@ SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.seria
 
 @dataclass(frozen=True)
 class Facts:
-    """
-    What the files of a session's newest results say, as far as it decides how steps stand.
+    """What the files of a session's newest results say, as far as it decides how steps stand."""
 
-    Attributes
-    ----------
-    calibration : str
-        "good", "usable", "refuse", or empty: there is none, or it cannot be read.
-    calibration_why : str
-        The first reason of its verdict.
-    passed : bool or None
-        Whether the verification did; None: there is none.
-    passed_why : str
-        The first reason why not, or the figures.
-    """
-
-    calibration: str = ""
-    calibration_why: str = ""
-    passed: bool | None = None
-    passed_why: str = ""
+    calibration: str = ""  # "good", "usable", "refuse", or empty: there is none, or it cannot be read
+    calibration_why: str = ""  # The first reason of its verdict
+    passed: bool | None = None  # Whether the verification did; None: there is none
+    passed_why: str = ""  # The first reason why not, or the figures
 
 
 def read_facts(folder: Path, state: State) -> Facts:

@@ -75,21 +75,11 @@ def plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
 
 @dataclass(frozen=True, eq=False)
 class Tool:
-    """
-    What touches are located with.
+    """What touches are located with."""
 
-    Attributes
-    ----------
-    probe : Probe
-        S.
-    model : GravityModel
-    content : tuple of str
-        Hashes of probe and calibration: other ones are another tool.
-    """
-
-    probe: Probe
+    probe: Probe  # S
     model: GravityModel
-    content: tuple[str, str]
+    content: tuple[str, str]  # Hashes of probe and calibration: other ones are another tool
 
 
 def tool_of(folder: Path, state: State) -> Tool:
@@ -300,56 +290,30 @@ class MarkerOutcome:
 
 @dataclass(frozen=True)
 class Outcome:
-    """
-    A verification, as it is shown.
-
-    Attributes
-    ----------
-    passed : bool
-    reasons, notes, warnings : tuple of str
-        Why not; what it says nothing about; what to know of the recording.
-    diagnosis : str
-        What to fix first; empty: too few touches.
-    touches : int
-        Accepted.
-    mean_mm, sd_mm, p95_mm, max_mm : float or None
-    low_mm, high_mm : float or None
-        The mean is between them, 95 %.
-    ratio : float or None
-        Error over what noise and calibration explain.
-    mean_limit_mm, max_limit_mm : float
-    rejected : tuple of (reason, count)
-    markers : tuple of MarkerOutcome
-    report : Path or None
-    differs : str
-        What was another while it was live; empty: nothing.
-    stale : str
-        Why it no longer holds; empty: it does.
-    model_error : str
-        What the model leaves out of the wrench, and what to do about it.
-    """
+    """A verification, as it is shown."""
 
     passed: bool
+    # reasons, notes, warnings: Why not; what it says nothing about; what to know of the recording
     reasons: tuple[str, ...]
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
-    diagnosis: str
-    touches: int
+    diagnosis: str  # What to fix first; empty: too few touches
+    touches: int  # Accepted
     mean_mm: float | None
     sd_mm: float | None
     p95_mm: float | None
     max_mm: float | None
-    low_mm: float | None
+    low_mm: float | None  # low_mm, high_mm: The mean is between them, 95 %
     high_mm: float | None
-    ratio: float | None
+    ratio: float | None  # Error over what noise and calibration explain
     mean_limit_mm: float
     max_limit_mm: float
-    rejected: tuple[tuple[str, int], ...]
+    rejected: tuple[tuple[str, int], ...]  # (reason, count)
     markers: tuple[MarkerOutcome, ...]
     report: Path | None
-    differs: str = ""
-    stale: str = ""
-    model_error: str = ""
+    differs: str = ""  # What was another while it was live; empty: nothing
+    stale: str = ""  # Why it no longer holds; empty: it does
+    model_error: str = ""  # What the model leaves out of the wrench, and what to do about it
 
     def with_difference(self, words: str) -> Outcome:
         """Return it with what was another while it was live."""

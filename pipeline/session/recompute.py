@@ -72,22 +72,11 @@ PARAMETERS: dict[str, type[BaseModel]] = {
 
 @dataclass(frozen=True)
 class Roles:
-    """
-    The roles of a kind's inputs.
+    """The roles of a kind's inputs."""
 
-    Attributes
-    ----------
-    needed : tuple of str
-        Without one of them nothing is computed.
-    optional : tuple of str
-        Taken where the session has them.
-    on_request : tuple of str
-        Taken only where somebody names them.
-    """
-
-    needed: tuple[str, ...]
-    optional: tuple[str, ...] = ()
-    on_request: tuple[str, ...] = ()
+    needed: tuple[str, ...]  # Without one of them nothing is computed
+    optional: tuple[str, ...] = ()  # Taken where the session has them
+    on_request: tuple[str, ...] = ()  # Taken only where somebody names them
 
 
 ROLES: dict[str, Roles] = {

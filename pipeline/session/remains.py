@@ -49,22 +49,11 @@ _LONGEST_NOTE = 9000
 
 @dataclass(frozen=True)
 class Remains:
-    """
-    A journal of the records that are left.
+    """A journal of the records that are left."""
 
-    Attributes
-    ----------
-    data : bytes
-        A whole journal, of the version of the damaged one.
-    losses : frozenset of int
-        Numbers of the records in it after which at least one is missing.
-    sentences : tuple of str
-        What was found.
-    """
-
-    data: bytes
-    losses: frozenset[int]
-    sentences: tuple[str, ...]
+    data: bytes  # A whole journal, of the version of the damaged one
+    losses: frozenset[int]  # Numbers of the records in it after which at least one is missing
+    sentences: tuple[str, ...]  # What was found
 
 
 def remains_of(folder: Path, data: bytes) -> Remains:

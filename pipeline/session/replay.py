@@ -29,24 +29,13 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Replayed:
-    """
-    One result, computed again.
-
-    Attributes
-    ----------
-    kind, name : str
-    number : int
-        Of its record.
-    outcome : Outcome
-    sentence : str
-        What came of it.
-    """
+    """One result, computed again."""
 
     kind: str
     name: str
-    number: int
+    number: int  # Of its record
     outcome: Outcome
-    sentence: str
+    sentence: str  # What came of it
 
 
 def replay(session: Session, progress: Callable[[int, int], None] | None = None) -> tuple[Replayed, ...]:

@@ -21,8 +21,8 @@ from pydantic import ValidationError
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.report.making import ReportParameters, report
+from contactbench.pipeline.session.actions import main_file
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.identity import main_file
 from contactbench.pipeline.session.make_calibration import (
     CalibrationParameters,
     CapturesParameters,

@@ -20,12 +20,13 @@ from contactbench.pipeline.session.actions import (
     Record,
     ResultMarked,
     SessionCreated,
+    entry,
     files_of,
     parse_payload,
     payload_of,
     read_entry,
+    user,
 )
-from contactbench.pipeline.session.entries import entry, user
 from contactbench.pipeline.session.errors import JournalError
 from contactbench.pipeline.session.journal import read_journal, refuse_damage
 from contactbench.pipeline.session.migrate import version_of

@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.session.entries import TOOL
+from contactbench.pipeline.session.actions import TOOL
 from contactbench.pipeline.session.recompute import RECOMPUTE, recomputed
 
 if TYPE_CHECKING:

@@ -16,8 +16,10 @@ from contactbench.pipeline.session.actions import (
     ResultAdded,
     ResultMarked,
     SessionCreated,
+    content_hash,
+    input_hash,
+    main_file,
 )
-from contactbench.pipeline.session.identity import content_hash, input_hash, main_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping

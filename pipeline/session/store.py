@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import (
+    NOWHERE,
     DeviceRezeroed,
     InputAdded,
     MeshChanged,
@@ -18,9 +19,11 @@ from contactbench.pipeline.session.actions import (
     ResultAdded,
     ResultMarked,
     SessionCreated,
+    checked,
+    entry,
     payload_of,
+    user,
 )
-from contactbench.pipeline.session.entries import NOWHERE, checked, entry, user
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,

@@ -21,26 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class BlindSet:
-    """A way to choose poses badly.
-
-    Attributes
-    ----------
-    name : str
-    draw : callable
-        (rng, n) -> R_WS (n, 3, 3).
-    words : tuple of str
-        What the verdict must say: one of these.
-    levels : tuple of Level
-        What the verdict may be.
-    mass : (low, high)
-        Of the load, kg.
-    """
+    """A way to choose poses badly."""
 
     name: str
-    draw: Draw
-    words: tuple[str, ...]
-    levels: tuple[Level, ...] = (Level.REFUSE,)
-    mass: tuple[float, float] = (0.1, 2.0)
+    draw: Draw  # (rng, n) -> R_WS (n, 3, 3)
+    words: tuple[str, ...]  # What the verdict must say: one of these
+    levels: tuple[Level, ...] = (Level.REFUSE,)  # What the verdict may be
+    mass: tuple[float, float] = (0.1, 2.0)  # Of the load, kg
 
 
 def _spun(rng: np.random.Generator, n: int) -> NDArray[np.float64]:
@@ -89,19 +76,17 @@ _FAR = 5.0  # sigmas: once in a million
 
 @dataclass(frozen=True)
 class Blindness:
-    """How one kind of set was dealt with.
-
-    Attributes
-    ----------
-    name : str
-    tries, silent, wrong : int
-        Sets tried; of those, called better than they are or in other words; and with a parameter further
-        from the truth than its stated uncertainty allows.
-    """
+    """How one kind of set was dealt with."""
 
     name: str
+    # Sets tried; of those, called better than they are or in other words; and with a parameter further from
+    # the truth than its stated uncertainty allows
     tries: int
+    # Sets tried; of those, called better than they are or in other words; and with a parameter further from
+    # the truth than its stated uncertainty allows
     silent: int
+    # Sets tried; of those, called better than they are or in other words; and with a parameter further from
+    # the truth than its stated uncertainty allows
     wrong: int
 
 

@@ -33,38 +33,18 @@ _NO_NAMES = frozenset("/\\:\0")
 
 @dataclass(frozen=True)
 class BundleFuzzReport:
-    """
-    What became of the mutated bundles.
-
-    Attributes
-    ----------
-    count : int
-    refused : int
-        With a typed error.
-    same : int
-        Loaded as exactly what they were before, to the byte.
-    other : int
-        Loaded as another config, where a changed number may be as good as the one before.
-    compared : int
-        Also given to the loader in C++.
-    slowest_s : float
-        Longest time that a loader took.
-    largest_MiB : float
-        Memory by which this process grew, or that the loader in C++ used, whichever is more; 0: not known.
-    kinds : mapping of str to int
-        How many of each kind.
-    failures : tuple of str
-        Kind and what happened: accepted but wrong, an error of another type, or a loader that disagrees.
-    """
+    """What became of the mutated bundles."""
 
     count: int
-    refused: int
-    same: int
-    other: int
-    compared: int
-    slowest_s: float
+    refused: int  # With a typed error
+    same: int  # Loaded as exactly what they were before, to the byte
+    other: int  # Loaded as another config, where a changed number may be as good as the one before
+    compared: int  # Also given to the loader in C++
+    slowest_s: float  # Longest time that a loader took
+    # Memory by which this process grew, or that the loader in C++ used, whichever is more; 0: not known
     largest_MiB: float
-    kinds: dict[str, int]
+    kinds: dict[str, int]  # How many of each kind
+    # Kind and what happened: accepted but wrong, an error of another type, or a loader that disagrees
     failures: tuple[str, ...]
 
     @property
@@ -108,22 +88,7 @@ def mutants(count: int, seed: int = 0) -> Iterator[Mutant]:
 
 
 def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> BundleFuzzReport:
-    """
-    Load mutated bundles.
-
-    Parameters
-    ----------
-    count : int
-    seed : int
-    cpp : path, optional
-        The program contactbench-load_all: the loader in C++ is given the same bundles, as far as they are folders, and
-        must accept exactly those that are accepted here.
-
-    Raises
-    ------
-    InputError
-        `count` is below 1, or the program does not run.
-    """
+    """Load mutated bundles."""
     sound = _bases()
     outcomes: Counter[str] = Counter()
     kinds: Counter[str] = Counter()

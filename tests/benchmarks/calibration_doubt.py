@@ -42,43 +42,20 @@ _STEP = 1e-9  # N, N·m: less is no step
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What one session came to.
+    """What one session came to."""
 
-    Attributes
-    ----------
-    cause, odds : str, float
-        The most probable cause, and its probability.
-    adopted : str
-        What was added beside the model: a drift, a rezero, or nothing.
-    steps : tuple of int
-        Poses, from 0, before which a re-zero is told.
-    rezeroed : tuple of int
-        Poses before which the zero did jump.
-    level : str
-        Of the verdict.
-    covered : bool
-        The ellipsoid of 95 % holds the truth.
-    scaled : (12,)
-        Errors over the sigmas of the Cramér-Rao bound.
-    wrongly_bumped, missed : bool
-        A clean pose was left out; a bumped one was not.
-    error, claimed : float
-        Largest shift of a contact, and what is claimed for it, m.
-    seconds : float
-    """
-
-    cause: str
-    odds: float
-    adopted: str
-    steps: tuple[int, ...]
-    rezeroed: tuple[int, ...]
-    level: str
-    covered: bool
-    scaled: NDArray[np.float64]
-    wrongly_bumped: bool
-    missed: bool
-    error: float
-    claimed: float
+    cause: str  # The most probable cause, and its probability
+    odds: float  # The most probable cause, and its probability
+    adopted: str  # What was added beside the model: a drift, a rezero, or nothing
+    steps: tuple[int, ...]  # Poses, from 0, before which a re-zero is told
+    rezeroed: tuple[int, ...]  # Poses before which the zero did jump
+    level: str  # Of the verdict
+    covered: bool  # The ellipsoid of 95 % holds the truth
+    scaled: NDArray[np.float64]  # Errors over the sigmas of the Cramér-Rao bound
+    wrongly_bumped: bool  # A clean pose was left out; a bumped one was not
+    missed: bool  # A clean pose was left out; a bumped one was not
+    error: float  # Largest shift of a contact, and what is claimed for it, m
+    claimed: float  # Largest shift of a contact, and what is claimed for it, m
     seconds: float
 
     @property
@@ -94,32 +71,18 @@ class Trial:
 
 @dataclass(frozen=True)
 class Cell:
-    """One way to draw sessions, and what must come of them.
-
-    Attributes
-    ----------
-    name : str
-    draw : callable
-        Draws a session from a random generator.
-    noise : float, optional
-        The noise is given, as so many times the true one; left out: it is not given.
-    orientation_deg : float, optional
-        The orientations' noise is given, degrees; left out: it is not given.
-    told : tuple of str
-        Keys of the causes that are right to tell; without any, the plain model must be.
-    bounds : tuple of (measure, comparison, percent or ratio)
-        What must be reached.
-    timed : bool
-        The poses have times.
-    """
+    """One way to draw sessions, and what must come of them."""
 
     name: str
-    draw: Callable[[np.random.Generator], Session]
-    noise: float | None = None
+    draw: Callable[[np.random.Generator], Session]  # Draws a session from a random generator
+    noise: float | None = None  # The noise is given, as so many times the true one; left out: it is not given
+    # The orientations' noise is given, degrees; left out: it is not given
     orientation_deg: float | None = None
+    # Keys of the causes that are right to tell; without any, the plain model must be
     told: tuple[str, ...] = ()
+    # tuple of (measure, comparison, percent or ratio). What must be reached.
     bounds: tuple[tuple[str, str, float], ...] = ()
-    timed: bool = True
+    timed: bool = True  # The poses have times
 
     def tried(self, seed: int, numbers: range) -> list[Trial]:
         """Draw and calibrate the sessions of these numbers."""
@@ -357,26 +320,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> GravityReport:
-    """Measure every cell.
-
-    Parameters
-    ----------
-    sets : int
-        Sessions for each cell, at least 20.
-    cells : str
-        Only cells whose name has this in it.
-    workers : int, optional
-        Processes; left out: as many as there are cores.
-    seed : int
-        Of chance, at least 0: the same seed gives the same sessions, whatever the number of workers.
-    progress : callable
-        Told how far it is.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or no cell has such a name.
-    """
+    """Measure every cell."""
     if sets < 20 or seed < 0:
         raise InputError(f"{sets} sets, seed {seed}: give at least 20 sets and a seed of at least 0")
     chosen = [cell for cell in CELLS if cells in cell.name]

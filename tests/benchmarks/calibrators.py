@@ -52,14 +52,7 @@ PLAIN: dict[str, Callable[..., Any]] = {MEASURED: measured_regressor, VERTICAL: 
 
 
 def calibration_rows(trials: int, rounds: int, seed: int) -> Iterator[Row]:
-    """
-    Measure all on clean poses, on a light load, with a bumped pose, and with a base that is not level.
-
-    Yields
-    ------
-    dict
-        Errors: by how much the calibration moves a contact of the usual task, RMS over its touches; times.
-    """
+    """Measure all on clean poses, on a light load, with a bumped pose, and with a base that is not level."""
     yield known(FAMILY, Contender(OURS))
     for name in PLAIN:
         yield {**known(FAMILY, Contender(name)), "version": f"as described, NumPy {np.__version__}"}

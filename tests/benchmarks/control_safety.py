@@ -62,39 +62,19 @@ class Placed(PlatformMotion):
 
 @dataclass(frozen=True)
 class Start:
-    """
-    One random start.
+    """One random start."""
 
-    Attributes
-    ----------
-    number : int
-        Which seed it was drawn from.
-    probe : str
-    variant : Variant
-    stiffness : float
-        Multiple of the usual modulus.
-    friction, gap : float
-        m.
-    tilt : (about x, about y)
-        Of the phantom, rad.
-    axis : str
-        Of the platform's motion.
-    size, period, begin : float
-        m or rad, s, s.
-    faults : tuple of ScriptedFault
-    """
-
-    number: int
+    number: int  # Which seed it was drawn from
     probe: str
     variant: Variant
-    stiffness: float
-    friction: float
-    gap: float
-    tilt: tuple[float, float]
-    axis: str
-    size: float
-    period: float
-    begin: float
+    stiffness: float  # Multiple of the usual modulus
+    friction: float  # m
+    gap: float  # m
+    tilt: tuple[float, float]  # Of the phantom, rad
+    axis: str  # Of the platform's motion
+    size: float  # m or rad, s, s
+    period: float  # m or rad, s, s
+    begin: float  # m or rad, s, s
     faults: tuple[ScriptedFault, ...]
 
     @property
@@ -105,32 +85,16 @@ class Start:
 
 @dataclass(frozen=True)
 class End:
-    """
-    What came of it.
-
-    Attributes
-    ----------
-    start : Start
-    peak : float
-        Largest |F| of the true contact, N.
-    limit : float
-        N.
-    ended : str
-        The last state; "physics" if the scene came apart.
-    tracked : bool
-        Whether it ever tracked.
-    force : float
-        True force at the end, N.
-    tilt : float
-        Largest angle between axis and normal from a second after it began to track, degrees; NaN if it never did.
-    """
+    """What came of it."""
 
     start: Start
-    peak: float
-    limit: float
-    ended: str
-    tracked: bool
-    force: float
+    peak: float  # Largest |F| of the true contact, N
+    limit: float  # N
+    ended: str  # The last state; "physics" if the scene came apart
+    tracked: bool  # Whether it ever tracked
+    force: float  # True force at the end, N
+    # Largest angle between axis and normal from a second after it began to track, degrees; NaN if it never
+    # did
     tilt: float
 
     @property
@@ -229,25 +193,7 @@ def run(
     kept: Path | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> Report:
-    """
-    Run many random starts, a fifth with each kind of fault and a fifth with none.
-
-    Parameters
-    ----------
-    runs : int
-    seed : int
-    workers : int, optional
-        Processes; left out, one for each core; 1: in this one.
-    kept : Path, optional
-        File to which each end is added as it comes; those of the same code that are there are not run again.
-    progress : callable, optional
-        Told how many of how many are done; what it raises ends the work.
-
-    Raises
-    ------
-    InputError
-        `runs` is out of its range, MuJoCo is missing, or `kept` cannot be read or written.
-    """
+    """Run many random starts, a fifth with each kind of fault and a fifth with none."""
     if not 1 <= runs <= 1_000_000:
         raise InputError(f"{runs} runs: give 1 to 1,000,000.")
     there = {} if kept is None else _read(kept, seed)

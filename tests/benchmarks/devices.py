@@ -26,24 +26,7 @@ def run_protocols(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Feed each parser random bytes, and a stream with one byte in a hundred damaged.
-
-    Parameters
-    ----------
-    count : int
-        Random bytes for each, above 0.
-    frames : int
-        Frames of each damaged stream, above 0.
-    seed : int
-    progress : callable, optional
-        Told what is being done.
-
-    Raises
-    ------
-    InputError
-        A number is not above 0.
-    """
+    """Feed each parser random bytes, and a stream with one byte in a hundred damaged."""
     if count < 1 or frames < 1:
         raise InputError("give numbers of bytes and frames above 0.")
     figures = []
@@ -70,21 +53,7 @@ def run_protocols(
 def run_sessions(
     kills: int = 200, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None
 ) -> Report:
-    """
-    Kill a writing process again and again, and look what is left.
-
-    Parameters
-    ----------
-    kills : int
-        Above 0.
-    seed : int
-    progress : callable, optional
-
-    Raises
-    ------
-    InputError
-        `kills` is not above 0.
-    """
+    """Kill a writing process again and again, and look what is left."""
     if kills < 1:
         raise InputError("give a number of kills above 0.")
     progress(f"killing a writer {kills} times")

@@ -28,15 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Figure:
-    """One measured figure and what it must reach.
-
-    Attributes
-    ----------
-    question : str
-    target : str
-    measured : str
-    passed : bool
-    """
+    """One measured figure and what it must reach."""
 
     question: str
     target: str
@@ -46,13 +38,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class GravityReport:
-    """All figures of a run.
-
-    Attributes
-    ----------
-    trials, seed : int
-    figures : tuple of Figure
-    """
+    """All figures of a run."""
 
     trials: int
     seed: int
@@ -93,22 +79,7 @@ class GravityReport:
 def run(
     *, trials: int = 2000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
 ) -> GravityReport:
-    """Measure every figure.
-
-    Parameters
-    ----------
-    trials : int
-        Random set-ups for each statistical figure, at least 20.
-    seed : int
-        Of chance, at least 0.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+    """Measure every figure."""
     if trials < 20 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 20 trials and a seed of at least 0")
     figures: list[Figure] = []
@@ -255,15 +226,7 @@ def light_load(trials: int, seed: int) -> list[Figure]:
 
 
 def measured_regressor(R_SW: NDArray[np.float64], F: NDArray[np.float64], M: NDArray[np.float64]) -> Any:
-    """
-    Return the parameters (12,) by two plain least squares, the second on the *measured* force (Eq. 2).
-
-    Parameters
-    ----------
-    R_SW : (n, 3, 3)
-    F, M : (n, 3)
-        N and N·m.
-    """
+    """Return the parameters (12,) by two plain least squares, the second on the *measured* force (Eq. 2)."""
     n = len(R_SW)
     identity = np.broadcast_to(np.eye(3), (n, 3, 3))
     forces = np.concatenate([R_SW, identity], axis=2).reshape(-1, 6)

@@ -36,19 +36,11 @@ _EULER, _VECTOR = Kind.EULER, Kind.ROTATION_VECTOR
 
 @dataclass(frozen=True, eq=False)
 class Recorded:
-    """Poses with a mistake in them.
+    """Poses with a mistake in them."""
 
-    Attributes
-    ----------
-    R_WS : (n, 3, 3)
-    wrenches : (n, 6)
-    raw : RawOrientations or None
-        The numbers behind the orientations, where an option is wrong.
-    """
-
-    R_WS: NDArray[np.float64]
-    wrenches: NDArray[np.float64]
-    raw: RawOrientations | None = None
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    wrenches: NDArray[np.float64]  # (n, 6)
+    raw: RawOrientations | None = None  # The numbers behind the orientations, where an option is wrong
 
 
 Mistake = tuple[tuple[str, ...], "Callable[[Recorded, np.random.Generator], Recorded]"]
@@ -291,25 +283,13 @@ UNKNOWN: dict[str, Mistake] = {
 
 @dataclass(frozen=True)
 class Count:
-    """What came of the sets of one mistake.
-
-    Attributes
-    ----------
-    sets : int
-    first : int
-        The true cause was the most probable, or named as one that is as good.
-    wrong : int
-        Another one was said with odds above 3 to 1.
-    consistent : int
-    instead : Counter
-        Keys that came first instead.
-    """
+    """What came of the sets of one mistake."""
 
     sets: int
-    first: int
-    wrong: int
+    first: int  # The true cause was the most probable, or named as one that is as good
+    wrong: int  # Another one was said with odds above 3 to 1
     consistent: int
-    instead: Counter[str]
+    instead: Counter[str]  # Keys that came first instead
 
 
 def draw(rng: np.random.Generator) -> tuple[Recorded, GravityModel, PoseNoise]:
@@ -324,17 +304,7 @@ def draw(rng: np.random.Generator) -> tuple[Recorded, GravityModel, PoseNoise]:
 
 
 def judge(mistake: Mistake, rng: np.random.Generator, sets: int, *, given: bool = True) -> Count:
-    """Diagnose random sets with one mistake.
-
-    Parameters
-    ----------
-    mistake : Mistake
-        Keys that tell it, or their beginnings, and what makes it.
-    rng : numpy.random.Generator
-    sets : int
-    given : bool
-        Whether mass and noise are known.
-    """
+    """Diagnose random sets with one mistake."""
     keys, make = mistake
     first = wrong = consistent = 0
     instead: Counter[str] = Counter()
@@ -374,22 +344,7 @@ def _diagnosed(made: Recorded, load: GravityModel | None, noise: PoseNoise | Non
 def run(
     *, trials: int = 200, seed: int = 0, progress: Callable[[str], None] = lambda _: None
 ) -> GravityReport:
-    """Diagnose random sets with each mistake, and clean ones.
-
-    Parameters
-    ----------
-    trials : int
-        Sets for each mistake, at least 1.
-    seed : int
-        Of chance, at least 0.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+    """Diagnose random sets with each mistake, and clean ones."""
     if trials < 1 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 1 trial and a seed of at least 0")
     figures: list[Figure] = []

@@ -29,29 +29,14 @@ _STEP = 0.002  # m between two events: a hand at 0.1 m/s, a mouse at 50 Hz
 
 @dataclass(frozen=True)
 class BrushRow:
-    """
-    One width of the brush.
-
-    Attributes
-    ----------
-    radius_mm : float
-    events : int
-    changed : float
-        Facets that changed with an event, on average.
-    event : Timing
-        The stroke goes on, and the colours of what changed are there, ns.
-    whole : Timing
-        The same, where all facets are coloured anew instead, ns.
-    finish : Timing
-        The end of a stroke: its step, and the areas of the list, ns.
-    """
+    """One width of the brush."""
 
     radius_mm: float
     events: int
-    changed: float
-    event: Timing
-    whole: Timing
-    finish: Timing
+    changed: float  # Facets that changed with an event, on average
+    event: Timing  # The stroke goes on, and the colours of what changed are there, ns
+    whole: Timing  # The same, where all facets are coloured anew instead, ns
+    finish: Timing  # The end of a stroke: its step, and the areas of the list, ns
 
     @property
     def ratio(self) -> float:
@@ -114,28 +99,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> PaintingReport:
-    """
-    Draw strokes over a bundled probe, and time each event.
-
-    Parameters
-    ----------
-    probe : str
-        A bundled probe.
-    facets : int
-    radii : sequence of float
-        Of the brush, m.
-    strokes, events : int
-        Strokes of each radius, and picks of each stroke, 2 mm apart.
-    seed : int
-        Of where they are.
-    progress : callable
-        Told in words what is being measured.
-
-    Raises
-    ------
-    InputError
-        There is no such probe, or nothing to measure.
-    """
+    """Draw strokes over a bundled probe, and time each event."""
     if probe not in assets.PROBE_NAMES:
         raise InputError(
             f"there is no bundled probe {probe!r}; choose one of {', '.join(assets.PROBE_NAMES)}"

@@ -34,14 +34,7 @@ FACETS = 20_000
 
 
 class BotaPlane:
-    """
-    Bota's estimator for a plane across the sensor's z axis; ImportError where it cannot be had.
-
-    Parameters
-    ----------
-    height : float
-        Of the plane, m.
-    """
+    """Bota's estimator for a plane across the sensor's z axis; ImportError where it cannot be had."""
 
     def __init__(self, height: float) -> None:
         library: Any = import_module("bota_tactile_sensing_utils")
@@ -79,11 +72,6 @@ def plane_rows(touches: int, rounds: int, seed: int) -> Iterator[Row]:
     Measure Bota's estimator and ours on a flat face, and on the acoustic faces of the bundled probes.
 
     It is told how high the foremost place of the probe is; we get the probe's mesh.
-
-    Yields
-    ------
-    dict
-        Errors at every noise, and times.
     """
     try:
         BotaPlane(_TOP_M)

@@ -68,37 +68,18 @@ class Ran:
 
 @dataclass(frozen=True)
 class Judged:
-    """
-    A written mesh against its original.
-
-    Attributes
-    ----------
-    facets : int
-    wrong : str
-        What the stranger saw; "" when nothing.
-    parts : int
-    invented : float
-        Share of its area.
-    p95_mm, most_mm : float
-        From the visible outside to the mesh.
-    back_mm : float
-        From what the mesh did not invent to the outside, largest.
-    fold_deg : float
-        Largest deviation of a normal from the original's own, where it did not invent.
-    folded : int
-        Facets beyond what is allowed.
-    """
+    """A written mesh against its original."""
 
     facets: int
     sound: bool
-    wrong: str
+    wrong: str  # What the stranger saw; "" when nothing
     parts: int
-    invented: float
-    p95_mm: float
-    most_mm: float
-    back_mm: float
-    fold_deg: float
-    folded: int
+    invented: float  # Share of its area
+    p95_mm: float  # From the visible outside to the mesh
+    most_mm: float  # From the visible outside to the mesh
+    back_mm: float  # From what the mesh did not invent to the outside, largest
+    fold_deg: float  # Largest deviation of a normal from the original's own, where it did not invent
+    folded: int  # Facets beyond what is allowed
 
 
 @dataclass(frozen=True)

@@ -25,38 +25,16 @@ _LATEST_S = 0.05
 
 @dataclass(frozen=True)
 class KillReport:
-    """
-    What became of a session whose writer was killed again and again.
-
-    Attributes
-    ----------
-    kills : int
-    acknowledged : int
-        Actions that writers were told are safe.
-    torn : int
-        How often a record was cut off in the middle.
-    problems : tuple of str
-        What was lost or is half there; empty when all is well.
-    """
+    """What became of a session whose writer was killed again and again."""
 
     kills: int
-    acknowledged: int
-    torn: int
-    problems: tuple[str, ...]
+    acknowledged: int  # Actions that writers were told are safe
+    torn: int  # How often a record was cut off in the middle
+    problems: tuple[str, ...]  # What was lost or is half there; empty when all is well
 
 
 def kill_writers(folder: Path, kills: int, *, seed: int = 0) -> KillReport:
-    """
-    Kill a process that adds to a session at random moments, and check the session after each.
-
-    Parameters
-    ----------
-    folder : path
-        New; it holds the session afterwards.
-    kills : int
-    seed : int
-        Of the moments: up to 50 ms after the first action was acknowledged, one in five before it.
-    """
+    """Kill a process that adds to a session at random moments, and check the session after each."""
     moments = random.Random(seed)  # noqa: S311 moments, no secrets
     Session.create(folder, by="crash").close()
     problems: list[str] = []

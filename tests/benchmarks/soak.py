@@ -72,79 +72,31 @@ class SoakError(AssertionError):
 
 @dataclass(frozen=True, slots=True)
 class SoakReport:
-    """
-    What came of random bytes.
-
-    Attributes
-    ----------
-    protocol : str
-    bytes_fed : int
-    false_frames : int
-        Frames found; nothing in the bytes was one.
-    expected : float or None
-        How many chance makes; None where there is no checksum.
-    refusals : int
-        Errors of the parser's own kind (robots only: there, what is found is often made of true pieces).
-    seconds : float
-        Time in the parser.
-    """
+    """What came of random bytes."""
 
     protocol: str
     bytes_fed: int
-    false_frames: int
-    expected: float | None
+    false_frames: int  # Frames found; nothing in the bytes was one
+    expected: float | None  # How many chance makes; None where there is no checksum
+    # Errors of the parser's own kind (robots only: there, what is found is often made of true pieces)
     refusals: int
-    seconds: float
+    seconds: float  # Time in the parser
 
 
 @dataclass(frozen=True, slots=True)
 class DamageReport:
-    """
-    What came of a stream with damaged bytes.
-
-    Attributes
-    ----------
-    protocol : str
-    frames : int
-        Frames sent.
-    intact : int
-        Of them without a damaged byte.
-    recovered : int
-        Intact frames whose samples came out.
-    false_frames : int
-        Samples with a payload that was never sent.
-    seconds : float
-        Time in the parser.
-    """
+    """What came of a stream with damaged bytes."""
 
     protocol: str
-    frames: int
-    intact: int
-    recovered: int
-    false_frames: int
-    seconds: float
+    frames: int  # Frames sent
+    intact: int  # Of them without a damaged byte
+    recovered: int  # Intact frames whose samples came out
+    false_frames: int  # Samples with a payload that was never sent
+    seconds: float  # Time in the parser
 
 
 def soak(protocol: str, count: int, seed: int) -> SoakReport:
-    """
-    Feed random bytes, cut at random; for robots, mixed with pieces of the protocol.
-
-    Parameters
-    ----------
-    protocol : str
-        One of `PROTOCOLS`. RDT takes each cut as a datagram: every one of the right length is a record.
-    count : int
-        Bytes.
-    seed : int
-        The same seed, the same bytes.
-
-    Raises
-    ------
-    ProtocolError
-        There is no such protocol.
-    SoakError
-        The parser broke a promise.
-    """
+    """Feed random bytes, cut at random; for robots, mixed with pieces of the protocol."""
     rng = np.random.default_rng(seed)
     if protocol in SUBJECTS:
         return _soak_sensor(protocol, SUBJECTS[protocol], count, rng)
@@ -155,27 +107,7 @@ def soak(protocol: str, count: int, seed: int) -> SoakReport:
 
 
 def damage(protocol: str, frames: int, seed: int, *, share: float = 0.01) -> DamageReport:
-    """
-    Feed a stream of frames, a share of its bytes damaged, cut at random.
-
-    Parameters
-    ----------
-    protocol : str
-        A sensor's: a key of `SUBJECTS`.
-    frames : int
-        How many.
-    seed : int
-        The same seed, the same bytes.
-    share : float
-        Of the bytes, 0 to 1; each gets another value.
-
-    Raises
-    ------
-    ProtocolError
-        There is no such sensor protocol.
-    SoakError
-        The parser broke a promise.
-    """
+    """Feed a stream of frames, a share of its bytes damaged, cut at random."""
     if protocol not in SUBJECTS:
         raise ProtocolError(f"soak: there is no sensor protocol {protocol!r}; known: {', '.join(SUBJECTS)}.")
     subject, rng = SUBJECTS[protocol], np.random.default_rng(seed)

@@ -24,27 +24,15 @@ _LAYOUTS = {Trailer.SUM: Layout(Trailer.SUM), Trailer.CRC32: Layout(Trailer.CRC3
 
 @dataclass(frozen=True, slots=True)
 class Subject:
-    """
-    One sensor protocol under trial.
+    """One sensor protocol under trial."""
 
-    Attributes
-    ----------
-    parser : callable
-        Makes a fresh parser.
-    frame : callable
-        Makes an intact frame from its number and 24 bytes of payload (Robotiq takes the first 12).
-    frame_bytes, payload_at : int
-        Length of a frame, and where in it the payload begins.
-    payload_bytes : int
-    false_bits : int or None
-        A false frame begins at one place in 2 to this power of random bytes; None without a checksum.
-    """
-
-    parser: Callable[[], SensorParser]
+    parser: Callable[[], SensorParser]  # Makes a fresh parser
+    # Makes an intact frame from its number and 24 bytes of payload (Robotiq takes the first 12)
     frame: Callable[[int, bytes], bytes]
-    frame_bytes: int
-    payload_at: int
+    frame_bytes: int  # Length of a frame, and where in it the payload begins
+    payload_at: int  # Length of a frame, and where in it the payload begins
     payload_bytes: int
+    # A false frame begins at one place in 2 to this power of random bytes; None without a checksum
     false_bits: int | None
 
 

@@ -58,23 +58,11 @@ _EVERY, _AWAY_M = 4, (0.0015, 0.003)
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """
-    What is verified, with one thing wrong.
+    """What is verified, with one thing wrong."""
 
-    Attributes
-    ----------
-    probe : Probe
-        What the program is told.
-    markers : MarkerSet
-        In S as the program is told.
-    model : GravityModel
-        What the program is told.
-    recording : TouchRecording
-    """
-
-    probe: Probe
-    markers: MarkerSet
-    model: GravityModel
+    probe: Probe  # What the program is told
+    markers: MarkerSet  # In S as the program is told
+    model: GravityModel  # What the program is told
     recording: TouchRecording
 
     def verified(self, settings: VerifySettings | None = None) -> Verification:
@@ -91,22 +79,7 @@ class Bench:
 def run(
     *, trials: int = 1000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
 ) -> GravityReport:
-    """
-    Measure every figure.
-
-    Parameters
-    ----------
-    trials : int
-        Of each figure, at least 20.
-    seed : int
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+    """Measure every figure."""
     if trials < 20 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 20 trials and a seed of at least 0.")
     progress("intervals of bias and scatter")

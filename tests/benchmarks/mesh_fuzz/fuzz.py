@@ -48,39 +48,20 @@ class Failure:
 
 @dataclass
 class FuzzReport:
-    """
-    What came of the files.
+    """What came of the files."""
 
-    Attributes
-    ----------
-    count, seed : int
-        The series.
-    refused, valid : dict of int
-        Typed errors and valid meshes per suffix.
-    failures : list of Failure
-        Crashes, hangs, other errors, invalid meshes, and bounds that were broken.
-    worst_seconds_per_mb : float
-        Of the files over 100 kB.
-    worst_seconds : float
-        Of all files.
-    worst_memory_ratio : float
-        Memory held at most over the file's bytes, of the files over 100 kB that are not packed.
-    worst_memory : float
-        Bytes, of all files.
-    worst_file : str
-        What took the most memory for its size.
-    """
-
-    count: int
-    seed: int
-    refused: Counter[str] = field(default_factory=Counter)
-    valid: Counter[str] = field(default_factory=Counter)
+    count: int  # The series
+    seed: int  # The series
+    refused: Counter[str] = field(default_factory=Counter)  # Typed errors and valid meshes per suffix
+    valid: Counter[str] = field(default_factory=Counter)  # Typed errors and valid meshes per suffix
+    # Crashes, hangs, other errors, invalid meshes, and bounds that were broken
     failures: list[Failure] = field(default_factory=list)
-    worst_seconds_per_mb: float = 0.0
-    worst_seconds: float = 0.0
+    worst_seconds_per_mb: float = 0.0  # Of the files over 100 kB
+    worst_seconds: float = 0.0  # Of all files
+    # Memory held at most over the file's bytes, of the files over 100 kB that are not packed
     worst_memory_ratio: float = 0.0
-    worst_memory: float = 0.0
-    worst_file: str = ""
+    worst_memory: float = 0.0  # Bytes, of all files
+    worst_file: str = ""  # What took the most memory for its size
 
     @property
     def passed(self) -> bool:
@@ -122,27 +103,7 @@ class FuzzReport:
 
 
 def run(count: int = 10_000, seed: int = 0, progress: Callable[[int, int], None] | None = None) -> FuzzReport:
-    """
-    Read hostile files in child processes.
-
-    Parameters
-    ----------
-    count : int
-        How many; 10,000 take about two minutes.
-    seed : int
-        Of the series; the same gives the same files.
-    progress : callable, optional
-        Told how many are done, and how many there are.
-
-    Returns
-    -------
-    FuzzReport
-
-    Raises
-    ------
-    InputError
-        `count` is under 1.
-    """
+    """Read hostile files in child processes."""
     if count < 1:
         raise InputError(f"count: {count} files are none; give at least 1")
     report = FuzzReport(count, seed)

@@ -21,18 +21,7 @@ def run(count: int = 10_000, seed: int = 0, progress: Callable[[int, int], None]
 
 
 def summarise(report: FuzzReport) -> Report:
-    """
-    Put a fuzz report in the form of the other studies.
-
-    Parameters
-    ----------
-    report : FuzzReport
-
-    Returns
-    -------
-    Report
-        Its notes are the report's sentences, which name the files that failed.
-    """
+    """Put a fuzz report in the form of the other studies."""
     suffixes = sorted({*report.refused, *report.valid})
     judged = report.refused.total() + report.valid.total()
     figures = [

@@ -21,28 +21,7 @@ _LEVEL, _DOWN = 0.0005, -0.99
 
 
 def housing(name: str, facets: int) -> tuple[Probe, Probe]:
-    """
-    Hollow out a bundled probe.
-
-    Parameters
-    ----------
-    name : str
-        One of `assets.PROBE_NAMES`.
-    facets : int
-        Of the whole outside, before the flange's end is cut off; met within 5 %.
-
-    Returns
-    -------
-    housing : Probe
-        Outside, inner wall and the lip between them; every edge has two facets, and the inside can be looked into.
-    outside : Probe
-        What a perfect shell is where it invents nothing: the outer surface without the flange's end.
-
-    Raises
-    ------
-    InputError
-        There is no such probe, or too few facets.
-    """
+    """Hollow out a bundled probe."""
     solid = bundled(name, facets)
     low = (solid.vertices[solid.faces, 2] < _LEVEL).all(axis=1)
     outer = np.ascontiguousarray(solid.faces[~(low & (solid.normals[:, 2] < _DOWN))])

@@ -39,27 +39,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Measure every figure.
-
-    Parameters
-    ----------
-    facets : int
-        Of each bundled probe.
-    strokes : int
-        Timed strokes of each kind on each probe: 20 mouse events, 5 mm apart, with a brush of 5 mm.
-    undone : int
-        Strokes undone and done again.
-    seed : int
-        Of where the strokes go.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+    """Measure every figure."""
     if strokes < 2 or undone < 1:
         raise InputError(f"{strokes} strokes, {undone} undone: give at least 2, and at least 1 to undo")
     figures: list[Figure] = []
@@ -86,13 +66,7 @@ def run(
 
 
 class Rivals:
-    """
-    What scipy offers for the same question: Dijkstra on the edges, and a k-d tree of centroids.
-
-    Parameters
-    ----------
-    probe : Probe
-    """
+    """What scipy offers for the same question: Dijkstra on the edges, and a k-d tree of centroids."""
 
     def __init__(self, probe: Probe) -> None:
         from scipy.spatial import cKDTree
@@ -171,15 +145,7 @@ def _stroke_figures(of: str, name: str, wall: list[float], cpu: list[float]) -> 
 
 
 def wander(graph: FacetGraph, rng: np.random.Generator) -> tuple[npt.NDArray[np.int32], Floats]:
-    """
-    Draw the picks of a stroke that wanders smoothly over the surface.
-
-    Returns
-    -------
-    faces : (20,) int32
-    points : (20, 3) float64
-        On these facets, 5 mm apart at most.
-    """
+    """Draw the picks of a stroke that wanders smoothly over the surface."""
     where = graph.centroids[int(rng.integers(graph.facet_count))]
     heading = rng.standard_normal(3)
     faces, points = [], []

@@ -31,23 +31,12 @@ _SAMPLES = 60_000
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """
-    A mesh to make a shell of.
-
-    Attributes
-    ----------
-    name : str
-    probe : Probe
-    outside : Probe or None
-        The true outer surface, where it is known.
-    openings : int or None
-        How many openings it has, where that is known.
-    """
+    """A mesh to make a shell of."""
 
     name: str
     probe: Probe
-    outside: Probe | None = None
-    openings: int | None = None
+    outside: Probe | None = None  # The true outer surface, where it is known
+    openings: int | None = None  # How many openings it has, where that is known
 
 
 def run(
@@ -58,27 +47,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Make a shell of every mesh and measure it.
-
-    Parameters
-    ----------
-    files : sequence of path
-        Mesh files in any unit that can be told from them; the bundled probes as hollow housings when there are none.
-    facets : int
-        Of each bundled probe.
-    quick : bool
-        Only one housing.
-    seed : int
-        Of the points that are measured.
-    progress : callable
-        Told what is being done.
-
-    Raises
-    ------
-    InputError
-        A file cannot be read or made a shell of, or pymeshlab or libigl is not installed.
-    """
+    """Make a shell of every mesh and measure it."""
     figures: list[Figure] = []
     for case in _cases(files, facets, quick):
         progress(f"{case.name}: {len(case.probe.faces):,} facets")
@@ -96,20 +65,7 @@ def run(
 
 
 def judge(case: Case, rng: np.random.Generator) -> list[Figure]:
-    """
-    Make a shell and measure it.
-
-    Parameters
-    ----------
-    case : Case
-    rng : numpy.random.Generator
-        Of the points that are measured.
-
-    Raises
-    ------
-    MeshError, EngineError
-        See `make_shell`.
-    """
+    """Make a shell and measure it."""
     began = time.perf_counter()
     shell = make_shell(case.probe)
     seconds = time.perf_counter() - began

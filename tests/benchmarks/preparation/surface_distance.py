@@ -23,23 +23,7 @@ _SOURCES = 10
 
 
 def distance_errors(rng: np.random.Generator, facets: int = 8_000) -> Iterator[tuple[str, Floats]]:
-    """
-    Compare geodesic distances with exact ones, at least five edge lengths away.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Of the vertices and of where distances are measured from.
-    facets : int
-        Of each surface.
-
-    Yields
-    ------
-    name : str
-        The surface, and how its vertices lie.
-    errors : (k,) float64
-        |measured / exact - 1| at vertices.
-    """
+    """Compare geodesic distances with exact ones, at least five edge lengths away."""
     yield "plane, random", _errors(*shapes.plane(facets, rng), _straight, 0.5, rng)
     yield "sphere, even", _errors(*shapes.sphere(facets), _great_circle, 2.0, rng)
     yield "sphere, random", _errors(*shapes.sphere(facets, rng), _great_circle, 2.0, rng)

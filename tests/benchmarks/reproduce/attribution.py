@@ -31,27 +31,14 @@ _STIFFEST, _SOFTEST, _TRIED = 1000.0, 10.0, 33
 
 @dataclass(frozen=True)
 class Causes:
-    """
-    What is wrong.
+    """What is wrong."""
 
-    Attributes
-    ----------
-    reference : float
-        How far off each marker is taken to be, m.
-    compliance : float
-        How far the probe turns against its sensor, about the sensor's origin, rad/(N·m).
-    facets : int or None
-        Of the mesh; None as everywhere else.
-    method : str
-    cold : bool
-        Calibrated a minute after the sensor was switched on.
-    """
-
-    reference: float = 0.0
+    reference: float = 0.0  # How far off each marker is taken to be, m
+    # How far the probe turns against its sensor, about the sensor's origin, rad/(N·m)
     compliance: float = 0.0
-    facets: int | None = None
+    facets: int | None = None  # Of the mesh; None as everywhere else
     method: str = OURS
-    cold: bool = False
+    cold: bool = False  # Calibrated a minute after the sensor was switched on
 
 
 CASES: dict[str, Causes] = {
@@ -68,22 +55,13 @@ CASES: dict[str, Causes] = {
 
 @dataclass(frozen=True)
 class Attributed:
-    """
-    Distance to the marker under one cause, by angle as `ANGLES`.
-
-    Attributes
-    ----------
-    cause : str
-    means, rms, largest : tuple of float
-        mm.
-    added : tuple of float
-        Root of the difference of squares to the same without any cause, mm; negative where it got smaller.
-    """
+    """Distance to the marker under one cause, by angle as `ANGLES`."""
 
     cause: str
-    means: tuple[float, ...]
-    rms: tuple[float, ...]
-    largest: tuple[float, ...]
+    means: tuple[float, ...]  # mm
+    rms: tuple[float, ...]  # mm
+    largest: tuple[float, ...]  # mm
+    # Root of the difference of squares to the same without any cause, mm; negative where it got smaller
     added: tuple[float, ...]
 
     @property
@@ -94,21 +72,11 @@ class Attributed:
 
 @dataclass(frozen=True)
 class Explained:
-    """
-    The reference error and the mount that would together give the paper's means.
-
-    Attributes
-    ----------
-    reference_mm : float
-    stiffness : float
-        N·m/rad.
-    means : tuple of float
-        mm, by angle.
-    """
+    """The reference error and the mount that would together give the paper's means."""
 
     reference_mm: float
-    stiffness: float
-    means: tuple[float, ...]
+    stiffness: float  # N·m/rad
+    means: tuple[float, ...]  # mm, by angle
 
 
 def attribute(name: str, facets: int, touched: Touched, benches: Sequence[Bench]) -> list[Attributed]:

@@ -50,22 +50,12 @@ _MOST_SEEDS = 100
 
 @dataclass(frozen=True, eq=False)
 class DynamicResult:
-    """
-    All that was measured.
-
-    Attributes
-    ----------
-    settings : dict
-    outcomes : tuple of Outcome
-    traces : dict of Cell to Trace
-        Of the first seed and our method.
-    bound : (out of plane, in plane)
-        Standard deviation of the tilt that one period of readings leaves, degrees.
-    """
+    """All that was measured."""
 
     settings: dict[str, Any]
     outcomes: tuple[Outcome, ...]
-    traces: dict[Cell, Trace]
+    traces: dict[Cell, Trace]  # Of the first seed and our method
+    # (out of plane, in plane). Standard deviation of the tilt that one period of readings leaves, degrees.
     bound: tuple[float, float]
 
     differences = DIFFERENCES
@@ -127,11 +117,6 @@ class DynamicResult:
     def write(self, out: Path) -> None:
         """
         Write dynamic.md, course.png, methods.png, a CSV file per table, and one per course in ``traces``.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
         """
         make_folder(out / "traces")
         for sheet in self.sheets:
@@ -178,39 +163,7 @@ def run(
     kept: Path | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> DynamicResult:
-    """
-    Track a moving phantom with every method, the same gains and seeds for all.
-
-    Parameters
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    scene : {"platform", "arm"}
-    variants : sequence of Variant
-    methods : sequence of str
-        Among `METHODS`.
-    periods : sequence of float
-        s.
-    seeds : int
-        1 to 100.
-    friction : float
-        Of the phantom.
-    quick : bool
-        One period each, coarser physics.
-    workers : int, optional
-        Processes; left out, one for each core.
-    settings : ControlSettings, optional
-        Gains; left out, those for the probe.
-    kept : Path, optional
-        Folder where each run is kept as it ends, and found again when the same is asked for later.
-    progress : callable, optional
-        Told how many of how many runs are done.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or MuJoCo or Embree is missing.
-    """
+    """Track a moving phantom with every method, the same gains and seeds for all."""
     variants = [Variant(each) for each in variants]
     chosen = _checked(probe, scene, variants, methods, periods, seeds, friction)
     cells = [

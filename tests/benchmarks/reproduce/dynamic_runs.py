@@ -27,34 +27,7 @@ def run_cells(
     settings: ControlSettings | None = None,
     store: Store | None = None,
 ) -> tuple[list[Outcome], dict[Cell, Trace]]:
-    """
-    Run many, the first seeds first: the results do not depend on how many processes share them.
-
-    Parameters
-    ----------
-    cells : sequence of Cell
-    traced : callable
-        Whose trace is wanted.
-    workers : int
-        Processes; 1: in this one.
-    progress : callable, optional
-        Told how many of how many are done. What it raises ends the work, as Ctrl-C does.
-    settings : ControlSettings, optional
-        As of `run_cell`.
-    store : Store, optional
-        Where runs are kept as they end, and found again.
-
-    Returns
-    -------
-    list of Outcome
-        In the order of `cells`.
-    dict of Cell to Trace
-
-    Raises
-    ------
-    InputError
-        A run cannot be kept, or something needed is missing.
-    """
+    """Run many, the first seeds first: the results do not depend on how many processes share them."""
     outcomes: dict[Cell, Outcome] = {}
     traces: dict[Cell, Trace] = {}
 

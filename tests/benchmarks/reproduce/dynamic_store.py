@@ -38,12 +38,6 @@ class Store:
 
     A run is found again only with the same cell and gains, computed by the same code and the same MuJoCo: all are in
     the name of its file. A file that is damaged counts as none.
-
-    Parameters
-    ----------
-    folder : Path
-    settings : ControlSettings or None
-        As of `run_cell`.
     """
 
     folder: Path
@@ -61,14 +55,7 @@ class Store:
         return (outcome, trace) if outcome.cell == cell else None
 
     def keep(self, outcome: Outcome, trace: Trace | None) -> None:
-        """
-        Keep a run.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
-        """
+        """Keep a run."""
         make_folder(self.folder)
         name = self._name(outcome.cell)
         changes = [] if trace is None else [asdict(each) for each in trace.changes]

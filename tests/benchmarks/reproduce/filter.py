@@ -59,54 +59,28 @@ DIFFERENCES = (
 
 @dataclass(frozen=True)
 class Filtered:
-    """
-    One way to filter, against what the true wrench gives; mm and s.
-
-    Attributes
-    ----------
-    name : str
-    rms, largest : float
-        Distance to it, noise and lag together.
-    noise : float
-        Root mean square distance with the lag taken out.
-    lag, predicted_lag : float
-        Measured, and by theory.
-    to_truth : float
-        Root mean square distance to the true contact.
-    """
+    """One way to filter, against what the true wrench gives; mm and s."""
 
     name: str
-    rms: float
-    largest: float
-    noise: float
-    lag: float
-    predicted_lag: float
-    to_truth: float
+    rms: float  # Distance to it, noise and lag together
+    largest: float  # Distance to it, noise and lag together
+    noise: float  # Root mean square distance with the lag taken out
+    lag: float  # Measured, and by theory
+    predicted_lag: float  # Measured, and by theory
+    to_truth: float  # Root mean square distance to the true contact
 
 
 @dataclass(frozen=True, eq=False)
 class FilterResult:
-    """
-    All that was measured.
-
-    Attributes
-    ----------
-    settings : dict
-    slide : Slide
-    spectra : dict of str to Spectrum
-        Of x and y, mm²/Hz, located from readings ("located") and from the true wrench ("no noise").
-    suggestion : CutoffSuggestion
-    filtered : tuple of Filtered
-    shown : dict of str to (n, 2)
-        Filtered contacts for the plot, mm.
-    """
+    """All that was measured."""
 
     settings: dict[str, Any]
     slide: Slide
+    # Of x and y, mm²/Hz, located from readings ("located") and from the true wrench ("no noise")
     spectra: dict[str, Spectrum]
     suggestion: CutoffSuggestion
     filtered: tuple[Filtered, ...]
-    shown: dict[str, NDArray[np.float64]]
+    shown: dict[str, NDArray[np.float64]]  # dict of str to (n, 2). Filtered contacts for the plot, mm.
 
     differences = DIFFERENCES
 
@@ -169,14 +143,7 @@ class FilterResult:
         return {**self.report.to_json(), **tables, "differences": list(DIFFERENCES)}
 
     def write(self, out: Path) -> None:
-        """
-        Write filter.md, filter.png and a CSV file per table in a folder.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
-        """
+        """Write filter.md, filter.png and a CSV file per table in a folder."""
         make_folder(out)
         for sheet in self.sheets:
             write_text(out / f"{sheet.name}.csv", sheet.csv())
@@ -216,25 +183,7 @@ def run(
     seed: int = 0,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> FilterResult:
-    """
-    Press as a hand, locate every reading, and filter the contacts.
-
-    Parameters
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    seconds : float
-        From 6 to 120.
-    seed : int
-        Of motion, load and noise.
-    progress : callable, optional
-        Told how many samples of how many are simulated.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or MuJoCo is missing.
-    """
+    """Press as a hand, locate every reading, and filter the contacts."""
     if probe not in assets.PROBE_NAMES:
         raise InputError(f"there is no probe {probe!r}: choose one of {', '.join(assets.PROBE_NAMES)}.")
     if not _SHORTEST_S <= seconds <= _LONGEST_S:

@@ -29,23 +29,12 @@ _READINGS = 20  # of each touch and seed, with fresh noise
 
 @dataclass(frozen=True, eq=False)
 class ForceErrors:
-    """
-    One force at one angle.
+    """One force at one angle."""
 
-    Attributes
-    ----------
-    force : float
-        N.
-    angle : str
-    errors : Errors
-    answers_mm : (n, 2)
-        Each answer less the true contact, along the x and y axes of S.
-    """
-
-    force: float
+    force: float  # N
     angle: str
     errors: Errors
-    answers_mm: NDArray[np.float64]
+    answers_mm: NDArray[np.float64]  # (n, 2). Each answer less the true contact, along the x and y axes of S.
 
 
 def by_force(
@@ -69,14 +58,7 @@ def by_force(
 def force_errors(
     name: str, markers_S: NDArray[np.float64], benches: Sequence[Bench], key: int
 ) -> NDArray[np.float64]:
-    """
-    Press every marker with `RISING_N`, and compare the filtered force with the true one.
-
-    Returns
-    -------
-    (n, 3)
-        Mean of the absolute difference of the magnitudes over forces and seeds, by marker and angle, N.
-    """
+    """Press every marker with `RISING_N`, and compare the filtered force with the true one."""
     rows = []
     for number, marker_S in enumerate(markers_S):
         station = Station(name, marker_S)

@@ -28,23 +28,16 @@ _REST_S = 1.0
 
 @dataclass(frozen=True)
 class Effect:
-    """
-    One change of the scene, over some markers and all angles; mm.
-
-    Attributes
-    ----------
-    change : str
-    shift, most : float
-        How far the true contact moves: mean and largest.
-    located, most_located : float
-        Distance from the true contact to what is located from its wrench, without noise, on the true mesh: mean and
-        largest.
-    """
+    """One change of the scene, over some markers and all angles; mm."""
 
     change: str
-    shift: float
-    most: float
+    shift: float  # How far the true contact moves: mean and largest
+    most: float  # How far the true contact moves: mean and largest
+    # Distance from the true contact to what is located from its wrench, without noise, on the true mesh:
+    # mean and largest
     located: float
+    # Distance from the true contact to what is located from its wrench, without noise, on the true mesh:
+    # mean and largest
     most_located: float
 
 

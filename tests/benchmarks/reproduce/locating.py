@@ -29,31 +29,16 @@ OURS, LITERAL = "contactbench", "algorithm1"
 
 @dataclass(frozen=True, eq=False)
 class ProbeResult:
-    """
-    All methods on one probe.
-
-    Attributes
-    ----------
-    name : str
-    touched : Touched
-    bounds : (n,)
-        m.
-    located : dict of str to Located
-        By method.
-    errors : dict of (angle, method) to Errors
-    times_us : dict of str to (n,)
-        Compiled time of each solve, by method; without those that have none.
-    notes : tuple of str
-        Methods that are left out.
-    """
+    """All methods on one probe."""
 
     name: str
     touched: Touched
-    bounds: NDArray[np.float64]
-    located: dict[str, Located]
-    errors: dict[tuple[str, str], Errors]
+    bounds: NDArray[np.float64]  # (n,). m.
+    located: dict[str, Located]  # By method
+    errors: dict[tuple[str, str], Errors]  # dict of (angle, method) to Errors
+    # dict of str to (n,). Compiled time of each solve, by method; without those that have none.
     times_us: dict[str, NDArray[np.float64]]
-    notes: tuple[str, ...]
+    notes: tuple[str, ...]  # Methods that are left out
 
 
 def solver_for(method: str, name: str, facets: int, bench: Bench, R_WS: NDArray[np.float64]) -> Method:
@@ -69,19 +54,7 @@ def key_of(name: str) -> int:
 
 
 def locate_all(name: str, facets: int, touched: Touched, benches: Sequence[Bench]) -> ProbeResult:
-    """
-    Read, compensate and filter every touch with the bench of its seed, and locate it with every method.
-
-    Parameters
-    ----------
-    name : str
-        Probe.
-    facets : int
-        Of the mesh that is located on.
-    touched : Touched
-        Ordered by seed.
-    benches : sequence of Bench
-    """
+    """Read, compensate and filter every touch with the bench of its seed, and locate it with every method."""
     parts: dict[str, list[Located]] = {method: [] for method in METHODS}
     times: dict[str, list[NDArray[np.float64]]] = {method: [] for method in METHODS}
     bounds, notes = [], {}

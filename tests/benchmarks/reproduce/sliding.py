@@ -32,35 +32,19 @@ _BEGIN_S = 1.0  # until the phantom has come to its motion
 
 @dataclass(frozen=True, eq=False)
 class Slide:
-    """
-    A recording, n samples at 200 Hz.
+    """A recording, n samples at 200 Hz."""
 
-    Attributes
-    ----------
-    true_mm : (n, 2)
-        Contact centroid projected on the probe, x and y of S.
-    quiet_mm : (n, 2)
-        Located from the true wrench.
-    raw_mm : (n, 2)
-        Located from the compensated reading; NaN without an accepted answer.
-    kalman_mm : (n, 2)
-        The same after the paper's Kalman filter of wrenches.
-    sigma_mm : (2,)
-        Predicted standard deviation of the noise in `raw_mm`, root mean square over the recording: the sensor's noise
-        alone, at any torsion. What the answers' covariances add for model and mesh is no noise.
-    force : (n,)
-        True, N.
-    depth : float
-        How deep the hand presses on average, m.
-    """
-
-    true_mm: NDArray[np.float64]
-    quiet_mm: NDArray[np.float64]
+    true_mm: NDArray[np.float64]  # (n, 2). Contact centroid projected on the probe, x and y of S.
+    quiet_mm: NDArray[np.float64]  # (n, 2). Located from the true wrench.
+    # (n, 2). Located from the compensated reading; NaN without an accepted answer.
     raw_mm: NDArray[np.float64]
-    kalman_mm: NDArray[np.float64]
+    kalman_mm: NDArray[np.float64]  # (n, 2). The same after the paper's Kalman filter of wrenches.
+    # Predicted standard deviation of the noise in `raw_mm`, root mean square over the recording: the
+    # sensor's noise alone, at any torsion. What the answers' covariances add for model and mesh is no
+    # noise.
     sigma_mm: NDArray[np.float64]
-    force: NDArray[np.float64]
-    depth: float
+    force: NDArray[np.float64]  # (n,). True, N.
+    depth: float  # How deep the hand presses on average, m
 
 
 def slide(name: str, facets: int, seconds: float, seed: int, progress: Callable[[int, int], None]) -> Slide:

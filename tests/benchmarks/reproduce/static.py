@@ -44,28 +44,14 @@ _TRIED_MARKERS = (2, 7, 11)  # for what the scene leaves out: the middle of the 
 
 @dataclass(frozen=True, eq=False)
 class StaticResult:
-    """
-    All that was measured.
-
-    Attributes
-    ----------
-    settings : dict
-    probes : list of ProbeResult
-    forces : list of ForceErrors
-        At one marker of the first probe.
-    force_errors : (n, 3)
-        N, by marker of the first probe, and angle.
-    attributed : list of Attributed
-    explained : Explained or None
-        What would give the paper's figures; None for another probe than its T-shape.
-    effects : list of Effect
-    """
+    """All that was measured."""
 
     settings: dict[str, Any]
     probes: list[ProbeResult]
-    forces: list[ForceErrors]
-    force_errors: NDArray[Any]
+    forces: list[ForceErrors]  # At one marker of the first probe
+    force_errors: NDArray[Any]  # (n, 3). N, by marker of the first probe, and angle.
     attributed: list[Attributed]
+    # What would give the paper's figures; None for another probe than its T-shape
     explained: Explained | None
     effects: list[Effect]
 
@@ -110,14 +96,7 @@ class StaticResult:
         return {**self.report.to_json(), **tables, "differences": list(sheets.DIFFERENCES)}
 
     def write(self, out: Path) -> None:
-        """
-        Write static.md, static.png and a CSV file per table in a folder.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
-        """
+        """Write static.md, static.png and a CSV file per table in a folder."""
         make_folder(out)
         for sheet in (*self.sheets, self.times):
             write_text(out / f"{sheet.name}.csv", sheet.csv())
@@ -134,29 +113,7 @@ def run(
     most_markers: int | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> StaticResult:
-    """
-    Repeat the static experiments on the virtual bench.
-
-    Parameters
-    ----------
-    probes : sequence of str
-        Of assets.PROBE_NAMES, in any order. Forces and causes are of the first one that `PROBES` names.
-    seeds : int
-        Sensors, loads, calibrations and noises.
-    touches : int
-        Of each marker at each angle with each seed.
-    facets : int
-        Of the mesh that is located on.
-    most_markers : int, optional
-        Use only the first ones, at least 3.
-    progress : callable, optional
-        Told how many steps of how many are done.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or MuJoCo is missing.
-    """
+    """Repeat the static experiments on the virtual bench."""
     names = _checked(probes, seeds, touches, facets, most_markers)
     places = {name: markers(name)[:most_markers] for name in names}
     steps = _Steps(sum(map(len, places.values())) + 3 + seeds, progress)

@@ -25,55 +25,35 @@ class Errors:
     Errors of some touches; mm, NaN where there is none.
 
     Nothing is left aside: a touch counts wherever a point is named, with the first of several that are as likely.
-
-    Attributes
-    ----------
-    touches : int
-    answered, sure, ambiguous : float
-        Shares of the touches: with a point, with a point and no doubt, and with the warning that another is as likely.
-    mean, sd, largest : float
-        Distance to the true contact.
-    to_marker : float
-        Mean distance to the marker.
-    bound : float
-        Root mean square that noise after the filter and the calibration alone give.
-    over_bound : float
-        Root mean square distance over it.
-    common : int
-        Touches that every method names a point for.
-    common_mean, common_largest : float
-        Distance to the true contact over those.
     """
 
     touches: int
+    # Shares of the touches: with a point, with a point and no doubt, and with the warning that another is
+    # as likely
     answered: float
+    # Shares of the touches: with a point, with a point and no doubt, and with the warning that another is
+    # as likely
     sure: float
+    # Shares of the touches: with a point, with a point and no doubt, and with the warning that another is
+    # as likely
     ambiguous: float
-    mean: float
-    sd: float
-    largest: float
-    to_marker: float
-    bound: float
-    over_bound: float
-    common: int
-    common_mean: float
-    common_largest: float
+    mean: float  # Distance to the true contact
+    sd: float  # Distance to the true contact
+    largest: float  # Distance to the true contact
+    to_marker: float  # Mean distance to the marker
+    bound: float  # Root mean square that noise after the filter and the calibration alone give
+    over_bound: float  # Root mean square distance over it
+    common: int  # Touches that every method names a point for
+    common_mean: float  # Distance to the true contact over those
+    common_largest: float  # Distance to the true contact over those
 
 
 @dataclass(frozen=True, eq=False)
 class Located:
-    """
-    Answers of one method, a row per touch.
+    """Answers of one method, a row per touch."""
 
-    Attributes
-    ----------
-    points : (n, 3)
-        S, m; NaN without an answer.
-    reasons : (n,)
-    """
-
-    points: NDArray[np.float64]
-    reasons: NDArray[np.uint8]
+    points: NDArray[np.float64]  # (n, 3). S, m; NaN without an answer.
+    reasons: NDArray[np.uint8]  # (n,)
 
     @classmethod
     def of(cls, batch: Batch) -> Located:
@@ -124,18 +104,7 @@ def errors_of(
     bounds: NDArray[np.float64],
     common: NDArray[np.bool_] | None = None,
 ) -> Errors:
-    """
-    Sum up the answers to touches.
-
-    Parameters
-    ----------
-    located : Located
-    touched : Touched
-    bounds : (n,)
-        m.
-    common : (n,) bool, optional
-        Touches that every method answers; those that this one does when left out.
-    """
+    """Sum up the answers to touches."""
     answered = located.answered
     every = answered if common is None else common
     share, sure = float(answered.mean()), float(located.settled.mean())

@@ -30,15 +30,7 @@ _FIRST_ORDER = 1.0  # %
 
 
 def run(samples: int, seed: int) -> list[Row]:
-    """
-    Measure amplification towards n . F = 0 and towards F = 0.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each figure.
-    seed : int
-    """
+    """Measure amplification towards n . F = 0 and towards F = 0."""
     body = hm.ellipsoid()
     rows: list[Row] = []
     for i, cosine in enumerate(COSINES):

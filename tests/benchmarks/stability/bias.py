@@ -34,17 +34,7 @@ _UNITS = {DOUBLE: theory.ROUNDOFF, SINGLE: theory.FLOAT_ROUNDOFF, WIRE: theory.F
 
 
 def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
-    """
-    Add a bias to contacts, take it off again, and locate.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each figure.
-    seed : int
-    workshop : Workshop, optional
-        Where the single-precision solver is built; without one there is only double precision.
-    """
+    """Add a bias to contacts, take it off again, and locate."""
     rows: list[Row] = []
     body = hm.ellipsoid()
     for power in range(0, 15, 2):

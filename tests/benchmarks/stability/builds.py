@@ -49,25 +49,12 @@ _COMPILE_SECONDS, _RUN_SECONDS = 300, 600
 
 @dataclass(frozen=True)
 class Build:
-    """
-    One way to compile the solver.
+    """One way to compile the solver."""
 
-    Attributes
-    ----------
-    name : str
-        For people.
-    compiler : str
-        Command.
-    options : tuple of str
-        Beside those of the kernel's own build, which come first.
-    same_bits : bool
-        Whether it must give the kernel's bits.
-    """
-
-    name: str
-    compiler: str
-    options: tuple[str, ...]
-    same_bits: bool = True
+    name: str  # For people
+    compiler: str  # Command
+    options: tuple[str, ...]  # Beside those of the kernel's own build, which come first
+    same_bits: bool = True  # Whether it must give the kernel's bits
 
 
 SINGLE = Build(
@@ -99,14 +86,7 @@ def available(*, quick: bool = False) -> list[Build]:
 
 
 class Workshop:
-    """
-    A folder for programs and their files; use it in a ``with`` statement. Each build is compiled once.
-
-    Raises
-    ------
-    InputError
-        A compiler fails, or a program does.
-    """
+    """A folder for programs and their files; use it in a ``with`` statement. Each build is compiled once."""
 
     def __init__(self) -> None:
         self._programs: dict[Build, Path] = {}
@@ -125,14 +105,7 @@ class Workshop:
             self._folder.cleanup()
 
     def solve(self, build: Build, solver: ContactSolver, wrenches: NDArray[np.float64]) -> tuple[Rows, Rows]:
-        """
-        Answer wrenches (n, 6), N and N·m in S, by a build with a solver's probe, noise and gates.
-
-        Returns
-        -------
-        located, tracked : (n,) of :data:`ROW`
-            Each on its own, and as one stream.
-        """
+        """Answer wrenches (n, 6), N and N·m in S, by a build with a solver's probe, noise and gates."""
         program = self._program(build)
         given, taken = (Path(self._folder.name) / name for name in ("in", "out"))
         given.write_bytes(_packed(solver, wrenches))

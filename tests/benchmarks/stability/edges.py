@@ -30,17 +30,7 @@ MEASURED, PREDICTED = "measured", "|h| |n1 x n2| / (|n1.f| |n2.f|)"
 
 
 def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
-    """
-    Measure next to edges, next to vertices, and the jumps between facets.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each figure.
-    seed : int
-    workshop : Workshop, optional
-        Where the single-precision solver is built; without one there is only double precision.
-    """
+    """Measure next to edges, next to vertices, and the jumps between facets."""
     body = hm.ellipsoid()
     rows: list[Row] = []
     for power in range(1, 16, 2):

@@ -36,15 +36,7 @@ _SURE = 1e-9
 
 
 def run(samples: int, seed: int) -> list[Row]:
-    """
-    Compare on facets, edges, vertices and in the gaps between facets.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each case.
-    seed : int
-    """
+    """Compare on facets, edges, vertices and in the gaps between facets."""
     round_body, bent = hm.ellipsoid(), hm.bundled("t-shape", 1000)
     rng = np.random.default_rng(seed)
     rows: list[Row] = []

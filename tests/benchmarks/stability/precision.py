@@ -40,19 +40,7 @@ def run(
     *,
     quick: bool = False,
 ) -> list[Row]:
-    """
-    Compare the precisions inside the friction cone, past it, and where the local torque is large.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each figure.
-    seed : int
-    workshop : Workshop
-        Where the single-precision solver is built.
-    quick : bool
-        Only coarse meshes.
-    """
+    """Compare the precisions inside the friction cone, past it, and where the local torque is large."""
     rows: list[Row] = []
     for i, name in enumerate(assets.PROBE_NAMES):
         rng = np.random.default_rng((seed, i))

@@ -38,12 +38,6 @@ _SECONDS = 600
 def inputs(samples: int, seed: int) -> tuple[ContactSolver, Float]:
     """
     Return a solver and wrenches (n, 6), N and N·m in S: a noisy slide, borders, grazes, large torques, any numbers.
-
-    Parameters
-    ----------
-    samples : int
-        Of each kind.
-    seed : int
     """
     body, rng = hm.bundled("t-shape", 1000), np.random.default_rng(seed)
     slide = add_noise(draw_slide(assets.surface("t-shape"), samples, rng).wrenches, WrenchNoise(), rng)
@@ -58,19 +52,7 @@ def inputs(samples: int, seed: int) -> tuple[ContactSolver, Float]:
 
 
 def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = False) -> list[Row]:
-    """
-    Compare answers bit for bit.
-
-    Parameters
-    ----------
-    samples : int
-        Wrenches of each kind.
-    seed : int
-    workshop : Workshop, optional
-        Where the builds are made; without one there are none.
-    quick : bool
-        Fewer of everything.
-    """
+    """Compare answers bit for bit."""
     solver, wrenches = inputs(samples, seed)
     base = builds.kernel_rows(solver.locate_batch(wrenches))
     stream = tracked(solver, wrenches)

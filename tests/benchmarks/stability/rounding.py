@@ -37,19 +37,7 @@ _UNITS = {DOUBLE: theory.ROUNDOFF, SINGLE: theory.FLOAT_ROUNDOFF, ALGORITHM1: th
 
 
 def run(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = False) -> list[Row]:
-    """
-    Measure rounding towards n . F = 0, with finer meshes and further from the sensor origin.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each figure.
-    seed : int
-    workshop : Workshop, optional
-        Where the single-precision solver is built; without one there is only double precision.
-    quick : bool
-        No large meshes.
-    """
+    """Measure rounding towards n . F = 0, with finer meshes and further from the sensor origin."""
     rows: list[Row] = []
     for i, cosine in enumerate(COSINES):
         rng = np.random.default_rng((seed, i))

@@ -32,17 +32,7 @@ _HEIGHT, MOST_MM = 1e-8, 1e-3
 
 
 def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
-    """
-    Press on thin facets.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each figure.
-    seed : int
-    workshop : Workshop, optional
-        Where the single-precision solver is built; without one there is only double precision.
-    """
+    """Press on thin facets."""
     rows: list[Row] = []
     for power in range(1, 16):
         for i, kind in enumerate((CAP, NEEDLE)):

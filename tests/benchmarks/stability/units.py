@@ -39,17 +39,7 @@ _MOST_LENGTH = 1e6
 
 
 def run(samples: int, seed: int, workshop: Workshop | None) -> list[Row]:
-    """
-    Scale lengths and forces by powers of ten and of two.
-
-    Parameters
-    ----------
-    samples : int
-        FacetTouches.
-    seed : int
-    workshop : Workshop, optional
-        Where the single-precision solver is built; without one there is only double precision.
-    """
+    """Scale lengths and forces by powers of ten and of two."""
     body, rng = hm.bundled("t-shape", 1000), np.random.default_rng(seed)
     wrenches = theory.touch(body, samples, rng, angle=(0.0, 70.0)).wrenches
     scene, axis = (_Scene(body, wrenches, workshop, model) for model in (USUAL, AXIS))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.trials import in_processes, rms
 
 from contactbench.pipeline.control.loop import arm_of, run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
@@ -14,7 +16,7 @@ from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.control.trace import Trace
     from contactbench.pipeline.simulation.scenes import MovedScene
@@ -134,12 +136,32 @@ def _moving(cell: Cell, moving: Trace) -> dict[str, Any]:
         "angle": (float(errors[:, mine].mean()), float(errors[:, mine].std())),
         "other": (float(errors[:, 1 - mine].mean()), float(errors[:, 1 - mine].std())),
         "whole": float(np.degrees(moving.tilt).mean()),
-        "place": _rms(1e3 * np.linalg.norm(off, axis=1)),
-        "torsion": (_rms(1e3 * moving.torsion), _rms(1e3 * moving.shift)),
+        "place": rms(1e3 * np.linalg.norm(off, axis=1)),
+        "torsion": (rms(1e3 * moving.torsion), rms(1e3 * moving.shift)),
         "held": float((moving.share < 0.999).mean()),
     }
 
 
-def _rms(values: NDArray[np.float64]) -> float:
-    known = values[np.isfinite(values)]
-    return float(np.sqrt((known**2).mean())) if len(known) else float("nan")
+def run_cells(
+    cells: Sequence[Cell],
+    traced: Callable[[Cell], bool],
+    *,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    settings: ControlSettings | None = None,
+) -> tuple[list[Outcome], dict[Cell, Trace]]:
+    """Run many: the results do not depend on how many processes share them."""
+    outcomes: dict[Cell, Outcome] = {}
+    traces: dict[Cell, Trace] = {}
+    for outcome, trace in in_processes(partial(_run, settings), [(c, traced(c)) for c in cells], workers):
+        outcomes[outcome.cell] = outcome
+        if trace is not None:
+            traces[outcome.cell] = trace
+        progress(len(outcomes), len(cells))
+    return [outcomes[cell] for cell in cells], traces
+
+
+def _run(settings: ControlSettings | None, job: tuple[Cell, bool]) -> tuple[Outcome, Trace | None]:
+    cell, traced = job
+    outcome, trace = run_cell(cell, settings)
+    return outcome, trace if traced else None

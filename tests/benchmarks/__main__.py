@@ -39,6 +39,7 @@ BENCHMARKS = {
     "sessions": "devices:run_sessions",
     "shell": "preparation.shell:run",
     "simplify": "preparation.simplify:run",
+    "solver": "solver.exact:run",
     "verification": "verification:run",
     "window-brush": "window.brush:run",
     "window-charts": "window.charts:run",

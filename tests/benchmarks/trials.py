@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 
 def in_processes(function: Callable[..., Any], jobs: Sequence[Any], workers: int | None) -> Iterator[Any]:
-    """Yield what the function makes of each job, as it gets done; one worker is this process itself."""
+    """Yield what the function makes of each job, in their order; one worker is this process itself."""
     count = min(workers or os.cpu_count() or 1, len(jobs))
     if count <= 1:
         yield from map(function, jobs)
         return
     with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
         try:
-            for job in as_completed([pool.submit(function, each) for each in jobs]):
+            for job in [pool.submit(function, each) for each in jobs]:
                 yield job.result()
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.soak_frames import SUBJECTS
+from benchmarks.soak import SUBJECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from benchmarks.soak_frames import Subject
+    from benchmarks.soak import Subject
 
 _PIECE = 4096  # what a line hands over at most
 _ROUNDS = 3

@@ -1,4 +1,4 @@
-"""Is the outer shell as good as it says? Real files, or bundled probes hollowed out, whose outside is known."""
+"""The outer shell of hollow bodies: sound, on the true outside, its openings closed."""
 
 from __future__ import annotations
 
@@ -8,22 +8,59 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.preparation.housing import housing
+from benchmarks.preparation.shapes import bundled
 
 from contactbench import assets
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.mesh import Probe, load_probe
 from contactbench.pipeline.mesh.shell import Closing, make_shell
 from contactbench.pipeline.mesh.shell.fit import sample_surface
 from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.triangles import cross_products, twins
 from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
     import os
     from collections.abc import Callable, Iterator, Sequence
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.shell import Shell
+
+WALL = 0.002
+# The flange's end is level, at z = 0.
+_LEVEL, _DOWN = 0.0005, -0.99
+
+
+def housing(name: str, facets: int) -> tuple[Probe, Probe]:
+    """Hollow out a bundled probe."""
+    solid = bundled(name, facets)
+    low = (solid.vertices[solid.faces, 2] < _LEVEL).all(axis=1)
+    outer = np.ascontiguousarray(solid.faces[~(low & (solid.normals[:, 2] < _DOWN))])
+    inner = solid.vertices - WALL * _vertex_normals(solid)
+    count = len(solid.vertices)
+    a, b = _rim(outer).T
+    lip = np.concatenate((np.column_stack((b, a, a + count)), np.column_stack((b, a + count, b + count))))
+    faces = np.concatenate((outer, outer[:, ::-1] + count, lip)).astype(np.int32)
+    hollow = Probe.from_arrays(np.concatenate((solid.vertices, inner)), faces, name=name)
+    return hollow, Probe.from_arrays(solid.vertices, outer, name=name)
+
+
+def _rim(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+    """Half-edges (k, 2) without a facet on their other side."""
+    edges = np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).reshape(-1, 2)
+    return np.asarray(edges[twins(faces) < 0])
+
+
+def _vertex_normals(probe: Probe) -> npt.NDArray[np.float64]:
+    summed = np.zeros_like(probe.vertices)
+    cross = cross_products(probe.vertices, probe.faces)
+    for corner in range(3):
+        np.add.at(summed, probe.faces[:, corner], cross)
+    return np.asarray(summed / np.linalg.norm(summed, axis=1, keepdims=True))
+
 
 _NEAR_MM = 0.3
 _SAMPLES = 60_000

@@ -41,17 +41,6 @@ def test_the_first_figures_hold_lag_and_noise_together(result: FilterResult) -> 
     assert figures["after over before, lag taken out"].measured < low.rms / raw.rms
 
 
-def test_the_press_has_the_mean_force_of_the_paper(result: FilterResult) -> None:
-    blunt, sharp = result.slide, filtering.slide("linear", 1_000, 6.0, 1, lambda _done, _total: None)
-    for made in (blunt, sharp):
-        assert made.force.mean() == pytest.approx(7.0, abs=0.7)
-        assert made.force.min() > 1  # in touch all the time
-    assert (1e3 * blunt.depth, 1e3 * sharp.depth) == (
-        pytest.approx(1.5, abs=0.3),
-        pytest.approx(4.8, abs=0.3),
-    )
-
-
 def test_few_samples_in_doubt_do_not_stop_the_spectrum() -> None:
     points = np.column_stack([np.arange(100.0), -np.arange(100.0)])
     some = points.copy()

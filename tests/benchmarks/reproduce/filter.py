@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from benchmarks.reproduce.filter_plot import draw
 from benchmarks.reproduce.sliding import FORCE_N, Slide, slide
+from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
 
 from contactbench import assets
 from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.filtering import KalmanFilter, LowPass, spectrum, suggest_cutoff
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.study.paper_setup import RATE_HZ
 from contactbench.pipeline.study.report import Figure, Report
 from contactbench.pipeline.study.sheets import Sheet, write_bytes, write_text
@@ -21,9 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from benchmarks.reproduce.spectrum import CutoffSuggestion, Spectrum
     from numpy.typing import NDArray
-
-    from contactbench.pipeline.filtering import CutoffSuggestion, Spectrum
 
 PAPER_HZ = 10.0
 FACETS = 1_000

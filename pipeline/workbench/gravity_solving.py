@@ -285,7 +285,7 @@ def _mounted(
         replace(pose, R_WS=pose.R_WS.T if settings.parameters.inverse else pose.R_WS) for pose in poses
     )
     mounted = _mount(read, settings)
-    if mounted.refused:
+    if mounted.calibration.verdict.level is Level.REFUSE:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
     sentence = (

@@ -122,7 +122,7 @@ def estimate_mount(
     Returns
     -------
     MountCalibration
-        Also for poses that are too few or too alike: then it is `refused`, with `reasons`.
+        Also for poses that are too few or too alike: then its calibration's verdict is to refuse it, in words.
 
     Raises
     ------

@@ -113,9 +113,7 @@ def captures(
     poses = (*before, *_chosen(found, given.leave_out, len(before)))
     fewest = 1 if given.partial else FEWEST_POSES
     if len(poses) < fewest:
-        why = "".join(
-            f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.report.rejected[:3]
-        )
+        why = "".join(f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.rejected[:3])
         left = f", {len(given.leave_out)} left out" if given.leave_out else ""
         needs = (
             f"a calibration needs {FEWEST_POSES}" if fewest == FEWEST_POSES else "there is nothing to keep"
@@ -137,7 +135,7 @@ def _earlier(file: Path) -> tuple[PoseSample, ...]:
 
 def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple[PoseSample, ...]:
     """Return the poses in which none of those moments lies, numbered from the ones before on."""
-    spans = [(capture.start, capture.stop) for capture in found.report.captures]
+    spans = [(capture.start, capture.stop) for capture in found.captures]
     kept = [
         pose
         for pose, (start, stop) in zip(found.poses, spans, strict=True)

@@ -303,7 +303,7 @@ def _mounted(
         replace(pose, R_WS=pose.R_WS.T if settings.parameters.inverse else pose.R_WS) for pose in poses
     )
     mounted = estimate_mount(read, **settings.parameters.assumed)
-    if mounted.refused:
+    if mounted.calibration.verdict.level is Level.REFUSE:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
     sentence = (

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from benchmarks.reproduce.located import OURS
+from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
 from benchmarks.trials import canvas, png, rms
 
 from contactbench import assets
@@ -14,7 +15,7 @@ from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.filtering import KalmanFilter, LowPass, spectrum, suggest_cutoff
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.study.marker_touches import model_of, truth_of
@@ -25,9 +26,9 @@ from contactbench.pipeline.study.sheets import Sheet
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from benchmarks.reproduce.spectrum import CutoffSuggestion, Spectrum
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.filtering import CutoffSuggestion, Spectrum
     from contactbench.pipeline.kernel import Batch
     from contactbench.pipeline.simulation.scenes import Motion, Truth
 

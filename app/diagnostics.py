@@ -13,7 +13,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline import cli
+from contactbench.pipeline.commands.info import facts
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session import Session, SessionError
 
@@ -48,7 +48,7 @@ def save_diagnostics(
         The file cannot be written.
     """
     content = {
-        "info.json": json.dumps(cli._facts(), indent=1, default=str),
+        "info.json": json.dumps(facts(), indent=1, default=str),
         "settings.json": json.dumps(_settings(settings), indent=1),
         "log.txt": log,
         "window.json": json.dumps(None if stalls is None else asdict(stalls)),

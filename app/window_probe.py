@@ -20,12 +20,10 @@ class SessionProbe(QObject):
 
     def open(self, bench: Bench) -> None:
         """Begin with a session: the scene is emptied, and shows its probe when it is read."""
-        from contactbench.pipeline.workbench.export_checklist import newest
-
         scene, folder, state = bench.scene, bench.desk.folder, bench.desk.state
         scene.show_field(None)
         scene.show_probe(None)
-        found = newest(state, "probe")
+        found = state.newest("probe")
         if found is None:
             return
 

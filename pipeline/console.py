@@ -27,9 +27,8 @@ _LOUD = ("red", "yellow")  # what --quiet leaves: errors and warnings
 
 
 _running: ContextVar[typer.Context] = ContextVar("running")
-_quiet: set[bool] = (
-    set()
-)  # holds True while a quiet command runs: of the process, for streams speak from threads
+# Holds True while a quiet command runs: of the process, for streams speak from threads.
+_quiet: set[bool] = set()
 
 
 def _remember(ctx: typer.Context, value: bool) -> bool:
@@ -76,9 +75,9 @@ class Nouns(TyperGroup):
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the list."""
-        commands = ((name, self.get_command(ctx, name)) for name in self.list_commands(ctx))
+        commands = [(name, self.get_command(ctx, name)) for name in self.list_commands(ctx)]
         with formatter.section("Commands"):
-            formatter.write_dl([(name, summary(each)) for name, each in commands if not each.hidden])
+            formatter.write_dl([(name, summary(each)) for name, each in commands if each and not each.hidden])
 
 
 def summary(command: Any) -> str:

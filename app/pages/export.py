@@ -27,7 +27,6 @@ from contactbench.app.pages.verify_undo import ChangeSettings
 from contactbench.pipeline.config.runtime.options import ExportOptions
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.export import Exported, ExportView, export, survey
-from contactbench.pipeline.workbench.export_checklist import newest
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.checklist import Checklist, ShownCheck
 from contactbench.widgets.icons import Sign, icon
@@ -382,7 +381,7 @@ class ExportPage(Page):
         return Path(place) if place else None
 
     def _report_file(self) -> Path | None:
-        found = newest(self.bench.desk.state, "report")
+        found = self.bench.desk.state.newest("report")
         return None if found is None else self.bench.desk.folder / found.file.path
 
     def _open(self, place: Path | None) -> None:

@@ -19,8 +19,8 @@ from contactbench.app.pages.gravity_weight import WeightPanel
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.model import DOWN_W
 from contactbench.pipeline.calibration.stillness import StillState
+from contactbench.pipeline.workbench.gravity_fit import DOWN, ORIENTATION_NOISE, TILT
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.gravity_settings import DOWN, ORIENTATION_NOISE, TILT
 from contactbench.pipeline.workbench.steps import Step, StepState
 from contactbench.widgets.icons import icon
 from contactbench.widgets.phrases import said
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.pipeline.simulation.virtual.bench import VirtualBench
     from contactbench.pipeline.workbench.gravity import GravityView
+    from contactbench.pipeline.workbench.gravity_fit import Finding
     from contactbench.pipeline.workbench.gravity_poses import PoseRow
-    from contactbench.pipeline.workbench.gravity_solving import Finding
     from contactbench.pipeline.workbench.steps import StepStatus
 
 _BUMP_N = [6.0, 0.0, 0.0]

@@ -11,16 +11,16 @@ from contactbench.app.bench import Weight
 from contactbench.app.pages.gravity_run import GravityRun, Phase
 from contactbench.app.pages.gravity_undo import Confirm, LeaveOut
 from contactbench.pipeline.workbench import gravity_results as results
+from contactbench.pipeline.workbench.gravity_fit import DOWN, INVERSE, MOUNT, ORIENTATION_NOISE, TILT
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.gravity_settings import DOWN, INVERSE, MOUNT, ORIENTATION_NOISE, TILT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.session import Session
+    from contactbench.pipeline.workbench.gravity_fit import Finding
     from contactbench.pipeline.workbench.gravity_poses import PoseRow
     from contactbench.pipeline.workbench.gravity_results import Outcome
-    from contactbench.pipeline.workbench.gravity_solving import Finding
 
 _BEFORE: dict[str, Any] = {  # where nothing was set
     MOUNT: [0.0, 0.0, 0.0],

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.workbench.gravity_solving import Finding, Proposal
+    from contactbench.pipeline.workbench.gravity_fit import Finding, Proposal
 
 _UNDETERMINED = 0.05  # m: beyond, a number says nothing
 _HIGH, _THREE_LINES = 38, 54  # px

@@ -12,9 +12,8 @@ from contactbench.app.bench import Weight
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench import gravity_results as results
-from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_check import GravityCheck
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.pipeline.workbench.tape import Tape
 
@@ -24,9 +23,8 @@ if TYPE_CHECKING:
     from contactbench.app.bench import Bench
     from contactbench.pipeline.calibration import PoseSample
     from contactbench.pipeline.calibration.verify import StillVerification
+    from contactbench.pipeline.workbench.gravity_fit import Finding, GravitySettings
     from contactbench.pipeline.workbench.gravity_results import Outcome
-    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
-    from contactbench.pipeline.workbench.gravity_solving import Finding
 
 
 _DIGITS = re.compile(r"\d+")
@@ -146,13 +144,12 @@ class GravityRun(QObject):
         self.be(Phase.STARTING)
         desk, live = self.bench.desk, self.bench.live
         name = results.next_name(desk.state, desk.folder)
-        serial = self._serial()
 
         def begin(_progress: object, _cancelled: object) -> tuple[Tape, tuple[str, tuple[PoseSample, ...]]]:
             before: tuple[str, tuple[PoseSample, ...]] = ("", ())
             if earlier:
                 before = desk.do(lambda session: results.take_up(session, earlier)).result()
-            return Tape.start(desk, live, name, serial).result(), before
+            return Tape.start(desk, live, name).result(), before
 
         def begun(made: tuple[Tape, tuple[str, tuple[PoseSample, ...]]]) -> None:
             tape, (part, poses) = made
@@ -271,7 +268,7 @@ class GravityRun(QObject):
             return
         self.be(Phase.STARTING)
         desk, live = self.bench.desk, self.bench.live
-        name, serial = results.next_name(desk.state, desk.folder, check=True), self._serial()
+        name = results.next_name(desk.state, desk.folder, check=True)
 
         def begun(tape: Tape) -> None:
             self._tape = tape
@@ -283,7 +280,7 @@ class GravityRun(QObject):
 
         self.bench.jobs.start(
             self.tr("Beginning to record"),
-            lambda _progress, _cancelled: Tape.start(desk, live, name, serial).result(),
+            lambda _progress, _cancelled: Tape.start(desk, live, name).result(),
             begun,
             self.idle_again,
         )
@@ -362,10 +359,6 @@ class GravityRun(QObject):
         self._end_work()
         if running and tape is not None:
             tape.keep()  # in the desk's order: it is done before the session is closed
-
-    def _serial(self) -> str | None:
-        setting = self.bench.desk.state.settings.get("devices.serial")
-        return str(setting.value) if setting is not None and setting.value else None
 
     def be(self, phase: Phase) -> None:
         """Go over to a phase."""

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtGui import QUndoCommand
 
-from contactbench.pipeline.workbench.probe_commit import Before, before, bring_back, commit
+from contactbench.pipeline.workbench.probe import commit
+from contactbench.pipeline.workbench.undoing import Change, observed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -43,35 +44,27 @@ class UseProbe(QUndoCommand):
         super().__init__(words[0])
         self._bench, self._preview, self._words = bench, preview, words
         self._done, self._failed = done, failed
-        self._before: Before | None = None
-        self._after: Before | None = None
+        self._change: Change | None = None
 
     def redo(self) -> None:
         """Put it into the session."""
-        if self._after is None:
+        if self._change is None:
             preview = self._preview
             self._bench.do(self._words[1], self._use, lambda _: self._done(preview), self._wrong)
         else:
-            self._back_to(self._words[1], self._after)
+            self._put(self._words[1], self._change.redo)
 
     def undo(self) -> None:
         """Put back what was there before."""
-        if self._before is not None:
-            self._back_to(self._words[2], self._before)
+        if self._change is not None:
+            self._put(self._words[2], self._change.undo)
 
     def _use(self, session: Session) -> None:
         # In the desk's thread: what was there before is what is there when it is this one's turn.
-        there = before(session.state)
-        commit(session, self._preview)
-        self._before, self._after = there, before(session.state)
+        _, self._change = observed(lambda there: commit(there, self._preview))(session)
 
-    def _back_to(self, title: str, wanted: Before) -> None:
-        self._bench.do(
-            title,
-            lambda session: bring_back(session, wanted),
-            lambda _: self._done(None),
-            self._failed,
-        )
+    def _put(self, title: str, way: Callable[[Session], None]) -> None:
+        self._bench.do(title, way, lambda _: self._done(None), self._failed)
 
     def _wrong(self, error: BaseException) -> None:
         self.setObsolete(True)  # there is nothing to undo

@@ -10,8 +10,8 @@ from contactbench.app.bench import Weight
 from contactbench.app.undo import SessionCommand
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.engines import Cancelled
+from contactbench.pipeline.workbench.regions import Clear
 from contactbench.pipeline.workbench.regions_session import apply
-from contactbench.pipeline.workbench.regions_tools import Clear
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
     from contactbench.app.pages.regions import RegionsPage
     from contactbench.pipeline.session import Session
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.workbench.regions import RegionsWork
-    from contactbench.pipeline.workbench.regions_tools import Found, Tool
+    from contactbench.pipeline.workbench.regions import Found, RegionsWork, Tool
 
     Progress = Callable[[float], None]
     Stop = Callable[[], bool]

@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDoubleSpinBox, QLabel
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.workbench.regions_tools import Vector
+    from contactbench.pipeline.workbench.regions import Vector
 
 AXES = ("x", "y", "z")
 

@@ -9,11 +9,11 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QComboBox, QGridLayout, QGroupBox, QPushButton, QSpinBox, QWidget
 
 from contactbench.app.pages.regions_fields import AXES, length_field, unit_vector
-from contactbench.pipeline.workbench.regions_tools import Clear, Grow, Mirror, Shrink, Smooth
+from contactbench.pipeline.workbench.regions import Clear, Grow, Mirror, Shrink, Smooth
 from contactbench.widgets.icons import icon
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.workbench.regions_tools import Tool
+    from contactbench.pipeline.workbench.regions import Tool
 
 
 class ShapePanel(QGroupBox):

@@ -25,14 +25,14 @@ from PySide6.QtWidgets import (
 )
 
 from contactbench.app.pages.regions_fields import AXES, length_field, muted, unit_vector
-from contactbench.pipeline.workbench.regions_tools import Box, Flood, Plane
+from contactbench.pipeline.workbench.regions import Box, Flood, Plane
 from contactbench.widgets.icons import icon
 from contactbench.widgets.region_brush import LARGEST, SMALLEST, USUAL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.workbench.regions_tools import Tool
+    from contactbench.pipeline.workbench.regions import Tool
     from contactbench.widgets.scene.scene import Pick
 
 LOOK, BRUSH, ERASER, FILL, BOX, PLANE = "look", "brush", "eraser", "fill", "box", "plane"

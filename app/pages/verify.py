@@ -23,12 +23,17 @@ from contactbench.pipeline.contact import ContactSolver
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.steps import Step, StepState
-from contactbench.pipeline.workbench.verify import Tool, VerifyWork, tool_key, tool_of, why_locked
-from contactbench.pipeline.workbench.verify_outcome import Outcome, outcome_of
-from contactbench.pipeline.workbench.verify_settings import (
+from contactbench.pipeline.workbench.verify import (
+    Outcome,
+    Tool,
+    VerifyWork,
     checked_parameters,
+    outcome_of,
     parameters_of,
     plain_parameters,
+    tool_key,
+    tool_of,
+    why_locked,
 )
 from contactbench.widgets.phrases import said
 from contactbench.widgets.scrolled import Scrolled

@@ -14,7 +14,7 @@ from contactbench.widgets.phrases import said
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from contactbench.pipeline.workbench.verify_outcome import Outcome
+    from contactbench.pipeline.workbench.verify import Outcome
 
 _TALL, _ICON = 36, 34
 

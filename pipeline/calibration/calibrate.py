@@ -6,12 +6,11 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import nuisance
 from contactbench.pipeline.calibration.causes import Cause, causes, convention_cause, overruled
-from contactbench.pipeline.calibration.comparison import PLAIN, Candidate, Comparison, compare
+from contactbench.pipeline.calibration.comparison import ONLY_BIAS, POSSIBLE, Candidate, Comparison, compare
 from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task
 from contactbench.pipeline.calibration.fit import ALL, Fit, PoseNoise, felt, predict
 from contactbench.pipeline.calibration.model import (
@@ -23,7 +22,7 @@ from contactbench.pipeline.calibration.model import (
     GravityModel,
 )
 from contactbench.pipeline.calibration.observability import Observability, observe, observe_weightless
-from contactbench.pipeline.calibration.outliers import Rejection, deviates, refit, rejection
+from contactbench.pipeline.calibration.outliers import Rejection, deviates, rejection
 from contactbench.pipeline.calibration.poses import PoseError, Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, NoisyFit, fit_with_noise
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge, same_readings
@@ -37,17 +36,11 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.poses import PoseSample
 
-# Odds from which a cause is believed that nobody has asked for.
-_STRONG = 20.0
-_POSSIBLE = 0.01  # probability from which a cause widens the uncertainty
-_NO_ORIENTATION = 0.5  # rad: beyond, the orientations say nothing
-_EXPLAINED = 2.5  # times the noise given: what is left with a cause that explains the poses
 _UNEXPECTED = 3.0  # times the noise that was given
-_ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
 
 
 @dataclass(frozen=True, eq=False)
-class Calibration:
+class Findings:
     """What poses say of bias, weight and centre of mass.
 
     Attributes
@@ -75,7 +68,6 @@ class Calibration:
         The touches behind `contact_error`.
     contact_error : float
         The calibration's share of the contact error: worst 1 sigma over the task, `model_error` included, m.
-    verdict : Verdict
     causes : tuple of Cause
         What may be behind the residuals, the most probable first.
     offsets : (n, 6)
@@ -102,7 +94,6 @@ class Calibration:
     plausible: bool
     task: ContactTask
     contact_error: float
-    verdict: Verdict
     causes: tuple[Cause, ...] = ()
     offsets: NDArray[np.float64] = field(default_factory=lambda: np.zeros((0, 6)))
     drift_rate: NDArray[np.float64] | None = None
@@ -171,16 +162,41 @@ class Calibration:
     def ellipsoid(self, probability: float = 0.95) -> float:
         """Return d² such that ``e' inv(covariance) e < d²`` holds for the errors e with this probability.
 
-        Chi-square for noise that is known. For noise estimated from the poses, forces and torques each
-        contribute six times an F variable; one F variable is matched to the mean and variance of their sum.
+        Chi-square for noise that is known, `matched_f` for noise estimated from the poses.
         """
         if not np.isfinite(self.noise.freedom).all():
             return float(chdtri(12, 1 - probability))
-        freedom = np.maximum(self.noise.freedom, 4.5)  # below, the variance to match does not exist
-        means = 6 * freedom / (freedom - 2)
-        ratio = float((means**2 * (freedom + 4) / (3 * (freedom - 4))).sum() / means.sum() ** 2)
-        matched = (10 + 24 * ratio) / (6 * ratio - 1)
-        return float(means.sum() * (matched - 2) / matched * fdtri(12, matched, probability))
+        scale, matched = matched_f(12, np.array(self.noise.freedom))
+        return float(scale * fdtri(12, matched, probability))
+
+
+@dataclass(frozen=True, eq=False)
+class Calibration(Findings):
+    """Findings, judged.
+
+    Attributes
+    ----------
+    verdict : Verdict
+        Whether they may be used.
+    """
+
+    verdict: Verdict = field(kw_only=True)
+
+
+def matched_f(freedom: int, behind: NDArray[np.float64]) -> tuple[float, float]:
+    """Return a scale and a freedom m such that ``scale F(freedom, m)`` is distributed like a sum of squares.
+
+    Of residuals with `freedom` degrees of freedom, over noise that was estimated with so many `behind` it (2,), for
+    forces and torques: each contributes half the freedom times an F variable. One is matched to their sum in mean
+    and variance.
+    """
+    behind, half = np.maximum(behind, 4.5), freedom / 2  # below, the variance to match does not exist
+    mean = (half * behind / (behind - 2)).sum()
+    spread = 2 * half**2 * behind**2 * (half + behind - 2) / (half * (behind - 2) ** 2 * (behind - 4))
+    # Of a multiple s of F(freedom, m): mean s m / (m - 2); variance over mean² 2 (f + m - 2) / (f (m - 4)).
+    ratio = 0.5 * freedom * spread.sum() / mean**2
+    matched = (freedom - 2 + 4 * ratio) / (ratio - 1)
+    return float(mean * (matched - 2) / matched), float(matched)
 
 
 def calibrate(
@@ -236,53 +252,47 @@ def calibrate(
             " more to check them against one another."
         )
     down = direction(down_W)
-    arrays = stack(poses)
-    prior = NoisePrior.of(noise, checked_angle(orientation_sigma), within_scatter(poses))
-    compared = compare(arrays, prior, down)
-    told, chosen = used(arrays, compared)
-    noisy, sight = _observed(arrays, chosen, down)
-    covariance = noisy.fit.covariance[:12, :12] + between(compared, chosen)
+    compared = compare(stack(poses), NoisePrior.of(poses, noise, orientation_sigma), down)
+    told, chosen = compared.used()
+    noisy, sight = _observed(compared.poses, chosen, down)
+    covariance = noisy.fit.covariance[:12, :12] + compared.between(chosen)
     if sight.null_directions or sight.weak:
-        covariance = covariance + _product(covariance, arrays.R_SW[chosen.inside])
+        covariance = covariance + _product(covariance, compared.poses.R_SW[chosen.inside])
     task = facing(task or usual_task(), down)
     model = GravityModel.from_vector(noisy.fit.theta, covariance)
     error = task.calibration_error(noisy.fit.theta, covariance)
-    calibration = assembled(
-        poses, arrays, prior, compared, (told, replace(chosen, noisy=noisy)), model, sight, task, error, down
-    )
+    findings = findings_of(poses, compared, told, replace(chosen, noisy=noisy), model, sight, task, error)
     limits = limits or Limits()
-    calibration = replace(calibration, verdict=judge(calibration, chosen.agree, limits))
-    if _doubtful(calibration) and (cause := convention_cause(calibration, prior, raw)):
-        calibration = replace(calibration, causes=overruled(calibration.causes, cause))
-        calibration = replace(calibration, verdict=judge(calibration, chosen.agree, limits))
-    return calibration
+    verdict = judge(findings, chosen.agree, limits)
+    if _doubtful(findings, verdict) and (cause := convention_cause(findings, compared.prior, raw)):
+        findings = replace(findings, causes=overruled(findings.causes, cause))
+        verdict = judge(findings, chosen.agree, limits)
+    return Calibration(**vars(findings), verdict=verdict)
 
 
-def _doubtful(calibration: Calibration) -> bool:
+def _doubtful(findings: Findings, verdict: Verdict) -> bool:
     """Tell whether the residuals exceed what is expected, or what they say is no everyday cause."""
     strange = any(
-        cause.believed and cause.key in {nuisance.CABLE, nuisance.MOUNT} for cause in calibration.causes
+        cause.believed and cause.key in {nuisance.CABLE, nuisance.MOUNT} for cause in findings.causes
     )
-    refused = calibration.verdict.level is Level.REFUSE and calibration.observability.force_rank == 6
-    if same_readings(calibration):
+    refused = verdict.level is Level.REFUSE and findings.observability.force_rank == 6
+    if same_readings(findings):
         return False
-    return strange or refused or max(calibration.noise_factor) > _UNEXPECTED
+    return strange or refused or max(findings.noise_factor) > _UNEXPECTED
 
 
-def assembled(
+def findings_of(
     poses: Sequence[PoseSample],
-    arrays: Stack,
-    prior: NoisePrior,
     compared: Comparison,
-    told_used: tuple[Candidate, Candidate],
+    told: Candidate,
+    chosen: Candidate,
     model: GravityModel,
     sight: Observability,
     task: ContactTask,
     error: float,
-    down_W: NDArray[np.float64],
-) -> Calibration:
-    """Return a calibration, complete but for its verdict; `error`: the worst 1 sigma at a contact, m."""
-    told, chosen = told_used
+) -> Findings:
+    """Return what is to be judged; `error`: the worst 1 sigma at a contact, m."""
+    arrays, prior = compared.poses, compared.prior
     noisy, inside, terms = chosen.noisy, chosen.inside, chosen.terms
     fit = noisy.fit
     offsets = terms.columns @ fit.added
@@ -291,7 +301,7 @@ def assembled(
     # What is not excluded counts by its probability.
     square = 0.0 if told.key == chosen.key else _model_error(arrays, told, fit, task) ** 2
     for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True):
-        if each.key not in {*_ONLY_BIAS, told.key} and probability > _POSSIBLE:
+        if each.key not in {*ONLY_BIAS, told.key} and probability > POSSIBLE:
             square += probability * _model_error(arrays, each, fit, task) ** 2
     model_error = float(np.sqrt(square))
     factors = (1.0, 1.0)
@@ -303,7 +313,7 @@ def assembled(
         first = len(fit.covariance) - len(fit.added)
         spread = np.sqrt(np.diag(fit.covariance)[first : first + 6])
         rate, rate_sigma = fit.added[:6] / arrays.duration, spread / arrays.duration
-    return Calibration(
+    return Findings(
         model=model,
         noise=noisy.noise,
         poses=tuple(poses),
@@ -318,14 +328,13 @@ def assembled(
         plausible=chosen.prior.believed or prior.sigmas is None,
         task=task,
         contact_error=float(np.hypot(error, model_error)),
-        verdict=Verdict(Level.REFUSE, ()),
-        causes=causes(poses, arrays, compared, told),
+        causes=causes(poses, compared, told),
         offsets=offsets,
         drift_rate=rate,
         drift_rate_sigma=rate_sigma,
         noise_factor=factors,
         model_error=model_error,
-        down_W=down_W,
+        down_W=compared.down_W,
     )
 
 
@@ -349,63 +358,11 @@ def direction(down_W: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(down / np.linalg.norm(down), dtype=np.float64)
 
 
-def checked_angle(sigma: float | None) -> float | None:
-    """Return a standard deviation of orientations, rad; InputError if it cannot be one."""
-    if sigma is not None and not 0 <= sigma < _NO_ORIENTATION:
-        raise InputError(
-            f"orientation_sigma is {sigma} rad: give at least 0 and less than {_NO_ORIENTATION:g} rad, not degrees"
-        )
-    return sigma
-
-
-def used(arrays: Stack, compared: Comparison) -> tuple[Candidate, Candidate]:
-    """Return the cause that is told, and the fit that is used: an effect of the orientation cannot be taken out."""
-    plain = next(each for each in compared.candidates if each.key == PLAIN)
-    best = compared.best
-    if compared.probability(best.key) < _STRONG * compared.probability(PLAIN) or best.key == PLAIN:
-        return plain, plain
-    if best.key in _ONLY_BIAS:
-        left = 1.0
-        if best.prior.sigmas is not None and not best.prior.believed:
-            left = float((best.noisy.noise.sigmas / best.prior.sigmas).max())
-        return (best, best) if left < _EXPLAINED else (plain, plain)
-    doubted = plain.prior.doubted
-    noisy = refit(arrays, best.inside, doubted, plain.terms)
-    return best, replace(plain, noisy=noisy, bumped=best.bumped, prior=doubted)
-
-
-def between(compared: Comparison, chosen: Candidate) -> NDArray[np.float64]:
-    """Return the covariance that causes add which are not excluded, and say otherwise of the parameters.
-
-    Of the twelve, and of the mount's rotation if that is unknown: (12, 12) or (15, 15).
-    """
-    size = 15 if chosen.terms.turns else 12
-    fit, added = chosen.noisy.fit, np.zeros((size, size))
-    for each, probability in zip(compared.candidates, compared.probabilities, strict=True):
-        if each is not chosen and each.key in _ONLY_BIAS and probability > _POSSIBLE:
-            other = each.noisy.fit
-            turn = Rotation.from_matrix(other.mount @ fit.mount.T).as_rotvec()
-            off = np.append(other.theta - fit.theta, turn)[:size]
-            values, vectors = np.linalg.eigh(other.covariance[:size, :size] - fit.covariance[:size, :size])
-            added += probability * (np.outer(off, off) + vectors * np.maximum(values, 0.0) @ vectors.T)
-    return added
-
-
 def _model_error(arrays: Stack, told: Candidate, fit: Fit, task: ContactTask) -> float:
     """Return how far what the used model leaves out moves a contact: root mean square over the poses, m."""
     other = told.noisy.fit
     full = predict(other.mount @ arrays.R_SW, other.theta) + told.terms.columns @ other.added
     return task.wrench_error(full - predict(fit.mount @ arrays.R_SW, fit.theta))
-
-
-def within_scatter(poses: Sequence[PoseSample]) -> NDArray[np.float64]:
-    """Return the standard error (6,) of the poses' means if their samples were independent, else zeros."""
-    known = [
-        np.concatenate([pose.force_sd, pose.torque_sd]) / np.sqrt(pose.count)
-        for pose in poses
-        if pose.force_sd is not None and pose.torque_sd is not None
-    ]
-    return np.median(known, axis=0) if known else np.zeros(6)
 
 
 def _observed(

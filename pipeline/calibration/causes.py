@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.calibrate import Findings
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.poses import PoseSample, Stack
     from contactbench.pipeline.calibration.reml import NoisePrior
@@ -52,17 +52,14 @@ class Cause:
         return self.key not in own
 
 
-def causes(
-    poses: Sequence[PoseSample], arrays: Stack, compared: Comparison, told: Candidate
-) -> tuple[Cause, ...]:
+def causes(poses: Sequence[PoseSample], compared: Comparison, told: Candidate) -> tuple[Cause, ...]:
     """Return what the comparison found, the most probable first.
 
     Parameters
     ----------
     poses : sequence of PoseSample
-    arrays : Stack
-        The same.
     compared : Comparison
+        Of the same.
     told : Candidate
         The cause that is believed; it is listed in any case.
     """
@@ -73,36 +70,34 @@ def causes(
         shares[key] = shares.get(key, 0.0) + probability
         first.setdefault(key, candidate)
     found = [
-        Cause(key, share, _sentence(first[key], poses, arrays, compared), key == _key(told))
+        Cause(key, share, _sentence(first[key], poses, compared), key == _key(told))
         for key, share in shares.items()
         if share > _TOLD or key == _key(told)
     ]
     return tuple(sorted(found, key=lambda cause: -cause.odds))
 
 
-def convention_cause(
-    calibration: Calibration, prior: NoisePrior, raw: RawOrientations | None
-) -> Cause | None:
+def convention_cause(findings: Findings, prior: NoisePrior, raw: RawOrientations | None) -> Cause | None:
     """Return the mistaken convention that explains poses better than what they were said to be, if there is one.
 
     Parameters
     ----------
-    calibration : Calibration
+    findings : Findings
     prior : NoisePrior
         With the noise as it was given.
     raw : RawOrientations or None
         The numbers behind the orientations.
     """
-    poses = calibration.poses
+    poses = findings.poses
     if not FEWEST_POSES <= len(poses) <= MOST_POSES:
         return None
     noise = None
     if prior.sigmas is not None:
         noise = PoseNoise(prior.sigmas[:3], prior.sigmas[3:], orientation=prior.orientation)
-    known = Prior(down_W=(calibration.down_W[0], calibration.down_W[1], calibration.down_W[2]))
+    known = Prior(down_W=(findings.down_W[0], findings.down_W[1], findings.down_W[2]))
     found = diagnose(poses, noise, prior=known, raw=raw)
     key = NONE if found.none_known else found.best.hypothesis
-    told = {cause.key for cause in calibration.causes if cause.believed}
+    told = {cause.key for cause in findings.causes if cause.believed}
     if found.consistent or key in {AS_DECLARED, *told} or (key == NONE and told - {PLAIN, NOISE}):
         return None
     odds = min(max(float(found.odds.get(key, 0.0)), 0.0), 1.0)
@@ -123,14 +118,13 @@ def _key(candidate: Candidate) -> str:
     return NOISE if doubted else candidate.key
 
 
-def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, compared: Comparison) -> str:
-    fit = candidate.noisy.fit
-    plainly = next(each for each in compared.candidates if each.key == PLAIN)
+def _sentence(candidate: Candidate, poses: Sequence[PoseSample], compared: Comparison) -> str:
+    fit, arrays = candidate.noisy.fit, compared.poses
     match _key(candidate):
         case nuisance.DRIFT:
             return _drift(candidate, arrays)
         case nuisance.REZERO:
-            return _rezero(candidate, poses, arrays, compared)
+            return _rezero(candidate, poses, compared)
         case nuisance.CABLE:
             return (
                 f"Something pulls with the orientation otherwise than a weight does, by up to"
@@ -143,7 +137,7 @@ def _sentence(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, 
             axis = ", ".join(f"{value + 0.0:.1f}" for value in (turn / max(angle, 1e-12)).round(1))
             return (
                 f"The sensor looks turned by {np.degrees(angle):.2g}° about ({axis}) from where it was said to be on"
-                f" its mount: so turned, the forces' residuals fall from {plain(_left(plainly, arrays))} to"
+                f" its mount: so turned, the forces' residuals fall from {plain(_left(compared.plain, arrays))} to"
                 f" {plain(_left(candidate, arrays))} N. Calibrate with --estimate-mount, or correct the mounting."
             )
         case "noise":
@@ -183,7 +177,7 @@ def _drift(candidate: Candidate, arrays: Stack) -> str:
     )
 
 
-def _rezero(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, compared: Comparison) -> str:
+def _rezero(candidate: Candidate, poses: Sequence[PoseSample], compared: Comparison) -> str:
     moments = {
         each.moment: probability
         for each, probability in zip(compared.candidates, compared.probabilities.tolist(), strict=True)
@@ -191,7 +185,7 @@ def _rezero(candidate: Candidate, poses: Sequence[PoseSample], arrays: Stack, co
     }
     total = sum(moments.values())
     likely = [moment for moment, share in moments.items() if share > 0.1 * total] or [candidate.moment]
-    names = " or ".join(named(poses, _at(arrays, moment)) for moment in sorted(likely))
+    names = " or ".join(named(poses, _at(compared.poses, moment)) for moment in sorted(likely))
     return (
         f"The sensor's zero jumped by {_sizes(candidate.noisy.fit.added[None])} before {names}, as after a re-zero."
         " The bias is that of the poses since then. Keep the sensor from being zeroed while poses are taken."

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 from scipy.special import chdtrc, logsumexp
 
 from contactbench.pipeline.calibration import nuisance
@@ -27,6 +28,10 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration.reml import NoisePrior
 
 PLAIN, NOISE = "plain", "noise"
+ONLY_BIAS = (PLAIN, nuisance.DRIFT, nuisance.REZERO)
+POSSIBLE = 0.01  # probability from which a cause widens the uncertainty
+_STRONG = 20.0  # odds from which a cause is believed that nobody has asked for
+_EXPLAINED = 2.5  # times the noise given: what is left with a cause that explains the poses
 
 # How often each is met on a bench, as logarithms. A bend in the drift is one drift in three.
 _COMMON = {
@@ -74,6 +79,9 @@ class Candidate:
 class Comparison:
     """All causes that were fitted, the most probable first."""
 
+    poses: Stack
+    prior: NoisePrior  # With the noise as it was given
+    down_W: NDArray[np.float64]  # (3,) where gravity was said to point
     candidates: tuple[Candidate, ...]
     probabilities: NDArray[np.float64]  # (k,) of each, among them
 
@@ -82,11 +90,48 @@ class Comparison:
         """The most probable."""
         return self.candidates[0]
 
+    @property
+    def plain(self) -> Candidate:
+        """The likelier of those without a cause."""
+        return next(each for each in self.candidates if each.key == PLAIN)
+
     def probability(self, key: str) -> float:
         """Return that of a cause in all its variants."""
         return float(
             sum(p for each, p in zip(self.candidates, self.probabilities, strict=True) if each.key == key)
         )
+
+    def used(self) -> tuple[Candidate, Candidate]:
+        """Return the cause that is told, and the fit that is used: an effect of the orientation cannot be taken out."""
+        plain, best = self.plain, self.best
+        if self.probability(best.key) < _STRONG * self.probability(PLAIN) or best.key == PLAIN:
+            return plain, plain
+        if best.key in ONLY_BIAS:
+            left = 1.0
+            if best.prior.sigmas is not None and not best.prior.believed:
+                left = float((best.noisy.noise.sigmas / best.prior.sigmas).max())
+            return (best, best) if left < _EXPLAINED else (plain, plain)
+        doubted = plain.prior.doubted
+        noisy = refit(self.poses, best.inside, doubted, plain.terms)
+        return best, replace(plain, noisy=noisy, bumped=best.bumped, prior=doubted)
+
+    def between(self, chosen: Candidate) -> NDArray[np.float64]:
+        """Return the covariance that causes add which are not excluded, and say otherwise of the parameters.
+
+        Of the twelve, and of the mount's rotation if that is unknown: (12, 12) or (15, 15).
+        """
+        size = 15 if chosen.terms.turns else 12
+        fit, added = chosen.noisy.fit, np.zeros((size, size))
+        for each, probability in zip(self.candidates, self.probabilities, strict=True):
+            if each is not chosen and each.key in ONLY_BIAS and probability > POSSIBLE:
+                other = each.noisy.fit
+                turn = Rotation.from_matrix(other.mount @ fit.mount.T).as_rotvec()
+                off = np.append(other.theta - fit.theta, turn)[:size]
+                values, vectors = np.linalg.eigh(
+                    other.covariance[:size, :size] - fit.covariance[:size, :size]
+                )
+                added += probability * (np.outer(off, off) + vectors * np.maximum(values, 0.0) @ vectors.T)
+        return added
 
 
 def compare(
@@ -119,7 +164,7 @@ def compare(
             found.append(_fitted(poses, prior.doubted, key, moment, terms, common, inside))
     found.sort(key=lambda candidate: -candidate.log_odds)
     odds = np.array([candidate.log_odds for candidate in found])
-    return Comparison(tuple(found), np.exp(odds - logsumexp(odds)))
+    return Comparison(poses, prior, down_W, tuple(found), np.exp(odds - logsumexp(odds)))
 
 
 def _fitted(

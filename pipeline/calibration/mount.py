@@ -21,17 +21,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.linalg import block_diag
 from scipy.spatial.transform import Rotation
-from scipy.special import chdtrc, chdtri, fdtrc, fdtri
+from scipy.special import chdtrc, chdtri, fdtrc
 
 from contactbench.pipeline.calibration.calibrate import (
     Calibration,
-    assembled,
-    between,
-    checked_angle,
+    Findings,
     direction,
     facing,
-    used,
-    within_scatter,
+    findings_of,
 )
 from contactbench.pipeline.calibration.comparison import compare
 from contactbench.pipeline.calibration.contact_error import ContactTask, usual_task, worst_sigma
@@ -42,7 +39,6 @@ from contactbench.pipeline.calibration.fit import (
     PoseNoise,
     parameter_covariance,
     solve_with_offset,
-    turn_jacobian,
 )
 from contactbench.pipeline.calibration.model import (
     CENTRE_OF_MASS,
@@ -60,7 +56,6 @@ from contactbench.pipeline.calibration.outliers import LARGEST_SHARE
 from contactbench.pipeline.calibration.poses import PoseError, PoseSample, Stack, stack
 from contactbench.pipeline.calibration.reml import LEAST, NoisePrior
 from contactbench.pipeline.calibration.verdict import Level, Limits, Verdict, judge
-from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -79,7 +74,6 @@ class MountCalibration:
     calibration : Calibration
         As from known orientations: its poses have ``R_WS = R_WE @ R_SE.T``. Its covariance is what the
         parameters' becomes because R_SE is uncertain too; its contact error and its verdict include R_SE.
-        For the uncertainty of a compensated wrench ask `wrench_covariance` here, not that of its model.
     joint_covariance : (15, 15)
         Of PARAMETERS, then of the rotation vector d in ``R_true = exp([d]x) @ R_SE``, in S, rad. What the
         poses do not show has a wide width, never a small one.
@@ -103,73 +97,6 @@ class MountCalibration:
         """Standard deviation of R_SE about the axis on which least is known, degrees."""
         return float(np.degrees(largest_sigma(self.rotation_covariance)))
 
-    def rotation_ellipsoid(self, probability: float = 0.95) -> float:
-        """Return d² such that ``e' inv(rotation_covariance) e < d²`` holds with this probability.
-
-        Chi-square for noise that is known, three times an F variable for noise estimated from the poses.
-        """
-        freedom = self.calibration.noise.freedom[0]  # forces tell most of the rotation
-        if not np.isfinite(freedom):
-            return float(chdtri(3, 1 - probability))
-        return float(3 * fdtri(3, freedom, probability))
-
-    @property
-    def refused(self) -> bool:
-        """Whether the result must not be used; `reasons` say why."""
-        return self.calibration.verdict.level is Level.REFUSE
-
-    @property
-    def reasons(self) -> tuple[str, ...]:
-        """Of the verdict, in words."""
-        return self.calibration.verdict.reasons
-
-    def compensate(self, R_WE: ArrayLike, wrench: ArrayLike) -> NDArray[np.float64]:
-        """Return what the tissue does to the probe: the reading without bias and weight (Eq. 1).
-
-        Parameters
-        ----------
-        R_WE : array_like (3, 3) or (n, 3, 3)
-            Orientation of the flange at each reading; one serves for all readings.
-        wrench : array_like (6,) or (n, 6)
-            Readings, S, N and N·m about the sensor origin.
-
-        Returns
-        -------
-        (6,) or (n, 6)
-
-        Raises
-        ------
-        InputError
-            The shapes do not fit.
-        """
-        return self.calibration.model.compensate(matrices(R_WE) @ self.R_SE.T, wrench)
-
-    def wrench_covariance(self, R_WE: ArrayLike) -> NDArray[np.float64]:
-        """Return what the calibration leaves uncertain in a compensated wrench.
-
-        From the joint covariance: the weight in S may be well known where gravity and R_SE alone are not.
-
-        Parameters
-        ----------
-        R_WE : array_like (3, 3) or (n, 3, 3)
-            Orientation of the flange.
-
-        Returns
-        -------
-        (6, 6) or (n, 6, 6)
-            Force before torque, N², N²·m, N²·m².
-
-        Raises
-        ------
-        InputError
-            The shape does not fit.
-        """
-        R_EW = np.swapaxes(matrices(R_WE), -1, -2)
-        R_SW, theta = (self.R_SE @ R_EW).reshape(-1, 3, 3), self.calibration.model.vector
-        J = np.concatenate([prediction_jacobian(R_SW, theta), turn_jacobian(R_SW, theta)], axis=2)
-        C: NDArray[np.float64] = J @ self.joint_covariance @ J.swapaxes(1, 2)
-        return 0.5 * (C + C.swapaxes(1, 2)).reshape(*R_EW.shape[:-2], 6, 6)
-
 
 def estimate_mount(
     poses: Sequence[PoseSample],
@@ -189,22 +116,13 @@ def estimate_mount(
     poses : sequence of PoseSample
         At least four; their `R_WS` holds the orientation of the *flange*, R_WE. Eight or more that tilt far
         about two axes let bumped ones be named with certainty.
-    noise : PoseNoise, optional
-        Of a pose's mean. Left out: estimated from the residuals, and at least what the scatter within the
-        poses says.
-    orientation_sigma : float, optional
-        1 sigma of the poses' orientations about each axis, rad. Left out: estimated, around what a robot has.
-    down_W : (3,)
-        Where gravity points in W, roughly.
-    task : ContactTask, optional
-        The touches that the calibration is for.
-    limits : Limits, optional
-        The rule behind the verdict.
+    noise, orientation_sigma, down_W, task, limits
+        As for `calibrate`.
 
     Returns
     -------
     MountCalibration
-        Also for poses that are too few or too alike: then it is `refused`, with `reasons`.
+        Also for poses that are too few or too alike: then its calibration's verdict is to refuse it, in words.
 
     Raises
     ------
@@ -219,36 +137,32 @@ def estimate_mount(
             " more to check them against one another."
         )
     flange, down = stack(poses), direction(down_W)
-    prior = NoisePrior.of(noise, checked_angle(orientation_sigma), within_scatter(poses))
+    prior = NoisePrior.of(poses, noise, orientation_sigma)
     R_start = start_rotation(flange, prior, down)
-    arrays = replace(flange, R_SW=R_start @ flange.R_SW)
-    compared = compare(arrays, prior, down, mounted=False)
-    told, chosen = used(arrays, compared)
+    compared = compare(replace(flange, R_SW=R_start @ flange.R_SW), prior, down, mounted=False)
+    told, chosen = compared.used()
     fit = chosen.noisy.fit
     wider = np.zeros_like(fit.covariance)
-    wider[:15, :15] = between(compared, chosen)
+    wider[:15, :15] = compared.between(chosen)
     fit = replace(fit, covariance=(fit.covariance + wider)[:15, :15])
     R_SE = fit.mount @ R_start
     sight = see(flange, chosen.inside, fit, R_SE, chosen.noisy.noise)
     theta, joint = sight.fit.theta, sight.fit.covariance
     task = facing(task or usual_task(), down)
     noisy = replace(chosen.noisy, fit=replace(chosen.noisy.fit, theta=theta))
-    calibration = assembled(
+    findings = findings_of(
         [replace(pose, R_WS=pose.R_WS @ R_SE.T) for pose in poses],
-        arrays,
-        prior,
         compared,
-        (told, replace(chosen, noisy=noisy)),
+        told,
+        replace(chosen, noisy=noisy),
         GravityModel.from_vector(theta, joint[:12, :12]),
         sight.parameters,
         task,
         _contact_error(task, theta, joint),
-        down,
     )
-    found = verdict(calibration, sight, chosen.agree, limits or Limits())
-    calibration = replace(calibration, verdict=found)
-    mounting = "" if found.level is Level.REFUSE else simple(R_SE, joint[ROTATION, ROTATION])
-    return MountCalibration(R_SE, calibration, joint, mounting)
+    judged = verdict(findings, sight, chosen.agree, limits or Limits())
+    mounting = "" if judged.level is Level.REFUSE else simple(R_SE, joint[ROTATION, ROTATION])
+    return MountCalibration(R_SE, Calibration(**vars(findings), verdict=judged), joint, mounting)
 
 
 def _contact_error(task: ContactTask, theta: NDArray[np.float64], joint: NDArray[np.float64]) -> float:
@@ -263,7 +177,6 @@ def _contact_error(task: ContactTask, theta: NDArray[np.float64], joint: NDArray
 
 ROTATION = slice(12, 15)  # behind PARAMETERS
 ALL_UNKNOWN = np.append(UNKNOWN, np.full(3, ANY_TURN))
-_ROTATION_TOLERANCE = 1e-3  # as for PoseSample
 
 
 def turn(d: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -279,16 +192,6 @@ def unit(v: NDArray[np.float64]) -> NDArray[np.float64]:
 def largest_sigma(covariance: NDArray[np.float64]) -> float:
     """Return the standard deviation in the worst direction."""
     return float(np.sqrt(np.linalg.eigvalsh(covariance)[-1]))
-
-
-def matrices(R_WE: ArrayLike) -> NDArray[np.float64]:
-    """Return rotations (3, 3) or (n, 3, 3), checked; InputError if they are none."""
-    R = np.asarray(R_WE, dtype=np.float64)
-    if R.shape[-2:] != (3, 3) or R.ndim > 3:
-        raise InputError(f"R_WE has shape {R.shape}: give (3, 3) or (n, 3, 3)")
-    if not (np.abs(R @ R.swapaxes(-1, -2) - np.eye(3)) < _ROTATION_TOLERANCE).all():
-        raise InputError("R_WE is no rotation: give finite matrices of unit columns at right angles")
-    return R
 
 
 # Where gravity may point in W: down; else the sensor or the orientations are turned over, or W is.
@@ -545,11 +448,11 @@ def simple(R_SE: NDArray[np.float64], covariance: NDArray[np.float64]) -> str:
     return f"Within {np.degrees(angle):.1f}° (1 sigma {sigma:.1f}°) of a sensor mounted {how}."
 
 
-def verdict(calibration: Calibration, sight: Sight, agree: bool, limits: Limits) -> Verdict:
+def verdict(findings: Findings, sight: Sight, agree: bool, limits: Limits) -> Verdict:
     """Combine what the parameters and the mount deserve."""
-    core = judge(calibration, agree, limits)
+    core = judge(findings, agree, limits)
     grave = list(sight.grave)
-    kept, n = int(calibration.kept.sum()), len(calibration.poses)
+    kept, n = int(findings.kept.sum()), len(findings.poses)
     if kept < n and (kept < _FEWEST_IN or n - kept > _MOST_OUT * n):
         grave.append(
             f"Only {kept} of {n} poses agree, which fifteen unknowns can do by chance. Either most captures were"
@@ -557,7 +460,7 @@ def verdict(calibration: Calibration, sight: Sight, agree: bool, limits: Limits)
         )
     if core.level is Level.REFUSE:
         grave += core.reasons
-    if calibration.gravity_W @ calibration.down_W < 0 and core.level is Level.REFUSE:
+    if findings.gravity_W @ findings.down_W < 0 and core.level is Level.REFUSE:
         grave.append(
             "With an unknown mount, a sensor frame with one axis of the wrong sign (a left-handed frame) looks"
             " like gravity that points up, too."

@@ -33,16 +33,20 @@ from contactbench.pipeline.calibration.fit import (
     whitener,
 )
 from contactbench.pipeline.calibration.orientation import ORIENTATION_NOISE_DEG
+from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.calibration.poses import Stack
+    from contactbench.pipeline.calibration.poses import PoseSample, Stack
 
 USUAL_ORIENTATION = float(np.radians(ORIENTATION_NOISE_DEG["robot"]))
 # Standard deviations of logarithms: of a guess, and of a figure that is doubted. Noise that is not known is guessed
 # from what a plain fit leaves: without any guess, orientations can take all of the scatter of a few poses.
 _GUESSED, _DOUBTED = np.log(3.0), np.log(2.0)
+_NO_ORIENTATION = 0.5  # rad: beyond, the orientations say nothing
 _WRONG = 0.1  # share of noise figures that are not right
 # Below what any converter resolves; keeps noise-free data from dividing by zero.
 LEAST = np.repeat([1e-6, 1e-8], 3)
@@ -68,8 +72,22 @@ class NoisePrior:
     believed: bool = True  # What was given is right
 
     @classmethod
-    def of(cls, noise: PoseNoise | None, orientation: float | None, least: NDArray[np.float64]) -> NoisePrior:
+    def of(
+        cls, poses: Sequence[PoseSample], noise: PoseNoise | None, orientation: float | None
+    ) -> NoisePrior:
         """Return what a caller knows: noise and the orientations' sigma, rad, each None if nobody said."""
+        if orientation is not None and not 0 <= orientation < _NO_ORIENTATION:
+            raise InputError(
+                f"orientation_sigma is {orientation} rad: give at least 0 and less than {_NO_ORIENTATION:g} rad,"
+                " not degrees"
+            )
+        known = [
+            np.concatenate([pose.force_sd, pose.torque_sd]) / np.sqrt(pose.count)
+            for pose in poses
+            if pose.force_sd is not None and pose.torque_sd is not None
+        ]
+        # The standard error of the poses' means if their samples were independent.
+        least = np.median(known, axis=0) if known else np.zeros(6)
         given = None if noise is None or noise.estimated else np.maximum(noise.sigmas, LEAST)
         if noise is not None and noise.estimated:
             least = np.maximum(least, noise.least)

@@ -14,7 +14,7 @@ from contactbench.pipeline.calibration.wording import plain
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
-    from contactbench.pipeline.calibration.calibrate import Calibration
+    from contactbench.pipeline.calibration.calibrate import Findings
     from contactbench.pipeline.calibration.causes import Cause
 
 _CHECKED_FROM = 5  # poses: with fewer, none of them can be checked against the others
@@ -71,7 +71,7 @@ class Verdict:
     reasons: tuple[str, ...]
 
 
-def judge(calibration: Calibration, agree: bool, limits: Limits) -> Verdict:
+def judge(findings: Findings, agree: bool, limits: Limits) -> Verdict:
     """Apply the rule.
 
     Refuse when the poses contradict one another, leave something undetermined that contact needs, say that
@@ -80,61 +80,60 @@ def judge(calibration: Calibration, agree: bool, limits: Limits) -> Verdict:
 
     Parameters
     ----------
-    calibration : Calibration
-        Complete but for its verdict.
+    findings : Findings
     agree : bool
         Whether a majority of the poses agrees.
     limits : Limits
     """
     error = (
-        f"The calibration adds up to {plain(1e3 * calibration.contact_error)} mm (1 sigma) to a contact point"
+        f"The calibration adds up to {plain(1e3 * findings.contact_error)} mm (1 sigma) to a contact point"
     )
-    grave = _grave(calibration, agree, limits, error)
+    grave = _grave(findings, agree, limits, error)
     if grave:
-        return Verdict(Level.REFUSE, (*_found(calibration), *grave))
-    slight = _slight(calibration, limits, error)
+        return Verdict(Level.REFUSE, (*_found(findings), *grave))
+    slight = _slight(findings, limits, error)
     if slight:
-        return Verdict(Level.USABLE, (*slight, *_possible(calibration)))
+        return Verdict(Level.USABLE, (*slight, *_possible(findings)))
     good = f"{error}; {1e3 * limits.good_error:g} mm is the limit for good."
-    return Verdict(Level.GOOD, (good, *_possible(calibration)))
+    return Verdict(Level.GOOD, (good, *_possible(findings)))
 
 
-def _found(calibration: Calibration) -> list[str]:
+def _found(findings: Findings) -> list[str]:
     """Return the cause that is believed, beside plain noise and noise that is less than was given."""
     return [
         cause.sentence
-        for cause in calibration.causes
-        if cause.believed and cause.key != "plain" and not _harmless(calibration, cause)
+        for cause in findings.causes
+        if cause.believed and cause.key != "plain" and not _harmless(findings, cause)
     ]
 
 
-def _harmless(calibration: Calibration, cause: Cause) -> bool:
+def _harmless(findings: Findings, cause: Cause) -> bool:
     """Tell whether a figure was given that is merely careful: the noise is less, or hardly more."""
-    return cause.key == "noise" and max(calibration.noise_factor) < _HARDLY
+    return cause.key == "noise" and max(findings.noise_factor) < _HARDLY
 
 
-def _possible(calibration: Calibration) -> list[str]:
+def _possible(findings: Findings) -> list[str]:
     """Return causes that the evidence is too weak for, as what they are."""
     return [
         cause.sentence  # a diagnosis says itself how probable it is
         if cause.diagnosed
         else f"Possible, with a chance of {100 * cause.odds:.0f} %: {cause.sentence}"
-        for cause in calibration.causes
+        for cause in findings.causes
         if not cause.believed and cause.key != "plain" and cause.odds > _WORTH_A_WORD
     ] + [
-        *(cause.sentence for cause in calibration.causes if cause.believed and _harmless(calibration, cause)),
-        *_tilted(calibration),
+        *(cause.sentence for cause in findings.causes if cause.believed and _harmless(findings, cause)),
+        *_tilted(findings),
     ]
 
 
-def _tilted(calibration: Calibration) -> list[str]:
+def _tilted(findings: Findings) -> list[str]:
     """Say that gravity surely points aside: the sensor cannot tell a tilted base from a pull that never changes."""
-    g, C, down = calibration.gravity_W, calibration.covariance[:3, :3], calibration.down_W
+    g, C, down = findings.gravity_W, findings.covariance[:3, :3], findings.down_W
     aside = g - (g @ down) * down
     size = float(np.linalg.norm(aside))
     angle = float(np.degrees(np.arctan2(size, g @ down)))
     sigma = float(np.sqrt(aside @ C @ aside)) / max(size, 1e-12)
-    if angle < _LEVEL or size < _SURELY * sigma or not calibration.observability.weighs:
+    if angle < _LEVEL or size < _SURELY * sigma or not findings.observability.weighs:
         return []
     sentence = (
         f"Gravity comes out {angle:.1f}° from down: the base is not level, or something pulls that way all the time,"
@@ -143,101 +142,101 @@ def _tilted(calibration: Calibration) -> list[str]:
     return [sentence]
 
 
-def _grave(calibration: Calibration, agree: bool, limits: Limits, error: str) -> list[str]:
+def _grave(findings: Findings, agree: bool, limits: Limits, error: str) -> list[str]:
     words = []
-    told = any(cause.believed and cause.key not in {"plain", "noise"} for cause in calibration.causes)
+    told = any(cause.believed and cause.key not in {"plain", "noise"} for cause in findings.causes)
     if not agree:
         words.append(
             "No majority of the poses agrees with one gravity model. Either the orientations are in another"
             " convention than was said (contactbench calibrate diagnose tells), or most captures were disturbed."
         )
-    if _restless(calibration):
+    if _restless(findings):
         words.append(
             "The poses disagree by far more than the readings within each of them scatter. Either the"
             " orientations are in another convention than was said (contactbench calibrate diagnose tells), or captures"
             " were disturbed."
         )
-    elif min(calibration.noise_factor) > _ABSURD and not told:
+    elif min(findings.noise_factor) > _ABSURD and not told:
         words.append(
-            f"The residuals are {max(calibration.noise_factor):.0f} times what the noise given explains: check how the"
+            f"The residuals are {max(findings.noise_factor):.0f} times what the noise given explains: check how the"
             " orientations are written (contactbench calibrate diagnose), and that nothing touched the tool."
         )
-    if same_readings(calibration):
+    if same_readings(findings):
         words.append(
             "Every pose has the same reading to the last digit, though the tool stood differently: the sensor does not"
             " answer. Check its cable and its power."
         )
-    sight = calibration.observability
+    sight = findings.observability
     if sight.force_rank < 6 or (sight.weighs and sight.torque_rank < 6):
         words.extend(sight.null_directions)
-    elif sight.weighs and not sight.weak and (off := _off_down(calibration)):
+    elif sight.weighs and not sight.weak and (off := _off_down(findings)):
         words.append(
             f"Gravity comes out pointing {off:.0f}° away from down. The sensor reports the opposite sign, the"
             " orientations are turned (contactbench calibrate diagnose tells), or the robot does not stand upright:"
             " then say where down is (--down)."
         )
-    if not words and calibration.contact_error > limits.usable_error:
+    if not words and findings.contact_error > limits.usable_error:
         remedy = sight.weak or "Take more poses with tilts about two axes, or average each for longer."
-        if calibration.model_error > 0.5 * calibration.contact_error:
+        if findings.model_error > 0.5 * findings.contact_error:
             remedy = "More poses do not help: it is not noise."
         words.extend(sight.null_directions)
         words.append(f"{error}; more than {1e3 * limits.usable_error:g} mm is refused. {remedy}")
     return words
 
 
-def same_readings(calibration: Calibration) -> bool:
+def same_readings(findings: Findings) -> bool:
     """Tell whether the sensor read the same in every pose, to the last digit, though it stood differently."""
-    readings = np.array([[*pose.force, *pose.torque] for pose in calibration.poses])
-    return bool((np.ptp(readings, axis=0) == 0).all()) and calibration.observability.force_rank == 6
+    readings = np.array([[*pose.force, *pose.torque] for pose in findings.poses])
+    return bool((np.ptp(readings, axis=0) == 0).all()) and findings.observability.force_rank == 6
 
 
-def _restless(calibration: Calibration) -> bool:
+def _restless(findings: Findings) -> bool:
     """Tell whether noise that was estimated between the poses is out of proportion to that within them."""
-    noise = calibration.noise
+    noise = findings.noise
     return noise.estimated and bool(
         (noise.least > 0).all() and (noise.sigmas > _RESTLESS * noise.least).any()
     )
 
 
-def _off_down(calibration: Calibration) -> float:
+def _off_down(findings: Findings) -> float:
     """Return by how many degrees gravity surely points away from down; 0 if a tilted base explains it."""
-    g, down = calibration.gravity_W, calibration.down_W
+    g, down = findings.gravity_W, findings.down_W
     sideways = np.eye(3) - np.outer(down, down)
-    along = float(g @ down) + 2 * float(np.sqrt(down @ calibration.covariance[:3, :3] @ down))
+    along = float(g @ down) + 2 * float(np.sqrt(down @ findings.covariance[:3, :3] @ down))
     angle = float(np.degrees(np.arctan2(np.linalg.norm(sideways @ g), g @ down)))
     return angle if along < np.linalg.norm(g) * np.cos(_LEAN) else 0.0
 
 
-def _slight(calibration: Calibration, limits: Limits, error: str) -> list[str]:
+def _slight(findings: Findings, limits: Limits, error: str) -> list[str]:
     words: list[str] = []
-    kept, rejected = int(calibration.kept.sum()), calibration.rejected
-    sight = calibration.observability
+    kept, rejected = int(findings.kept.sum()), findings.rejected
+    sight = findings.observability
     if not sight.weighs:
         words.extend(sight.null_directions)
-    if calibration.contact_error > limits.good_error:
-        helps = calibration.model_error < 0.5 * calibration.contact_error
+    if findings.contact_error > limits.good_error:
+        helps = findings.model_error < 0.5 * findings.contact_error
         good = 1e3 * limits.good_error
         words.append(
             f"{error}; {good:g} mm would be good. One or two more poses help."
             if helps
             else f"{error}; {good:g} mm would be good. It is not noise, and more poses do not help."
         )
-    latest = int(np.argmax(stack(calibration.poses).moments))
-    if calibration.deviates[latest].max() >= limit(len(calibration.poses)):
+    latest = int(np.argmax(stack(findings.poses).moments))
+    if findings.deviates[latest].max() >= limit(len(findings.poses)):
         words.append(
-            f"{named(calibration.poses, latest).capitalize()}, the last one, disagrees: it was bumped, or the sensor's"
+            f"{named(findings.poses, latest).capitalize()}, the last one, disagrees: it was bumped, or the sensor's"
             " zero jumped before it, and then the bias is wrong. Take one or two poses more; they tell which."
         )
     if sight.weak:
         words.append(sight.weak)
-    words.extend(_found(calibration))
+    words.extend(_found(findings))
     if kept < _CHECKED_FROM:
         words.append(
             f"With {kept} poses none can be checked against the others. Take at least {_CHECKED_FROM}."
         )
-    if rejected and len(calibration.poses) < _NAMED_FROM:
+    if rejected and len(findings.poses) < _NAMED_FROM:
         words.append(
-            f"{len(rejected)} of only {len(calibration.poses)} poses had to be left out. Take them again, to"
+            f"{len(rejected)} of only {len(findings.poses)} poses had to be left out. Take them again, to"
             f" have {_NAMED_FROM} or more."
         )
     return words

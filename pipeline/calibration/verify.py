@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.linalg import block_diag
 from scipy.special import chdtrc, fdtrc
 
+from contactbench.pipeline.calibration.calibrate import matched_f
 from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.poses import named, stack
@@ -55,7 +56,40 @@ class StillVerification:
     # The rms that calibration and noise predict for the worst of the forces, m
     predicted_contact_error: float
     limits: Limits
-    verdict: Verdict
+
+    @property
+    def verdict(self) -> Verdict:
+        """By the same limits as for the calibration, and no residuals that its covariance denies."""
+        limits, n = self.limits, len(self.names)
+        worst = self.names[int(self.contact_errors.max(axis=1).argmax())]
+        error = (
+            f"In {n} new pose{'s' * (n > 1)} the residuals move a contact by {1e3 * self.contact_rms:.2g} mm rms, at"
+            f" most {1e3 * self.contact_worst:.2g} mm ({worst})"
+        )
+        if self.contact_rms > limits.usable_error:
+            refusal = (
+                f"{error}; more than {1e3 * limits.usable_error:g} mm rms is refused. Look for a touching cable, a"
+                " changed tool or a re-zeroed sensor, and calibrate again."
+            )
+            return Verdict(Level.REFUSE, (refusal,))
+        words = []
+        if self.contact_rms > limits.good_error:
+            words.append(f"{error}; {1e3 * limits.good_error:g} mm rms would be good.")
+        if self.p_value < _DOUBT:
+            times = np.sqrt(self.chi_square / self.freedom)
+            outlier, sigmas = self.names[self.worst], self.deviates[self.worst]
+            words.append(
+                f"The residuals are {times:.1f} times what the calibration's uncertainty and noise explain"
+                f" (p = {self.p_value:.1g}), most in {outlier} ({sigmas:.1f} sigma): drift since the calibration,"
+                " wrong orientations, or a touch."
+            )
+        if n < _FEW:
+            words.append(
+                f"{n} {'poses say' if n > 1 else 'pose says'} little of other orientations. Take {_FEW} or more."
+            )
+        if words:
+            return Verdict(Level.USABLE, tuple(words))
+        return Verdict(Level.GOOD, (f"{error}; {1e3 * limits.good_error:g} mm rms is the limit for good.",))
 
     @property
     def passed(self) -> bool:
@@ -156,7 +190,7 @@ def verify_still(
     )
     sensitivity = contact_sensitivity(task.point, task.normal, task.forces)
     errors = np.linalg.norm(np.einsum("mij,nj->nmi", sensitivity, residuals), axis=2)
-    figures = StillVerification(
+    return StillVerification(
         names=tuple(named(samples, index) for index in range(len(samples))),
         residuals=residuals,
         force_rms=float(np.sqrt((residuals[:, :3] ** 2).sum(axis=1).mean())),
@@ -168,9 +202,7 @@ def verify_still(
         contact_errors=errors,
         predicted_contact_error=_predicted(covariance, sensitivity),
         limits=limits,
-        verdict=Verdict(Level.REFUSE, ()),
     )
-    return replace(figures, verdict=_judge(figures))
 
 
 def _noise(calibration: Calibration, R_SW: Floats, samples: Sequence[PoseSample]) -> Floats:
@@ -198,20 +230,10 @@ def _square(residual: Floats, covariance: Floats) -> float:
 
 
 def _probability(square: float, freedom: int, behind: float) -> float:
-    """Return the probability of a larger sum of squares, for noise with so many degrees of freedom `behind` it.
-
-    With noise that was estimated, forces and torques each contribute half the freedom times an F variable; one
-    F variable is matched to their sum in mean and variance.
-    """
+    """Return the probability of a larger sum of squares, for noise with so many degrees of freedom `behind` it."""
     if not np.isfinite(behind):
         return float(chdtrc(freedom, square))
-    behind, half = max(behind, 4.5), freedom / 2  # below, the variance to match does not exist
-    mean = freedom * behind / (behind - 2)
-    spread = 2 * half**2 * 2 * behind**2 * (half + behind - 2) / (half * (behind - 2) ** 2 * (behind - 4))
-    # Of a multiple s of F(freedom, m): mean s m / (m - 2); variance over mean² 2 (f + m - 2) / (f (m - 4)).
-    ratio = 0.5 * freedom * spread / mean**2
-    matched = (freedom - 2 + 4 * ratio) / (ratio - 1)
-    scale = mean * (matched - 2) / matched
+    scale, matched = matched_f(freedom, np.full(2, behind))
     return float(fdtrc(freedom, matched, square / scale))
 
 
@@ -220,37 +242,3 @@ def _predicted(covariance: Floats, sensitivity: Floats) -> float:
     blocks = np.array([covariance[6 * i : 6 * i + 6, 6 * i : 6 * i + 6] for i in range(n)])
     traces = np.einsum("mij,njk,mik->nm", sensitivity, blocks, sensitivity)
     return float(np.sqrt(traces.mean(axis=0).max()))
-
-
-def _judge(figures: StillVerification) -> Verdict:
-    """Apply the rule: the same limits as for the calibration, and no residuals that its covariance denies."""
-    limits, n = figures.limits, len(figures.names)
-    worst = figures.names[int(figures.contact_errors.max(axis=1).argmax())]
-    error = (
-        f"In {n} new pose{'s' * (n > 1)} the residuals move a contact by {1e3 * figures.contact_rms:.2g} mm rms, at"
-        f" most {1e3 * figures.contact_worst:.2g} mm ({worst})"
-    )
-    if figures.contact_rms > limits.usable_error:
-        refusal = (
-            f"{error}; more than {1e3 * limits.usable_error:g} mm rms is refused. Look for a touching cable, a changed"
-            " tool or a re-zeroed sensor, and calibrate again."
-        )
-        return Verdict(Level.REFUSE, (refusal,))
-    words = []
-    if figures.contact_rms > limits.good_error:
-        words.append(f"{error}; {1e3 * limits.good_error:g} mm rms would be good.")
-    if figures.p_value < _DOUBT:
-        times = np.sqrt(figures.chi_square / figures.freedom)
-        outlier, sigmas = figures.names[figures.worst], figures.deviates[figures.worst]
-        words.append(
-            f"The residuals are {times:.1f} times what the calibration's uncertainty and noise explain"
-            f" (p = {figures.p_value:.1g}), most in {outlier} ({sigmas:.1f} sigma): drift since the calibration,"
-            " wrong orientations, or a touch."
-        )
-    if n < _FEW:
-        words.append(
-            f"{n} {'poses say' if n > 1 else 'pose says'} little of other orientations. Take {_FEW} or more."
-        )
-    if words:
-        return Verdict(Level.USABLE, tuple(words))
-    return Verdict(Level.GOOD, (f"{error}; {1e3 * limits.good_error:g} mm rms is the limit for good.",))

@@ -668,11 +668,11 @@ def captures(
             "warnings": list(found.warnings),
             "poses": [
                 {"name": pose.name, "start": capture.start, "stop": capture.stop, "count": capture.count}
-                for pose, capture in zip(found.poses, found.report.captures, strict=True)
+                for pose, capture in zip(found.poses, found.captures, strict=True)
             ],
             "rejected": [
                 {"start": refused.start, "stop": refused.stop, "reason": refused.reason}
-                for refused in found.report.rejected
+                for refused in found.rejected
             ],
         }
     )

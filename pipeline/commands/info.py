@@ -25,20 +25,21 @@ _OPTIONAL = {
 @info_app.command(example="info --json")
 def info() -> None:
     """Show versions, the compiled kernel in use, the processor, and which optional packages are there."""
-    facts = _facts()
-    answer(facts)
+    found = facts()
+    answer(found)
     if as_json():
         return
     from rich.console import Console
     from rich.table import Table
 
     table = Table(box=None, show_header=False)
-    for name, value in facts.items():
+    for name, value in found.items():
         table.add_row(name.replace("_", " "), _plain(value))
     Console().print(table)
 
 
-def _facts() -> dict[str, Any]:
+def facts() -> dict[str, Any]:
+    """Tell what is installed, and what this machine offers."""
     import platform
     from importlib import import_module
     from importlib.util import find_spec

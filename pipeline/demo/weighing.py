@@ -75,7 +75,7 @@ def weigh_on_bench(folder: Path, tool: Tool, truth: Truth, rng: np.random.Genera
     # From here on only the files count: what works here works for files from elsewhere.
     found = capture_recording(folder / "gravity.mcap")
     write_poses(folder / "poses.csv", found.poses)
-    starts = [capture.start for capture in found.report.captures]
+    starts = [capture.start for capture in found.captures]
     begin, end = spans[pushed]
     return tuple(
         pose.name or "" for pose, start in zip(found.poses, starts, strict=True) if begin < start <= end

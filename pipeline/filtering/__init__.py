@@ -1,4 +1,4 @@
-"""Filters for streams of wrenches or contact locations, what they cost in lag, and how to choose them.
+"""Filters for streams of wrenches or contact locations and what they cost in lag.
 
 Every filter gives the same numbers live (`update`, `update_block`) and for a whole recording (`filter`).
 Samples are rows (n, c) with one column per channel; channels are independent and keep their unit. NaN or an
@@ -7,14 +7,9 @@ infinity is a missing sample of its channel: the last answer is held. Before a c
 
 from contactbench.pipeline.filtering.kalman import KalmanFigures, KalmanFilter
 from contactbench.pipeline.filtering.lowpass import LowPass
-from contactbench.pipeline.filtering.spectrum import CutoffSuggestion, Spectrum, spectrum, suggest_cutoff
 
 __all__ = [
-    "CutoffSuggestion",
     "KalmanFigures",
     "KalmanFilter",
     "LowPass",
-    "Spectrum",
-    "spectrum",
-    "suggest_cutoff",
 ]

@@ -14,10 +14,39 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+_MIXER = np.uint64(0x9E3779B97F4A7C15)
+
+
 def cross_products(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray[np.float64]:
     """Twice the area vector of each facet, (m, 3), in the square of the vertices' unit."""
     a, b, c = (vertices[faces[:, corner]] for corner in range(3))
     return np.cross(b - a, c - a)
+
+
+def first_alike(rows: NDArray[np.float64] | NDArray[np.int32]) -> NDArray[np.int64]:
+    """
+    For each row the first one that is equal to it, itself where it is new.
+
+    Parameters
+    ----------
+    rows : (n, k)
+        Finite numbers.
+
+    Returns
+    -------
+    (n,) int64
+    """
+    wide = np.float64 if np.issubdtype(rows.dtype, np.floating) else np.int64
+    bits = np.ascontiguousarray(rows.astype(wide) + 0).view(np.uint64)  # + 0: no negative zero
+    mixed = np.zeros(len(rows), dtype=np.uint64)
+    for column in bits.T:
+        mixed = (mixed ^ column) * _MIXER
+        mixed ^= mixed >> np.uint64(29)
+    # Sorting whole rows takes ten times as long as sorting a number for each.
+    _, first, number = np.unique(mixed, return_index=True, return_inverse=True)
+    if not np.array_equal(rows[first[number]], rows):  # two rows by chance with the same number
+        _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    return np.asarray(first[number.reshape(-1)], dtype=np.int64)
 
 
 def twins(faces: NDArray[np.int32]) -> NDArray[np.int64]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import getpass
+import hashlib
 import json
 from dataclasses import dataclass
-from datetime import datetime, timedelta
-from typing import Annotated, Any, Literal, Self
+from datetime import UTC, datetime, timedelta
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -18,8 +20,12 @@ from pydantic import (
     model_validator,
 )
 
-from contactbench.pipeline.session.errors import JournalError
+from contactbench import __version__
+from contactbench.pipeline.session.errors import JournalError, SessionError
 from contactbench.pipeline.session.frames import Frame, canonical
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 SCHEMA, VERSION = "contactbench.session", 2
 
@@ -32,13 +38,16 @@ Short = Annotated[str, StringConstraints(min_length=1, max_length=200)]
 _NAME = r'^[^./\\:*?"<>|\x00-\x1f\x7f][^/\\:*?"<>|\x00-\x1f\x7f]{0,199}$'
 Name = Annotated[str, StringConstraints(pattern=_NAME)]
 # Pattern -> what it asks for, for people.
-RULES = {
+_RULES = {
     _WORD: "begins with a small letter, and has small letters, digits, - and _, at most 64",
     _NAME: 'has 1 to 200 characters, no control characters and none of / \\ : * ? " < > |, and begins with no dot',
 }
 Place = Annotated[
     str, StringConstraints(pattern=r"^(raw|meshes|results)/[0-9a-f]{12}-[A-Za-z0-9_-][A-Za-z0-9._-]{0,119}$")
 ]
+_A = TypeVar("_A", bound=BaseModel)
+
+TOOL = f"contactbench {__version__}"
 
 
 class _Part(BaseModel):
@@ -51,6 +60,10 @@ class FileRef(_Part):
     path: Place
     sha256: Sha256
     size: Annotated[int, Field(ge=0)]
+
+
+# Stands for a file while all else of an action is checked, before the file is copied.
+NOWHERE = FileRef(path="raw/000000000000-_", sha256="0" * 64, size=0)
 
 
 class Origin(_Part):
@@ -246,3 +259,56 @@ def records_of(found: tuple[Frame, ...]) -> tuple[Record, ...]:
         Record(number, frame.chain.hex(), read_entry(parse_payload(frame.payload, number), number))
         for number, frame in enumerate(found, 1)
     )
+
+
+def main_file(action: ResultAdded) -> str:
+    """Return the name of the file that other results refer to: the one named after the result, or the first."""
+    return action.name if action.name in action.files else min(action.files)
+
+
+def content_hash(action: ResultAdded) -> str:
+    """SHA-256 over kind, name, inputs, parameters and files: 64 hexadecimal digits. No time goes into it."""
+    content = {
+        "kind": action.kind,
+        "name": action.name,
+        "inputs": action.inputs,
+        "parameters": action.parameters,
+        "files": {name: file.sha256 for name, file in action.files.items()},
+    }
+    return hashlib.sha256(canonical(content)).hexdigest()
+
+
+def input_hash(file: FileRef, companions: Mapping[str, FileRef]) -> str:
+    """Return what results refer to an input by: its file's SHA-256 or, with companions, one over all of them."""
+    if not companions:
+        return file.sha256
+    content = {
+        "file": file.sha256,
+        "companions": {name: companion.sha256 for name, companion in companions.items()},
+    }
+    return hashlib.sha256(canonical(content)).hexdigest()
+
+
+def checked(action: type[_A], /, **fields: Any) -> _A:
+    """Return an action of these fields; SessionError, with the field, if they are wrong."""
+    try:
+        return action(**fields)
+    except ValidationError as error:
+        first = error.errors(include_url=False)[0]
+        where = ".".join(str(part) for part in first["loc"] if part != "[key]")
+        rule = _RULES.get(first.get("ctx", {}).get("pattern", ""), first["msg"])
+        raise SessionError(f"{where}: {first['input']!r:.100}: {rule}: correct it.") from error
+
+
+def entry(action: Action, by: str, sensor: str | None) -> Entry:
+    """Return an action with who, when and with what."""
+    at = datetime.now(UTC).isoformat(timespec="microseconds")
+    return checked(Entry, at=at, by=by, tool=TOOL, sensor=sensor, action=action)
+
+
+def user() -> str:
+    """Return the name of the computer's user, or a dash."""
+    try:
+        return getpass.getuser()
+    except (KeyError, ImportError, OSError):  # no name for this number; Windows without its variables
+        return "-"

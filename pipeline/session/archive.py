@@ -40,40 +40,21 @@ _ENCRYPTED = 0x1
 
 @dataclass(frozen=True)
 class ArchiveLimits:
-    """
-    What an archive may ask of the one who unpacks it.
-
-    Attributes
-    ----------
-    members : int
-    size : int
-        Of all that is unpacked, bytes.
-    ratio : int
-        Of unpacked to packed size, for files above 1 MiB. Text of numbers reaches 10, text of zeros 1000.
-    """
+    """What an archive may ask of the one who unpacks it."""
 
     members: int = 100_000
-    size: int = 64 * 2**30
+    size: int = 64 * 2**30  # Of all that is unpacked, bytes
+    # Of unpacked to packed size, for files above 1 MiB. Text of numbers reaches 10, text of zeros 1000.
     ratio: int = 200
 
 
 @dataclass(frozen=True)
 class Exported:
-    """
-    What was packed.
-
-    Attributes
-    ----------
-    files : int
-    notes : tuple of str
-        What is worth knowing of the session, in sentences.
-    left_out : tuple of str
-        Places of recordings that are being made: they are not in the archive.
-    """
+    """What was packed."""
 
     files: int
-    notes: tuple[str, ...]
-    left_out: tuple[str, ...]
+    notes: tuple[str, ...]  # What is worth knowing of the session, in sentences
+    left_out: tuple[str, ...]  # Places of recordings that are being made: they are not in the archive
 
 
 def export_archive(folder: Path, out: Path, limits: ArchiveLimits | None = None) -> Exported:

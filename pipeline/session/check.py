@@ -36,25 +36,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """
-    What was found.
+    """What was found."""
 
-    Attributes
-    ----------
-    records : int
-        Whole records.
-    files : int
-        Files that they refer to.
-    problems : tuple of str
-        What is wrong, in sentences.
-    notes : tuple of str
-        What is worth knowing, but wrong with nothing.
-    """
-
-    records: int
-    files: int
-    problems: tuple[str, ...]
-    notes: tuple[str, ...]
+    records: int  # Whole records
+    files: int  # Files that they refer to
+    problems: tuple[str, ...]  # What is wrong, in sentences
+    notes: tuple[str, ...]  # What is worth knowing, but wrong with nothing
 
     @property
     def sound(self) -> bool:
@@ -136,27 +123,13 @@ def _unreferenced(folder: Path, known: set[str]) -> list[str]:
 
 @dataclass(frozen=True)
 class Repair:
-    """
-    What a repair did.
-
-    Attributes
-    ----------
-    sentence : str
-    removed : int
-        Bytes taken off the journal's end.
-    kept_as : str
-        Name of the journal as it was; empty if nothing had to be done.
-    adopted : tuple of str
-        What became of recordings that ended abruptly, in sentences.
-    left : tuple of str
-        Why others stay where they are, in sentences.
-    """
+    """What a repair did."""
 
     sentence: str
-    removed: int = 0
-    kept_as: str = ""
-    adopted: tuple[str, ...] = ()
-    left: tuple[str, ...] = ()
+    removed: int = 0  # Bytes taken off the journal's end
+    kept_as: str = ""  # Name of the journal as it was; empty if nothing had to be done
+    adopted: tuple[str, ...] = ()  # What became of recordings that ended abruptly, in sentences
+    left: tuple[str, ...] = ()  # Why others stay where they are, in sentences
 
 
 def repair(folder: Path) -> Repair:

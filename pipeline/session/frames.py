@@ -43,21 +43,11 @@ _UNSIGNED_HEADER = struct.Struct("<4sII32s")
 
 @dataclass(frozen=True)
 class Frame:
-    """
-    One record as it lies in the file.
+    """One record as it lies in the file."""
 
-    Attributes
-    ----------
-    offset : int
-        Where it begins, bytes.
-    payload : bytes
-    chain : bytes
-        Its hash, 32 bytes.
-    """
-
-    offset: int
+    offset: int  # Where it begins, bytes
     payload: bytes
-    chain: bytes
+    chain: bytes  # Its hash, 32 bytes
 
     @property
     def end(self) -> int:
@@ -67,28 +57,13 @@ class Frame:
 
 @dataclass(frozen=True)
 class Scan:
-    """
-    What a journal holds.
+    """What a journal holds."""
 
-    Attributes
-    ----------
-    frames : tuple of Frame
-        The whole and correctly chained records from the start.
-    end : int
-        Where the last of them ends, bytes.
-    torn : str
-        What is said of a record at the end that was never finished; empty if there is none.
-    damage : str
-        What is said of damage that no crash explains; empty if there is none.
-    last : bool
-        The damage is at the end: no whole record follows it.
-    """
-
-    frames: tuple[Frame, ...]
-    end: int
-    torn: str = ""
-    damage: str = ""
-    last: bool = False
+    frames: tuple[Frame, ...]  # The whole and correctly chained records from the start
+    end: int  # Where the last of them ends, bytes
+    torn: str = ""  # What is said of a record at the end that was never finished; empty if there is none
+    damage: str = ""  # What is said of damage that no crash explains; empty if there is none
+    last: bool = False  # The damage is at the end: no whole record follows it
 
     @property
     def chain(self) -> bytes:

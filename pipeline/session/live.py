@@ -15,16 +15,29 @@ from contactbench.pipeline.session.files import UNFINISHED
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from pathlib import Path
     from types import TracebackType
     from typing import Self
 
     from contactbench.pipeline.devices.stream import Health
     from contactbench.pipeline.recording import RecordingInfo
     from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session.state import State
     from contactbench.pipeline.session.store import Session
 
 RECORDING = "recording"
 _NAME = re.compile(r"[A-Za-z0-9_-][A-Za-z0-9._-]{0,80}\.mcap")
+
+
+def next_recording(state: State, folder: Path, stem: str) -> str:
+    """Return the first name ``STEM-NUMBER.mcap`` that neither the session nor its folder has."""
+    known = {each.name for each in state.inputs} | {
+        file.name.removeprefix(UNFINISHED) for file in (folder / "raw").glob(f"{UNFINISHED}*")
+    }
+    number = 1
+    while f"{stem}-{number}.mcap" in known:
+        number += 1
+    return f"{stem}-{number}.mcap"
 
 
 class LiveRecording:

@@ -24,7 +24,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.calibration import PoseSample
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from contactbench.pipeline.calibration import ContactTask, PoseNoise, PoseSample
     from contactbench.pipeline.calibration.files.capture_file import Captured
     from contactbench.pipeline.calibration.orientation import Convention
 
@@ -51,6 +54,11 @@ class PosesParameters(Parameters):
         return convention_of(
             self.euler, self.rotation_vector, self.robot, radians=self.radians, inverse=self.inverse
         )
+
+    @property
+    def R_ES(self) -> NDArray[np.float64] | None:
+        """(3, 3) orientation of the sensor on the flange; None: nobody said."""
+        return mount_rotation(self.mount)
 
 
 class CapturesParameters(PosesParameters):
@@ -94,7 +102,7 @@ def captures(
         recording,
         given.convention(),
         robot_poses=inputs.get("robot_poses"),
-        R_ES=mount_rotation(given.mount),
+        R_ES=given.R_ES,
         model=model,
         delay=given.delay,
     )
@@ -105,9 +113,7 @@ def captures(
     poses = (*before, *_chosen(found, given.leave_out, len(before)))
     fewest = 1 if given.partial else FEWEST_POSES
     if len(poses) < fewest:
-        why = "".join(
-            f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.report.rejected[:3]
-        )
+        why = "".join(f" {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in found.rejected[:3])
         left = f", {len(given.leave_out)} left out" if given.leave_out else ""
         needs = (
             f"a calibration needs {FEWEST_POSES}" if fewest == FEWEST_POSES else "there is nothing to keep"
@@ -129,7 +135,7 @@ def _earlier(file: Path) -> tuple[PoseSample, ...]:
 
 def _chosen(found: Captured, leave_out: tuple[float, ...], before: int) -> tuple[PoseSample, ...]:
     """Return the poses in which none of those moments lies, numbered from the ones before on."""
-    spans = [(capture.start, capture.stop) for capture in found.report.captures]
+    spans = [(capture.start, capture.stop) for capture in found.captures]
     kept = [
         pose
         for pose, (start, stop) in zip(found.poses, spans, strict=True)
@@ -163,14 +169,41 @@ class CalibrationParameters(PosesParameters):
     tip: Three = (0.0, 0.0, 100.0)
     contact_force: Number = 10.0
 
+    @property
+    def noise(self) -> PoseNoise | None:
+        """Of a pose's mean; None: it is estimated from the poses."""
+        from contactbench.pipeline.calibration import PoseNoise
+
+        force, torque = self.noise_force, self.noise_torque
+        return None if force is None or torque is None else PoseNoise(force, torque)
+
+    @property
+    def task(self) -> ContactTask:
+        """The touches that the calibration is for."""
+        import numpy as np
+
+        from contactbench.pipeline.calibration import ContactTask
+
+        tip = np.array(self.tip) / 1000
+        return ContactTask(tip, np.array([0.0, 0.0, -1.0 if tip[2] < 0 else 1.0]), self.contact_force)
+
+    @property
+    def assumed(self) -> dict[str, Any]:
+        """What `calibrate` and `estimate_mount` are told beside the poses."""
+        degrees = self.orientation_noise
+        return {
+            "noise": self.noise,
+            "orientation_sigma": None if degrees is None else math.radians(degrees),
+            "down_W": self.down,
+            "task": self.task,
+        }
+
 
 def calibration(
     inputs: Mapping[str, Path], parameters: Mapping[str, Any], created: str | None
 ) -> dict[str, bytes]:
     """Calibrate from ``poses``: the bytes that ``contactbench calibrate fit`` writes at that time."""
-    import numpy as np
-
-    from contactbench.pipeline.calibration import ContactTask, PoseNoise, calibrate
+    from contactbench.pipeline.calibration import calibrate
     from contactbench.pipeline.calibration.diagnosis.diagnose import RawOrientations
     from contactbench.pipeline.calibration.files.calibration_file import Mount, save_calibration
     from contactbench.pipeline.calibration.files.capture_file import is_recording
@@ -186,29 +219,16 @@ def calibration(
             f"{poses.name} is a recording, not a table of still poses: add it with --kind recording, and compute"
             " captures from it first."
         )
-    noise = None
     if (given.noise_force is None) != (given.noise_torque is None):
         raise SessionError("noise_force, noise_torque: give both or none.")
-    if given.noise_force is not None and given.noise_torque is not None:
-        noise = PoseNoise(given.noise_force, given.noise_torque)
-    tip = np.array(given.tip) / 1000
-    normal = np.array([0.0, 0.0, -1.0 if tip[2] < 0 else 1.0])
-    task = ContactTask(tip, normal, given.contact_force)
-    R_ES = mount_rotation(given.mount)
+    R_ES = given.R_ES
     table = read_poses(poses, given.convention(), R_ES=R_ES)
     mount = None if R_ES is None else Mount.of(R_ES.T)
-    degrees = given.orientation_noise
-    said: dict[str, Any] = {
-        "noise": noise,
-        "orientation_sigma": None if degrees is None else math.radians(degrees),
-        "down_W": given.down,
-        "task": task,
-    }
     if given.estimate_mount:
-        mounted = estimate_mount(table.poses, **said)
+        mounted = estimate_mount(table.poses, **given.assumed)
         found, mount = mounted.calibration, Mount.of(mounted.R_SE, mounted.rotation_covariance)
     else:
-        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **said)
+        found = calibrate(table.poses, raw=RawOrientations(table.raw, table.convention), **given.assumed)
     time = None if created is None else datetime.fromisoformat(created)
     with folder_for(given.name, ".json") as out:
         save_calibration(found, out, source=poses, created=time, mount=mount)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
+    from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.mesh.simplify import Engine
     from contactbench.pipeline.preparation.alignment import Alignment
     from contactbench.pipeline.preparation.prepare import Dense, Preparation
@@ -66,12 +67,17 @@ def probe(
     another, what ``contactbench probe regions export`` wrote of the aligned outer surface: see
     `contactbench.pipeline.preparation.painted`. For `remember` see `dense_of`.
     """
-    from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
-
     given = read_parameters(ProbeParameters, parameters)
     done = prepared(inputs, given, progress=progress, cancelled=cancelled, remember=remember)
-    with folder_for(given.name, ".ply") as out:
-        save_probe_file(done.content, out)
+    return probe_files(done.content, given.name)
+
+
+def probe_files(content: ProbeFile, name: str) -> dict[str, bytes]:
+    """Return the files that a probe is kept in, under a name that ends in ``.ply``."""
+    from contactbench.pipeline.mesh.sidecar import save_probe_file, sidecar_of
+
+    with folder_for(name, ".ply") as out:
+        save_probe_file(content, out)
         return {file.name: file.read_bytes() for file in (out, sidecar_of(out))}
 
 
@@ -93,7 +99,9 @@ def prepared(
             f"engine {given.engine!r}: there is no such engine: give one of {get_args(Engine)}."
         )
     mesh = check_roles(inputs, "mesh", "alignment", "regions")
-    alignment, target = _alignment(given, inputs.get("alignment")), target_of(given)
+    if given.mount is not None and "alignment" in inputs:
+        raise SessionError("mount and an alignment contradict each other: give one.")
+    alignment, target = alignment_of(given, inputs.get("alignment")), target_of(given)
     dense = dense_of(
         mesh,
         given,
@@ -190,14 +198,13 @@ def _part(progress: Progress, low: float, high: float) -> Progress:
     return lambda share: progress(low + share * (high - low))
 
 
-def _alignment(given: ProbeParameters, file: Path | None) -> Alignment | None:
+def alignment_of(given: ProbeParameters, file: Path | None) -> Alignment | None:
+    """Return where a mesh is put: as the file says, or else the mount; None: it stays in its own frame."""
     from contactbench.pipeline.preparation.alignment import from_angles, from_json
 
-    if file is None:
-        return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
-    if given.mount is not None:
-        raise SessionError("mount and an alignment contradict each other: give one.")
-    return from_json(file.read_bytes(), file.name)
+    if file is not None:
+        return from_json(file.read_bytes(), file.name)
+    return None if given.mount is None else from_angles(list(given.mount[:3]), list(given.mount[3:]))
 
 
 def target_of(given: ProbeParameters) -> Callable[[Any], Any]:

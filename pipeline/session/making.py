@@ -73,11 +73,11 @@ def mount_of(state: State) -> Three | None:
     SessionError
         What it says is not three angles.
     """
-    setting = state.settings.get("devices.mount")
-    if setting is None or setting.value is None:
+    given = state.setting("devices.mount")
+    if given is None:
         return None
     try:
-        angles: Three = TypeAdapter(Three).validate_python(setting.value)
+        angles: Three = TypeAdapter(Three).validate_python(given)
     except ValidationError:
         raise SessionError(
             "devices.mount: give three angles, degrees about the fixed axes x, y, z: set it anew."

@@ -25,24 +25,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Content:
-    """
-    What a journal says.
-
-    Attributes
-    ----------
-    records : tuple of Record
-    notes : tuple of str
-        What was noticed, in sentences.
-    found : Scan
-        Of the file as it is now.
-    origins : mapping
-        Version -> SHA-256 of the journals that the one on the disk says are kept beside it. One that was only
-        migrated in memory has kept nothing yet.
-    """
+    """What a journal says."""
 
     records: tuple[Record, ...]
-    notes: tuple[str, ...]
-    found: frames.Scan
+    notes: tuple[str, ...]  # What was noticed, in sentences
+    found: frames.Scan  # Of the file as it is now
+    # Version -> SHA-256 of the journals that the one on the disk says are kept beside it. One that was only
+    # migrated in memory has kept nothing yet.
     origins: Mapping[int, str]
 
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -20,8 +21,8 @@ from pydantic import ValidationError
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.report.making import ReportParameters, report
+from contactbench.pipeline.session.actions import main_file
 from contactbench.pipeline.session.errors import SessionError
-from contactbench.pipeline.session.identity import main_file
 from contactbench.pipeline.session.make_calibration import (
     CalibrationParameters,
     CapturesParameters,
@@ -71,22 +72,11 @@ PARAMETERS: dict[str, type[BaseModel]] = {
 
 @dataclass(frozen=True)
 class Roles:
-    """
-    The roles of a kind's inputs.
+    """The roles of a kind's inputs."""
 
-    Attributes
-    ----------
-    needed : tuple of str
-        Without one of them nothing is computed.
-    optional : tuple of str
-        Taken where the session has them.
-    on_request : tuple of str
-        Taken only where somebody names them.
-    """
-
-    needed: tuple[str, ...]
-    optional: tuple[str, ...] = ()
-    on_request: tuple[str, ...] = ()
+    needed: tuple[str, ...]  # Without one of them nothing is computed
+    optional: tuple[str, ...] = ()  # Taken where the session has them
+    on_request: tuple[str, ...] = ()  # Taken only where somebody names them
 
 
 ROLES: dict[str, Roles] = {
@@ -252,8 +242,7 @@ def recomputed(
         raise SessionError(
             f"{kind}: nothing here computes this kind of result: known are {', '.join(RECOMPUTE)}."
         )
-    with tempfile.TemporaryDirectory(prefix=PREFIX) as scratch:
-        files = lay_out(folder, state, inputs, Path(scratch), before)
+    with laid_out(folder, state, inputs, before) as files:
         try:
             if kind in _FOLLOWED:
                 # Whoever looks at the past checks results, and has everything computed anew.
@@ -299,6 +288,15 @@ def settings_of(state: State, kind: str) -> dict[str, Any]:
     return {name: each.value for name, each in named.items() if name in known and each.value is not None}
 
 
+@contextmanager
+def laid_out(
+    folder: Path, state: State, inputs: Mapping[str, str], before: int | None = None
+) -> Iterator[dict[str, Path]]:
+    """Give inputs as `lay_out` does, in folders that are gone afterwards."""
+    with tempfile.TemporaryDirectory(prefix=PREFIX) as scratch:
+        yield lay_out(folder, state, inputs, Path(scratch), before)
+
+
 def lay_out(
     folder: Path, state: State, inputs: Mapping[str, str], target: Path, before: int | None = None
 ) -> dict[str, Path]:
@@ -328,12 +326,12 @@ def lay_out(
         The session does not hold one of them, or it cannot be read.
     """
     return {
-        role: _laid_out(folder, state, sha256, target / str(number), before)
+        role: _copied(folder, state, sha256, target / str(number), before)
         for number, (role, sha256) in enumerate(inputs.items())
     }
 
 
-def _laid_out(folder: Path, state: State, sha256: str, target: Path, before: int | None) -> Path:
+def _copied(folder: Path, state: State, sha256: str, target: Path, before: int | None) -> Path:
     """Copy an input, under the name it came with, where a computation may read it; return where."""
     target.mkdir()
     used = state.input_with(sha256, before)

@@ -20,12 +20,13 @@ from contactbench.pipeline.session.actions import (
     Record,
     ResultMarked,
     SessionCreated,
+    entry,
     files_of,
     parse_payload,
     payload_of,
     read_entry,
+    user,
 )
-from contactbench.pipeline.session.entries import entry, user
 from contactbench.pipeline.session.errors import JournalError
 from contactbench.pipeline.session.journal import read_journal, refuse_damage
 from contactbench.pipeline.session.migrate import version_of
@@ -49,22 +50,11 @@ _LONGEST_NOTE = 9000
 
 @dataclass(frozen=True)
 class Remains:
-    """
-    A journal of the records that are left.
+    """A journal of the records that are left."""
 
-    Attributes
-    ----------
-    data : bytes
-        A whole journal, of the version of the damaged one.
-    losses : frozenset of int
-        Numbers of the records in it after which at least one is missing.
-    sentences : tuple of str
-        What was found.
-    """
-
-    data: bytes
-    losses: frozenset[int]
-    sentences: tuple[str, ...]
+    data: bytes  # A whole journal, of the version of the damaged one
+    losses: frozenset[int]  # Numbers of the records in it after which at least one is missing
+    sentences: tuple[str, ...]  # What was found
 
 
 def remains_of(folder: Path, data: bytes) -> Remains:

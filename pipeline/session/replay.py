@@ -8,7 +8,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.session.entries import TOOL
+from contactbench.pipeline.session.actions import TOOL
 from contactbench.pipeline.session.recompute import RECOMPUTE, recomputed
 
 if TYPE_CHECKING:
@@ -29,24 +29,13 @@ class Outcome(StrEnum):
 
 @dataclass(frozen=True)
 class Replayed:
-    """
-    One result, computed again.
-
-    Attributes
-    ----------
-    kind, name : str
-    number : int
-        Of its record.
-    outcome : Outcome
-    sentence : str
-        What came of it.
-    """
+    """One result, computed again."""
 
     kind: str
     name: str
-    number: int
+    number: int  # Of its record
     outcome: Outcome
-    sentence: str
+    sentence: str  # What came of it
 
 
 def replay(session: Session, progress: Callable[[int, int], None] | None = None) -> tuple[Replayed, ...]:

@@ -36,31 +36,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Salvage:
-    """
-    What a salvage gave.
+    """What a salvage gave."""
 
-    Attributes
-    ----------
-    out : Path
-        The new session.
-    records : int
-        Records of the damaged session that are in it.
-    whole : bool
-        Nothing is lost.
-    found : tuple of str
-        What is damaged, restored and lost, in sentences.
-    unclaimed : tuple of str
-        Whole files of the new session that belong to no record: those of lost records.
-    stale : mapping
-        Title of each result that is stale in the new session -> why.
-    """
-
-    out: Path
-    records: int
-    whole: bool
-    found: tuple[str, ...]
+    out: Path  # The new session
+    records: int  # Records of the damaged session that are in it
+    whole: bool  # Nothing is lost
+    found: tuple[str, ...]  # What is damaged, restored and lost, in sentences
+    # Whole files of the new session that belong to no record: those of lost records
     unclaimed: tuple[str, ...]
-    stale: Mapping[str, tuple[str, ...]]
+    stale: Mapping[str, tuple[str, ...]]  # Title of each result that is stale in the new session -> why
 
 
 def salvage(

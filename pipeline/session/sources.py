@@ -18,14 +18,7 @@ _T = TypeVar("_T", Input, Result)
 
 @dataclass(frozen=True)
 class Source:
-    """
-    What an input of a result may have been; more than one, if the same content was there under several names.
-
-    Attributes
-    ----------
-    inputs : tuple of Input
-    results : tuple of Result
-    """
+    """What an input of a result may have been; more than one, if the same content was there under several names."""
 
     inputs: tuple[Input, ...]
     results: tuple[Result, ...]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from contactbench.pipeline.session.actions import (
     DeviceRezeroed,
@@ -16,8 +16,10 @@ from contactbench.pipeline.session.actions import (
     ResultAdded,
     ResultMarked,
     SessionCreated,
+    content_hash,
+    input_hash,
+    main_file,
 )
-from contactbench.pipeline.session.identity import content_hash, input_hash, main_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -55,6 +57,9 @@ class Input:
     at: str
     companions: Mapping[str, FileRef] = field(default_factory=dict)
     about: Mapping[str, Any] = field(default_factory=dict)
+    # Nobody says anything of what is brought in.
+    mark: ClassVar[None] = None
+    rejected: ClassVar[bool] = False
 
     @property
     def content(self) -> str:
@@ -97,6 +102,11 @@ class Result:
         return (self.action.kind, self.action.name)
 
     @property
+    def kind(self) -> str:
+        """What it is."""
+        return self.action.kind
+
+    @property
     def title(self) -> str:
         """For people."""
         return f"{self.action.kind} {self.action.name}"
@@ -125,6 +135,11 @@ class Result:
     def mark(self) -> ResultMarked | None:
         """The newest thing that was said of it."""
         return self.marks[-1] if self.marks else None
+
+    @property
+    def rejected(self) -> bool:
+        """Whether the newest thing that was said of it is that it does not count."""
+        return self.mark is not None and self.mark.mark == "rejected"
 
 
 @dataclass(frozen=True)
@@ -192,6 +207,17 @@ class State:
     def mesh(self) -> Input | None:
         """The mesh in use."""
         return self.current_inputs.get((MESH, ""))
+
+    def newest(self, kind: str) -> Result | Input | None:
+        """Return the newest result of a kind, or input that was brought in as one."""
+        every: tuple[Result | Input, ...] = (*self.results, *self.inputs)
+        found = (each for each in every if each.kind == kind)
+        return max(found, key=lambda each: each.number, default=None)
+
+    def setting(self, key: str) -> Any:
+        """Return the value of a setting; None: it was never set."""
+        found = self.settings.get(key)
+        return None if found is None else found.value
 
     def input_with(self, sha256: str, before: int | None = None) -> Input | None:
         """Return the newest input of this `Input.content`, of those before a record."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Self
 from contactbench.pipeline.durable import make_folder, sync_folder, write_durably
 from contactbench.pipeline.session import frames
 from contactbench.pipeline.session.actions import (
+    NOWHERE,
     DeviceRezeroed,
     InputAdded,
     MeshChanged,
@@ -18,9 +19,11 @@ from contactbench.pipeline.session.actions import (
     ResultAdded,
     ResultMarked,
     SessionCreated,
+    checked,
+    entry,
     payload_of,
+    user,
 )
-from contactbench.pipeline.session.entries import NOWHERE, checked, entry, user
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import (
     FOLDERS,
@@ -188,12 +191,12 @@ class Session:
 
     def add_input(
         self,
-        file: Path,
+        file: Path | bytes,
         kind: str,
         *,
         name: str | None = None,
         sensor: str | None = None,
-        companions: Mapping[str, Path] | None = None,
+        companions: Mapping[str, Path | bytes] | None = None,
         about: Mapping[str, Any] | None = None,
     ) -> Record:
         """
@@ -201,20 +204,22 @@ class Session:
 
         Parameters
         ----------
-        file : path
+        file : path or bytes
+            The file, or what would be in it.
         kind : str
         name : str, optional
-            Left out: that of the file.
+            Left out: that of the file; bytes have none.
         sensor : str, optional
             Serial number of the sensor that it was recorded with.
         companions : mapping, optional
-            Name -> file that computations find beside it; see `companions_of`.
+            Name -> file, or its bytes, that computations find beside it; see `companions_of`.
         about : mapping, optional
             What is known about it, JSON values; ``started``: when it was recorded, ISO 8601. Not for a mesh.
         """
-        name = file.name if name is None else name
-        source = chunks_of(regular(file))
-        beside = {each: chunks_of(regular(path)) for each, path in (companions or {}).items()}
+        if name is None:
+            name = "" if isinstance(file, bytes) else file.name
+        source = _chunks(file)
+        beside = {each: _chunks(there) for each, there in (companions or {}).items()}
         if kind == MESH:
             return self.change_mesh(name, source, beside)
         given = {"kind": kind, "name": name, "sensor": sensor, "about": dict(about or {})}
@@ -382,6 +387,10 @@ class Session:
         if self._lock.held:  # a closed one says so itself
             self._lock.check()
         return self._writer
+
+
+def _chunks(file: Path | bytes) -> Iterable[bytes]:
+    return (file,) if isinstance(file, bytes) else chunks_of(regular(file))
 
 
 def _refuse_content(folder: Path) -> None:

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.study.sheets import write_bytes, write_text
+
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import numpy.typing as npt
     from rich.table import Table
+
+    from contactbench.pipeline.study.sheets import Sheet
 
 _HEADINGS = ("of", "figure", "target", "measured", "spread", "worst")
 
@@ -130,12 +137,21 @@ class Report:
     figures : tuple of Figure
     notes : tuple of str
         What the numbers do not say, in sentences.
+    sheets : tuple of Sheet
+        Tables beside the figures.
+    files : dict of str to bytes
+        More files to write, by name: pictures and recordings.
+    differences : tuple of str
+        Where the set-up differs from the one that the figures are compared with.
     """
 
     title: str
     settings: dict[str, Any]
     figures: tuple[Figure, ...]
     notes: tuple[str, ...] = ()
+    sheets: tuple[Sheet, ...] = ()
+    files: dict[str, bytes] = field(default_factory=dict)
+    differences: tuple[str, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -150,7 +166,29 @@ class Report:
             "settings": self.settings,
             "figures": [figure.to_json() for figure in self.figures],
             "notes": list(self.notes),
+            **({"differences": list(self.differences)} if self.differences else {}),
+            **{sheet.name: sheet.to_json() for sheet in self.sheets},
         }
+
+    def write(self, out: Path) -> None:
+        """
+        Write the report as a Markdown file, or, with tables, a folder: report.md, a CSV file a table, and all files.
+
+        Raises
+        ------
+        InputError
+            It cannot be written.
+        """
+        if not self.sheets:
+            write_text(out, self.markdown())
+            return
+        make_folder(out)
+        write_text(out / "report.md", self.markdown())
+        for sheet in self.sheets:
+            write_text(out / f"{sheet.name}.csv", sheet.csv())
+        for name, data in self.files.items():
+            make_folder((out / name).parent)
+            write_bytes(out / name, data)
 
     def table(self) -> Table:
         """Build the table for the terminal; what misses its target is red."""
@@ -166,13 +204,18 @@ class Report:
         return built
 
     def markdown(self) -> str:
-        """Write the table as Markdown."""
+        """Write the figures, and the tables that people read, as Markdown."""
         lines = [f"{self._heading}\n", "| " + " | ".join((*_HEADINGS, "")) + " |", "|---" * 7 + "|"]
         for figure in self.figures:
             verdict = "" if not figure.target else "ok" if figure.passed else "MISSED"
             cells = (cell.replace("|", "\\|").replace("\n", " ") for cell in (*figure.cells, verdict))
             lines.append("| " + " | ".join(cells) + " |")
-        return "\n".join([*lines, "", *self.notes]).rstrip() + "\n"
+        parts = ["\n".join([*lines, "", *self.notes]).rstrip() + "\n"]
+        parts += [sheet.markdown() for sheet in self.sheets if sheet.shown]
+        parts += [f"![{name}]({name})\n" for name in self.files if name.endswith(".png")]
+        if self.differences:
+            parts.append("## What differs\n\n" + "".join(f"- {sentence}\n" for sentence in self.differences))
+        return "\n".join(parts)
 
     @property
     def _heading(self) -> str:

@@ -31,12 +31,15 @@ class Sheet:
         With units.
     rows : tuple of tuple
         A NaN is no value.
+    shown : bool
+        For people too; a long table, or one that every run changes, is only for its file and JSON.
     """
 
     name: str
     title: str
     columns: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
+    shown: bool = True
 
     def csv(self) -> str:
         """Write it with all digits."""

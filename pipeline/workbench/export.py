@@ -32,72 +32,36 @@ _ALWAYS = ("provenance.", "probe.sha256", "planes.sha256")
 
 @dataclass(frozen=True)
 class Preview:
-    """
-    A bundle as it would be written.
+    """A bundle as it would be written."""
 
-    Attributes
-    ----------
-    files : tuple of (name, bytes)
-    figures : tuple of (what, value)
-        For people, with units.
-    sha256 : str
-        Of contactbench.json, which holds the hashes of the others.
-    reasons : tuple of str
-        Why it is not verified; empty: it is.
-    unchecked : str
-        What to do because neither a known weight nor a known touch told anything; empty: one did.
-    changes : tuple of str or None
-        What differs from the bundle that was exported before, in sentences; None: there is none, or it is gone.
-    """
-
-    files: tuple[tuple[str, int], ...]
-    figures: tuple[tuple[str, str], ...]
-    sha256: str
-    reasons: tuple[str, ...]
+    files: tuple[tuple[str, int], ...]  # (name, bytes)
+    figures: tuple[tuple[str, str], ...]  # (what, value); For people, with units
+    sha256: str  # Of contactbench.json, which holds the hashes of the others
+    reasons: tuple[str, ...]  # Why it is not verified; empty: it is
+    # What to do because neither a known weight nor a known touch told anything; empty: one did
     unchecked: str
+    # What differs from the bundle that was exported before, in sentences; None: there is none, or it is gone
     changes: tuple[str, ...] | None
 
 
 @dataclass(frozen=True)
 class ExportView:
-    """
-    How an export stands.
-
-    Attributes
-    ----------
-    items : tuple of CheckItem
-    preview : Preview or None
-    problem : str
-        Why there is no preview; empty where there is one.
-    lacks : str
-        The option that somebody must give before there is one; empty: none.
-    """
+    """How an export stands."""
 
     items: tuple[CheckItem, ...]
     preview: Preview | None
-    problem: str = ""
-    lacks: str = ""
+    problem: str = ""  # Why there is no preview; empty where there is one
+    lacks: str = ""  # The option that somebody must give before there is one; empty: none
 
 
 @dataclass(frozen=True)
 class Exported:
-    """
-    A bundle that was written, and loaded again.
-
-    Attributes
-    ----------
-    place : Path
-    sha256 : str
-        Of its contactbench.json.
-    verified : bool
-    sentence : str
-        What loading it found.
-    """
+    """A bundle that was written, and loaded again."""
 
     place: Path
-    sha256: str
+    sha256: str  # Of its contactbench.json
     verified: bool
-    sentence: str
+    sentence: str  # What loading it found
 
 
 def survey(session: Session) -> ExportView:

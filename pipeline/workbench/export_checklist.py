@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.config.runtime.checks import CHECK_KINDS
@@ -12,14 +13,17 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.workbench.steps import Step
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from contactbench.pipeline.session import State
     from contactbench.pipeline.session.state import Input, Result
 
+    Content = dict[str, Any]
+    Judged = tuple["CheckState", str]
+    Judge = Callable[[Content, str], Judged | None]
+
 Stale = dict[tuple[str, str], tuple[str, ...]]
-_REJECTED = "rejected"
 
 
 class CheckState(StrEnum):
@@ -34,38 +38,17 @@ class CheckState(StrEnum):
 
 @dataclass(frozen=True)
 class CheckItem:
-    """
-    One line of the checklist.
+    """One line of the checklist."""
 
-    Attributes
-    ----------
-    name : str
-        What it is.
-    state : CheckState
-    sentence : str
-        What came of it, or what to do.
-    step : Step
-        Where that is done.
-    """
-
-    name: str
+    name: str  # What it is
     state: CheckState
-    sentence: str
-    step: Step
+    sentence: str  # What came of it, or what to do
+    step: Step  # Where that is done
 
     @property
     def holds(self) -> bool:
         """Whether nothing has to be done about it."""
         return self.state in (CheckState.DONE, CheckState.OPTIONAL)
-
-
-def newest(state: State, kind: str) -> Result | Input | None:
-    """Return the newest result of a kind, or input that was brought in as one."""
-    found: list[Result | Input] = [
-        each for each in state.current_results.values() if each.action.kind == kind
-    ]
-    found += [each for each in state.current_inputs.values() if each.kind == kind]
-    return max(found, key=lambda each: each.number, default=None)
 
 
 def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
@@ -80,15 +63,72 @@ def checklist(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]
     stale : dict
         As `Session.stale` says.
     """
+    item = partial(_item, folder, state, stale)
+    touch = "Touch the markers, so that somebody has shown that it is right."
+    checks = [
+        item("Known weight", "known_weight", Step.GRAVITY, "Hang a known weight on the tool.", _checked),
+        item("Known touch", "known_touch", Step.VERIFY, "Press a known point of the probe.", _checked),
+    ]
+    if any(each.state is CheckState.DONE for each in checks):  # one of them is enough
+        checks = [
+            replace(each, state=CheckState.OPTIONAL) if each.state is CheckState.MISSING else each
+            for each in checks
+        ]
     return (
         _sensor(state),
-        _calibration(folder, state, stale),
-        _probe(state, stale),
+        item("Calibration", "calibration", Step.GRAVITY, "Calibrate the sensor with this tool.", _fitted),
+        item("Probe", "probe", Step.PROBE, "Prepare the probe's mesh."),
         _regions(folder, state),
-        _verification(folder, state, stale),
-        *_checks(folder, state, stale),
-        _report(state, stale),
+        item("Verification", "verification", Step.VERIFY, touch, _verified),
+        *checks,
+        item("Report", "report", Step.VERIFY, "Finish a verification: its report goes into the bundle."),
     )
+
+
+def _item(
+    folder: Path,
+    state: State,
+    stale: Stale,
+    name: str,
+    kind: str,
+    step: Step,
+    remedy: str,
+    judge: Judge | None = None,
+) -> CheckItem:
+    """Return the line of the newest result of a kind; `judge` says what its JSON file says of it."""
+    found = state.newest(kind)
+    if found is None:
+        unseen = "Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. "
+        return CheckItem(name, CheckState.MISSING, (unseen if kind in CHECK_KINDS else "") + remedy, step)
+    if found.mark is not None and found.rejected:
+        words = f"It was rejected. {found.mark.reason} {remedy}".strip()
+        return CheckItem(name, CheckState.FAILED, words, step)
+    if reasons := stale.get(found.slot, ()):
+        return CheckItem(name, CheckState.STALE, f"{reasons[0]} Do it again.", step)
+    judged = None if judge is None else judge(content_of(folder, found), remedy)
+    return CheckItem(name, *(judged or (CheckState.DONE, f"Made on {day_of(found)}.")), step)
+
+
+def _fitted(content: Content, _remedy: str) -> Judged | None:
+    if verdict_of(content).get("level") == "refuse":
+        return CheckState.FAILED, "The calibration was refused: calibrate again."
+    return None
+
+
+def _verified(content: Content, _remedy: str) -> Judged:
+    verdict = verdict_of(content)
+    if verdict.get("passed") is not True:
+        why = "; ".join(map(str, verdict.get("reasons", ()))) or "see its report"
+        return CheckState.FAILED, f"It did not pass: {why}. Verify again."
+    figures = figures_of(content)
+    return CheckState.DONE, f"Passed: {figures}." if figures else "Passed."
+
+
+def _checked(content: Content, remedy: str) -> Judged:
+    sentence, outcome = str(content.get("sentence", "")), content.get("outcome")
+    if outcome == "failed":
+        return CheckState.FAILED, sentence or f"It failed. {remedy}"
+    return (CheckState.DONE if outcome == "passed" else CheckState.MISSING), sentence
 
 
 def _sensor(state: State) -> CheckItem:
@@ -107,36 +147,13 @@ def _sensor(state: State) -> CheckItem:
     return CheckItem("Sensor", CheckState.DONE, f"Serial number {known[0]}.", Step.DEVICES)
 
 
-def _calibration(folder: Path, state: State, stale: Stale) -> CheckItem:
-    found = newest(state, "calibration")
-    item = _standing("Calibration", found, stale, Step.GRAVITY, "Calibrate the sensor with this tool.")
-    if item is not None or found is None:
-        return item or _missing("Calibration", "Calibrate the sensor with this tool.", Step.GRAVITY)
-    content = _content(folder, found)
-    verdict = content.get("verdict", {})
-    level = str(verdict.get("level", "")) if isinstance(verdict, dict) else ""
-    if level == "refuse":
-        return CheckItem(
-            "Calibration", CheckState.FAILED, "The calibration was refused: calibrate again.", Step.GRAVITY
-        )
-    return CheckItem("Calibration", CheckState.DONE, f"Made on {_day(found)}.", Step.GRAVITY)
-
-
-def _probe(state: State, stale: Stale) -> CheckItem:
-    found = newest(state, "probe")
-    item = _standing("Probe", found, stale, Step.PROBE, "Prepare the probe's mesh.")
-    if item is not None or found is None:
-        return item or _missing("Probe", "Prepare the probe's mesh.", Step.PROBE)
-    return CheckItem("Probe", CheckState.DONE, f"Made on {_day(found)}.", Step.PROBE)
-
-
 def _regions(folder: Path, state: State) -> CheckItem:
-    probe = newest(state, "probe")
+    probe = state.newest("probe")
     named = 0 if probe is None else _named_regions(folder, probe)
     if named:
         words = "one priority region" if named == 1 else f"{named} priority regions"
         return CheckItem("Regions", CheckState.DONE, f"The probe has {words}.", Step.REGIONS)
-    if newest(state, "regions") is not None:
+    if state.newest("regions") is not None:
         return CheckItem(
             "Regions",
             CheckState.MISSING,
@@ -161,89 +178,12 @@ def _named_regions(folder: Path, probe: Result | Input) -> int:
     return 0
 
 
-def _verification(folder: Path, state: State, stale: Stale) -> CheckItem:
-    name, remedy = "Verification", "Touch the markers, so that somebody has shown that it is right."
-    found = newest(state, "verification")
-    item = _standing(name, found, stale, Step.VERIFY, remedy)
-    if item is not None or found is None:
-        return item or _missing(name, remedy, Step.VERIFY)
-    content = _content(folder, found)
-    verdict, overall = content.get("verdict"), content.get("overall")
-    if not (isinstance(verdict, dict) and verdict.get("passed") is True):
-        why = "; ".join(map(str, verdict.get("reasons", ()))) if isinstance(verdict, dict) else ""
-        return CheckItem(
-            name, CheckState.FAILED, f"It did not pass: {why or 'see its report'}. Verify again.", Step.VERIFY
-        )
-    words = "Passed."
-    if isinstance(overall, dict) and isinstance(overall.get("mean_mm"), float):
-        words = f"Passed: {overall['mean_mm']:.2f} mm on average, {float(overall['max_mm']):.2f} mm at most."
-    return CheckItem(name, CheckState.DONE, words, Step.VERIFY)
-
-
-def _checks(folder: Path, state: State, stale: Stale) -> tuple[CheckItem, ...]:
-    """Return a line each of known weight and known touch: one of them is enough."""
-    items = [
-        _check(folder, state, stale, *names)
-        for names in (
-            ("Known weight", "known_weight", "Hang a known weight on the tool.", Step.GRAVITY),
-            ("Known touch", "known_touch", "Press a known point of the probe.", Step.VERIFY),
-        )
-    ]
-    enough = any(item.state is CheckState.DONE for item in items)
-    return tuple(
-        replace(item, state=CheckState.OPTIONAL) if enough and item.state is CheckState.MISSING else item
-        for item in items
-    )
-
-
-def _check(
-    folder: Path, state: State, stale: Stale, name: str, kind: str, remedy: str, step: Step
-) -> CheckItem:
-    found = newest(state, kind)
-    item = _standing(name, found, stale, step, remedy)
-    if item is not None or found is None:
-        unseen = f"Not checked: a wrong sign, unit or scale of the sensor would go unnoticed. {remedy}"
-        return item or _missing(name, unseen, step)
-    content = _content(folder, found)
-    sentence, outcome = str(content.get("sentence", "")), content.get("outcome")
-    if outcome == "failed":
-        return CheckItem(name, CheckState.FAILED, sentence or f"It failed. {remedy}", step)
-    return CheckItem(name, CheckState.DONE if outcome == "passed" else CheckState.MISSING, sentence, step)
-
-
-def _report(state: State, stale: Stale) -> CheckItem:
-    remedy = "Finish a verification: its report goes into the bundle."
-    found = newest(state, "report")
-    item = _standing("Report", found, stale, Step.VERIFY, remedy)
-    if item is not None or found is None:
-        return item or _missing("Report", remedy, Step.VERIFY)
-    return CheckItem("Report", CheckState.DONE, f"Made on {_day(found)}.", Step.VERIFY)
-
-
-def _missing(name: str, remedy: str, step: Step) -> CheckItem:
-    return CheckItem(name, CheckState.MISSING, remedy, step)
-
-
-def _standing(
-    name: str, found: Result | Input | None, stale: Stale, step: Step, remedy: str
-) -> CheckItem | None:
-    """Return the line of what is not there, rejected or stale; None: it holds."""
-    if found is None:
-        return None
-    mark = getattr(found, "mark", None)
-    if mark is not None and mark.mark == _REJECTED:
-        return CheckItem(name, CheckState.FAILED, f"It was rejected. {mark.reason} {remedy}".strip(), step)
-    if reasons := stale.get(found.slot, ()):
-        return CheckItem(name, CheckState.STALE, f"{reasons[0]} Do it again.", step)
-    return None
-
-
-def _content(folder: Path, found: Result | Input) -> dict[str, Any]:
+def content_of(folder: Path, found: Result | Input) -> Content:
+    """Return the JSON object of a result's main file; empty where it cannot be read: whoever needs it says why."""
     return _json(folder / found.file.path)
 
 
-def _json(file: Path) -> dict[str, Any]:
-    """Return a JSON object; empty where it cannot be read: the preview says why."""
+def _json(file: Path) -> Content:
     try:
         content = json.loads(file.read_bytes())
     except (OSError, ValueError):
@@ -251,19 +191,36 @@ def _json(file: Path) -> dict[str, Any]:
     return content if isinstance(content, dict) else {}
 
 
-def _day(found: Result | Input) -> str:
+def verdict_of(content: Content) -> Content:
+    """Return the verdict of a calibration or a verification; empty: there is none."""
+    found = content.get("verdict")
+    return found if isinstance(found, dict) else {}
+
+
+def figures_of(content: Content) -> str:
+    """Return how far off the touches of a verification were, in words; empty: nobody knows."""
+    overall = content.get("overall")
+    mean = overall.get("mean_mm") if isinstance(overall, dict) else None
+    most = overall.get("max_mm") if isinstance(overall, dict) else None
+    if not isinstance(mean, int | float) or not isinstance(most, int | float):
+        return ""
+    return f"{mean:.2f} mm on average, {most:.2f} mm at most"
+
+
+def day_of(found: Result | Input) -> str:
+    """Return when something was added, for people."""
     return found.at[:16].replace("T", " ") + " UTC"
 
 
 def results_of(state: State) -> Mapping[str, str]:
     """Return kind -> content of the newest results that a bundle is made of: what an export is an export of."""
     kinds = ("calibration", "probe", "verification", *CHECK_KINDS, "report")
-    found = {kind: newest(state, kind) for kind in kinds}
+    found = {kind: state.newest(kind) for kind in kinds}
     return {kind: each.content for kind, each in found.items() if each is not None}
 
 
 def refuse_without(state: State) -> None:
     """InputError unless there is what no bundle can do without."""
     for kind, what in (("calibration", "Calibrate first"), ("probe", "prepare the probe first")):
-        if newest(state, kind) is None:
+        if state.newest(kind) is None:
             raise InputError(f"There is no {kind} yet: nothing can be exported. {what[0].upper()}{what[1:]}.")

@@ -1,5 +1,5 @@
 """
-A gravity calibration while it is being made: samples in, captures, and what they amount to.
+A gravity calibration while it is being made, or checked: samples in, captures, and what they amount to.
 
 Samples come in the streams' threads, solving happens in a thread of its own, and whoever draws it asks for a
 `view` as often as it likes: none of them waits for another.
@@ -16,74 +16,50 @@ import numpy as np
 from scipy.special import chdtri
 
 from contactbench.pipeline.calibration import Level, PoseSample
-from contactbench.pipeline.calibration.reachable import describe
+from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.stillness import Capture, Stillness, StillnessDetector, StillState
+from contactbench.pipeline.calibration.verify import StillVerification, verify_still
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.workbench.gravity_fit import PLANNED, Solved, plan, solve
 from contactbench.pipeline.workbench.gravity_poses import PoseRow, PoseState, earlier_rows, live_rows, middle
-from contactbench.pipeline.workbench.gravity_solving import PLANNED, Solved, plan, solve
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.calibration.suggest import Plan
-    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.workbench.gravity_fit import GravitySettings
     from contactbench.pipeline.workbench.live import Block
 
 _TOUCH_RISK = 1e-5  # that an untouched moment looks touched
 _OWN = np.repeat([0.05, 0.002], 3) ** 2  # what a calibration leaves beside its covariance, N² and N²·m²
 _SHORT = 100  # samples: the newest moment
+_NEAREST = np.radians(15.0)  # of a check to a pose that the calibration has seen: nearer, it tells little
+_NEAR = "This is nearly a pose that the calibration was made from: turn the tool further."
 _NO_POSE = "The sensor's readings come, but no orientation with them: nothing can be captured."
 
 
 @dataclass(frozen=True, eq=False)
 class GravityView:
-    """
-    How it stands.
-
-    Attributes
-    ----------
-    state : StillState
-    sentence : str
-        For the technician.
-    seconds : float or None
-        Until it is still; None: cannot be told.
-    progress : float
-        Share of the averaging that is done, 0 to 1.
-    captured : bool
-        The present pose has its capture, and counts.
-    wanted : bool
-        The present pose was asked for, and is captured as soon as it is averaged.
-    R_WS : (3, 3) or None
-        How the sensor stands.
-    rows : tuple of PoseRow
-        All poses, oldest first, also those that do not count.
-    count, expected : int
-        Poses that count, and about how many it will take.
-    solved : Solved
-    errors : tuple of float
-        The calibration's share of the contact error after each change, worst 1 sigma, m.
-    revision : int
-        Grows with every change of rows and what follows from them.
-    busy : bool
-        Something is being computed.
-    """
+    """How it stands."""
 
     state: StillState
-    sentence: str
-    seconds: float | None
-    progress: float
-    captured: bool
-    wanted: bool
-    R_WS: NDArray[np.float64] | None
-    rows: tuple[PoseRow, ...]
-    count: int
+    sentence: str  # For the technician
+    seconds: float | None  # Until it is still; None: cannot be told
+    progress: float  # Share of the averaging that is done, 0 to 1
+    captured: bool  # The present pose has its capture, and counts
+    wanted: bool  # The present pose was asked for, and is captured as soon as it is averaged
+    R_WS: NDArray[np.float64] | None  # (3, 3); How the sensor stands
+    rows: tuple[PoseRow, ...]  # All poses, oldest first, also those that do not count
+    count: int  # count, expected: Poses that count, and about how many it will take
     expected: int
     solved: Solved
+    # The calibration's share of the contact error after each change, worst 1 sigma, m
     errors: tuple[float, ...]
-    revision: int
-    busy: bool
+    revision: int  # Grows with every change of rows and what follows from them
+    busy: bool  # Something is being computed
 
 
 class GravityWork:
@@ -137,10 +113,9 @@ class GravityWork:
 
     def feed(self, block: Block) -> None:
         """Take samples."""
-        good = np.isfinite(block.wrenches).all(axis=1) & ~block.saturated
-        known = good & np.isfinite(block.R_WS).all(axis=(1, 2))
+        known = block.known
         with self._lock:
-            self._heard, self._blind = True, bool(good.any()) and not known.any()
+            self._heard, self._blind = True, bool(block.whole.any()) and not known.any()
             if not known.any():
                 return
             times, wrenches = block.times[known], block.wrenches[known]
@@ -345,3 +320,95 @@ class GravityWork:
         """Say how the sensor stands."""
         R_WE = self._R_WE
         return "" if R_WE is None else describe(self.settings.sensor_orientations(R_WE), self.settings.down_W)
+
+
+class GravityCheck:
+    """
+    Waits for a still pose that differs from a calibration's own, and compares.
+
+    One pose says little; each further check counts those before it too.
+
+    Parameters
+    ----------
+    calibration : Calibration
+    settings : GravitySettings
+    live_R_ES : (3, 3), optional
+        The mount that is in the orientations of the samples to come; left out: that of the settings.
+    before : sequence of PoseSample
+        Of earlier checks.
+
+    Attributes
+    ----------
+    found : StillVerification or None
+        Once there was such a pose.
+    poses : tuple of PoseSample
+        All that were compared.
+    proposal : (3, 3)
+        R_WS in which the calibration is worth checking.
+    """
+
+    def __init__(
+        self,
+        calibration: Calibration,
+        settings: GravitySettings,
+        *,
+        live_R_ES: NDArray[np.float64] | None = None,
+        before: Sequence[PoseSample] = (),
+    ) -> None:
+        self._calibration, self._settings = calibration, settings
+        self._R_SE_live = (settings.R_ES if live_R_ES is None else live_R_ES).T
+        self._lock = threading.Lock()
+        self._detector = StillnessDetector()
+        self.poses = tuple(before)
+        down = settings.down_W
+        self._seen = np.array([down @ pose.R_WS for pose in (*calibration.poses, *before)])  # down, in S
+        self._word = ""
+        self.found: StillVerification | None = None
+        self.proposal = self._farthest()
+
+    @property
+    def sentence(self) -> str:
+        """What to do, or what is going on."""
+        if self._word:
+            return self._word
+        stands = describe(self.proposal, self._settings.down_W)
+        return f"Turn the tool to a pose that it was not in: {stands}. Then keep still."
+
+    def _farthest(self) -> NDArray[np.float64]:
+        """Return the orientation whose weight pulls least like that of any pose so far."""
+        tilt, down = float(np.radians(self._settings.max_tilt)), self._settings.down_W
+        candidates = by_hand(300, max_tilt=tilt, down_W=down).R_WS
+        nearness = (np.array(down) @ candidates @ self._seen.T).max(axis=1)
+        farthest: NDArray[np.float64] = candidates[int(np.argmin(nearness))]
+        return farthest
+
+    def feed(self, block: Block) -> None:
+        """Take samples, in the streams' thread."""
+        known = block.known
+        if self.found is not None or not known.any():
+            return
+        with self._lock:
+            R_WS = self._settings.sensor_orientations(block.R_WS[known] @ self._R_SE_live)
+            before = len(self._detector.captures)
+            now = self._detector.update_block(block.times[known], block.wrenches[known], R_WS)
+            if now.state is StillState.MOVING:
+                self._word = ""
+            elif self._word is not _NEAR:
+                self._word = now.sentence
+            for capture in self._detector.captures[before:]:
+                pose = capture.to_pose(name=f"check {len(self.poses) + 1}")
+                if (
+                    np.arccos(np.clip((self._seen @ (self._settings.down_W @ pose.R_WS)).max(), -1, 1))
+                    < _NEAREST
+                ):
+                    self._word = _NEAR
+                    continue
+                self.poses = (*self.poses, pose)
+                self.found = verify_still(self._calibration, self.poses)
+                return
+
+    @property
+    def state(self) -> StillState:
+        """What the reading does."""
+        with self._lock:
+            return self._detector.poll(-np.inf).state

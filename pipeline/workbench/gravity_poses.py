@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import Calibration, PoseSample
     from contactbench.pipeline.calibration.stillness import Capture, Rejected
-    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.workbench.gravity_fit import GravitySettings
 
 
 class PoseState(StrEnum):
@@ -28,43 +28,21 @@ class PoseState(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class PoseRow:
-    """
-    A pose for a table.
+    """A pose for a table."""
 
-    Attributes
-    ----------
-    name : str
-        Such as "pose 3".
-    time : float
-        A moment within it, s on the recording's clock; NaN: of an earlier recording.
-    R_WS : (3, 3) or None
-        None: nobody knows any more.
-    words : str
-        How the sensor stood, or what happened.
-    state : PoseState
-    reason : str
-        Why it does not count, or is doubted.
-    sigmas : float
-        The larger of how far force and torque are from what the poses predict, as a normal deviate; NaN: not
-        computed.
-    force_sigmas, torque_sigmas : float
-    earlier : bool
-        It is of an interrupted recording, and cannot be left out by its time.
-    changeable : bool
-        It can be left out and taken back.
-    """
-
-    name: str
-    time: float
-    R_WS: NDArray[np.float64] | None
-    words: str
+    name: str  # Such as "pose 3"
+    time: float  # A moment within it, s on the recording's clock; NaN: of an earlier recording
+    R_WS: NDArray[np.float64] | None  # (3, 3); None: nobody knows any more
+    words: str  # How the sensor stood, or what happened
     state: PoseState
-    reason: str = ""
+    reason: str = ""  # Why it does not count, or is doubted
+    # The larger of how far force and torque are from what the poses predict, as a normal deviate; NaN: not
+    # computed
     sigmas: float = float("nan")
     force_sigmas: float = float("nan")
     torque_sigmas: float = float("nan")
-    earlier: bool = False
-    changeable: bool = True
+    earlier: bool = False  # It is of an interrupted recording, and cannot be left out by its time
+    changeable: bool = True  # It can be left out and taken back
 
 
 def short_description(R_WS: NDArray[np.float64]) -> str:
@@ -95,11 +73,17 @@ def calibrated_rows(
     earlier : int
         How many of its poses are of an earlier recording.
     """
-    reasons = {each.index: each.reason for each in calibration.rejected}
     rows = [
-        _row(pose, calibration.deviates[index], reasons.get(index, ""), f"pose {index + 1}", index < earlier)
+        _row(
+            f"pose {index + 1}",
+            float("nan") if index < earlier or pose.time is None else pose.time,
+            pose.R_WS,
+            calibration,
+            index,
+        )
         for index, pose in enumerate(calibration.poses)
     ]
+    rows[:earlier] = map(_of_earlier, rows[:earlier])
     rows += [
         PoseRow(
             f"out {number}",
@@ -118,8 +102,13 @@ def earlier_rows(
     poses: Sequence[PoseSample], settings: GravitySettings, fitted: Calibration | None
 ) -> tuple[PoseRow, ...]:
     """Return the poses (R_WS of the flange) of an interrupted run, which cannot be left out one by one."""
-    rows = [_live_row(pose.name, float("nan"), pose.R_WS, settings, fitted) for pose in poses]
-    return tuple(replace(row, earlier=True, changeable=False) for row in rows)
+    return tuple(
+        _of_earlier(_live_row(pose.name, float("nan"), pose.R_WS, settings, fitted)) for pose in poses
+    )
+
+
+def _of_earlier(row: PoseRow) -> PoseRow:
+    return replace(row, earlier=True, changeable=False)
 
 
 def live_rows(
@@ -171,9 +160,15 @@ def _live_row(
     settings: GravitySettings,
     fitted: Calibration | None,
 ) -> PoseRow:
-    R_WS = settings.sensor_orientations(R_WE)
-    row = PoseRow(name, moment, R_WS, short_description(R_WS), PoseState.TAKEN)
     index = next((i for i, pose in enumerate(fitted.poses) if pose.name == name), None) if fitted else None
+    return _row(name, moment, settings.sensor_orientations(R_WE), fitted, index)
+
+
+def _row(
+    name: str, moment: float, R_WS: NDArray[np.float64], fitted: Calibration | None, index: int | None
+) -> PoseRow:
+    """Return a row, with what a calibration says of its pose there."""
+    row = PoseRow(name, moment, R_WS, short_description(R_WS), PoseState.TAKEN)
     if fitted is None or index is None:
         return row
     force, torque = map(float, fitted.deviates[index])
@@ -186,13 +181,3 @@ def _live_row(
         force_sigmas=force,
         torque_sigmas=torque,
     )
-
-
-def _row(pose: PoseSample, far: NDArray[np.float64], reason: str, name: str, earlier: bool) -> PoseRow:
-    force, torque = map(float, far)
-    moment = float("nan") if earlier or pose.time is None else pose.time
-    state = PoseState.REJECTED if reason else PoseState.TAKEN
-    return PoseRow(
-        name, moment, pose.R_WS, short_description(pose.R_WS), state, reason, max(force, torque), force, torque,
-        earlier, not earlier,
-    )  # fmt: skip

@@ -9,15 +9,16 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.calibration.files.pose_csv import read_poses
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.files import wrong_with
-from contactbench.pipeline.session.live import RECORDING
+from contactbench.pipeline.session.live import RECORDING, next_recording
 from contactbench.pipeline.session.recompute import compute
-from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
-from contactbench.pipeline.workbench.gravity_settings import (
+from contactbench.pipeline.workbench.gravity_fit import (
     CALIBRATION_FILE,
     POSES_FILE,
+    Finding,
+    findings,
     gravity_settings,
 )
-from contactbench.pipeline.workbench.gravity_solving import Finding, findings
+from contactbench.pipeline.workbench.gravity_poses import PoseRow, calibrated_rows
 from contactbench.pipeline.workbench.undoing import put_result
 
 if TYPE_CHECKING:
@@ -35,26 +36,13 @@ _DIFFERS = 0.1  # of the contact error: less is what a few samples more or less 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """
-    A calibration that is in the session.
-
-    Attributes
-    ----------
-    calibration : Calibration
-    rows : tuple of PoseRow
-    recording : str
-        Name of the recording that it was made from; empty: from poses that were brought in.
-    leave_out : tuple of float
-        Moments of the poses that were left out, s.
-    findings : tuple of Finding
-        What is wrong, and what would mend it.
-    """
+    """A calibration that is in the session."""
 
     calibration: Calibration
     rows: tuple[PoseRow, ...]
-    recording: str
-    leave_out: tuple[float, ...]
-    findings: tuple[Finding, ...] = ()
+    recording: str  # Name of the recording that it was made from; empty: from poses that were brought in
+    leave_out: tuple[float, ...]  # Moments of the poses that were left out, s
+    findings: tuple[Finding, ...] = ()  # What is wrong, and what would mend it
 
     @property
     def changeable(self) -> bool:
@@ -64,14 +52,7 @@ class Outcome:
 
 def next_name(state: State, folder: Path, *, check: bool = False) -> str:
     """Return the name of the next recording of this step that neither the session nor its folder has."""
-    stem = _CHECK if check else _STEM
-    known = {each.name for each in state.inputs} | {
-        file.name.partition("unfinished-")[2] for file in (folder / "raw").glob("unfinished-*")
-    }
-    number = 1
-    while f"{stem}{number}.mcap" in known:
-        number += 1
-    return f"{stem}{number}.mcap"
+    return next_recording(state, folder, (_CHECK if check else _STEM).removesuffix("-"))
 
 
 def interrupted(state: State) -> Input | None:
@@ -212,7 +193,7 @@ def outcome_of(folder: Path, state: State) -> Outcome | None:
         Its file cannot be read.
     """
     result = state.current_results.get(("calibration", CALIBRATION_FILE))
-    if result is None or (result.mark is not None and result.mark.mark == "rejected"):
+    if result is None or result.rejected:
         return None
     fitted = load_calibration(folder / result.file.path)
     poses = state.result_with(result.action.inputs.get("poses", ""))

@@ -10,11 +10,11 @@ import numpy as np
 
 from contactbench.pipeline.calibration.stillness import StillnessDetector, StillState
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.session.live import next_recording
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, Outcome, read_check
-from contactbench.pipeline.workbench.export_checklist import newest
 from contactbench.pipeline.workbench.tape import Tape
-from contactbench.pipeline.workbench.verify_settings import REPORT
+from contactbench.pipeline.workbench.verify import REPORT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -33,23 +33,12 @@ _PATIENCE_S = 30.0
 
 @dataclass(frozen=True)
 class KnownOutcome:
-    """
-    A check that the session has.
-
-    Attributes
-    ----------
-    outcome : Outcome
-    sentence : str
-    stale : str
-        Why it no longer holds; empty: it does.
-    parameters : mapping
-        That it was computed with.
-    """
+    """A check that the session has."""
 
     outcome: Outcome
     sentence: str
-    stale: str = ""
-    parameters: Mapping[str, Any] = field(default_factory=dict)
+    stale: str = ""  # Why it no longer holds; empty: it does
+    parameters: Mapping[str, Any] = field(default_factory=dict)  # That it was computed with
 
 
 def known_outcome(
@@ -64,7 +53,7 @@ def known_outcome(
         Its file cannot be read.
     """
     found = state.current_results.get((kind, FILES[kind]))
-    if found is None or (found.mark is not None and found.mark.mark == "rejected"):
+    if found is None or found.rejected:
         return None
     content = read_check(kind, folder / found.file.path)
     reasons = stale.get(found.slot, ())
@@ -92,8 +81,7 @@ class StillReading:
 
     def feed(self, block: Block) -> None:
         """Take samples."""
-        known = np.isfinite(block.wrenches).all(axis=1) & np.isfinite(block.R_WS).all(axis=(1, 2))
-        known &= ~block.saturated
+        known = block.known
         if not known.any():
             return
         with self._lock:
@@ -181,10 +169,8 @@ class KnownChecks:
                 raise InputError(
                     "Nothing tells the sensor's orientation: choose a source of poses in step 1, Devices."
                 )
-            serial = self._desk.state.settings.get("devices.serial")
-            known = serial.value if serial is not None and isinstance(serial.value, str) else None
-            name = _next_name(self._desk.state, self._desk.folder, reading.stem)
-            self._tape = Tape.start(self._desk, self._live, name, known or None).result(_PATIENCE_S)
+            name = next_recording(self._desk.state, self._desk.folder, reading.stem)
+            self._tape = Tape.start(self._desk, self._live, name).result(_PATIENCE_S)
             self._end, self.reading = self._live.follow(reading.feed), reading
 
     def keep(self) -> str:
@@ -253,16 +239,5 @@ def check_recordings(
     """
     compute(session, kind, FILES[kind], newest_inputs(session.state, kind, recordings), given)
     made = session.state.current_results.get(("report", REPORT))
-    if made is not None and made.mark is None and newest(session.state, "verification") is not None:
+    if made is not None and made.mark is None and session.state.newest("verification") is not None:
         compute(session, "report", REPORT, newest_inputs(session.state, "report"), {})
-
-
-def _next_name(state: State, folder: Path, stem: str) -> str:
-    """Return the name of the next recording of this kind that neither the session nor its folder has."""
-    known = {each.name for each in state.inputs} | {
-        file.name.partition("unfinished-")[2] for file in (folder / "raw").glob("unfinished-*")
-    }
-    number = 1
-    while f"{stem}-{number}.mcap" in known:
-        number += 1
-    return f"{stem}-{number}.mcap"

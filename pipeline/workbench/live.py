@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,10 +12,9 @@ import numpy as np
 from contactbench.pipeline.devices.pose_track import LONGEST_AHEAD_S, PoseTrack
 from contactbench.pipeline.devices.sample import FROZEN_CHANCE, Status
 from contactbench.pipeline.devices.url import DeviceAddress
-from contactbench.pipeline.kernel import FrozenDetector
+from contactbench.pipeline.filtering import KalmanFilter
+from contactbench.pipeline.kernel import FrozenDetector, Reason
 from contactbench.pipeline.streams import open_pair
-from contactbench.pipeline.workbench.live_moment import Moment, Reading
-from contactbench.pipeline.workbench.live_ring import Ring
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -25,56 +25,236 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact import ContactSolver
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
     from contactbench.pipeline.devices.stream import Health
+    from contactbench.pipeline.kernel import Contact
     from contactbench.pipeline.streams import Pair
-
-__all__ = ["Block", "Live", "Reading", "Tap"]
 
 _KEPT = 120_000  # samples: 120 s at 1 kHz, 10 minutes at 200 Hz; 20 MB
 _USUAL_HZ = 200.0
+_FIRST = 1024  # rows looked at first
+_SLICE = 4096  # rows compensated at a time under the lock: a millisecond, for a stream waits for it
+_CONTACTS = 4096  # at 30 a second, two minutes of them
+_GAP_S = 1.0  # after a longer silence the filter begins anew: what was before says nothing
+_NO_TOUCH = (Reason.LOW_FORCE, Reason.STALE, Reason.NOT_FINITE)
+_FORGET_S = 0.25  # a contact that was not looked at for longer is not followed
+
+
+class Ring:
+    """
+    The newest samples; any thread may add and read.
+
+    Parameters
+    ----------
+    capacity : int
+        Samples that are kept.
+    """
+
+    def __init__(self, capacity: int) -> None:
+        self._times = np.full(capacity, np.nan)
+        self._raw = np.full((capacity, 6), np.nan)
+        self._compensated = np.full((capacity, 6), np.nan)
+        self._R_WS = np.full((capacity, 3, 3), np.nan)
+        self._capacity, self._count = capacity, 0
+        self._lock = threading.Lock()
+
+    @property
+    def count(self) -> int:
+        """Samples that were ever added."""
+        return self._count
+
+    def clear(self) -> None:
+        """Forget all."""
+        with self._lock:
+            self._count = 0
+
+    def add(
+        self,
+        times: NDArray[np.float64],
+        raw: NDArray[np.float64],
+        compensated: NDArray[np.float64],
+        R_WS: NDArray[np.float64],
+    ) -> None:
+        """Take samples: times (n,), wrenches raw and compensated (n, 6), orientations (n, 3, 3)."""
+        kept = min(len(times), self._capacity)
+        with self._lock:
+            first = self._count + len(times) - kept
+            for store, new in (
+                (self._times, times),
+                (self._raw, raw),
+                (self._compensated, compensated),
+                (self._R_WS, R_WS),
+            ):
+                _put(store, first % self._capacity, new[len(times) - kept :])
+            self._count += len(times)
+
+    def last(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Return times (n,), raw (n, 6) and compensated (n, 6) of the last seconds, oldest first; copies."""
+        with self._lock:
+            rows = self._rows(seconds)
+            times = self._times[rows]
+            if len(times):
+                # A clock that jumped back, such as a replay begun again, is no reason to show nothing.
+                back = np.flatnonzero(np.diff(times) < 0)
+                start = int(back[-1]) + 1 if len(back) else 0
+                start += int(np.searchsorted(times[start:], times[-1] - seconds))
+                rows, times = rows[start:], times[start:]
+            return times, self._raw[rows], self._compensated[rows]
+
+    def compensate(self, model: GravityModel | None) -> None:
+        """Compute the compensated wrenches anew with another model; None: there are none."""
+        for begin in range(0, min(self._count + _SLICE, self._capacity), _SLICE):
+            part = slice(begin, begin + _SLICE)
+            with self._lock:
+                if model is None:
+                    self._compensated[part] = np.nan
+                else:
+                    self._compensated[part] = model.compensate(self._R_WS[part], self._raw[part])
+
+    def _rows(self, seconds: float) -> NDArray[np.intp]:
+        """Return rows that hold the last seconds, oldest first, and perhaps older ones."""
+        kept, some = min(self._count, self._capacity), _FIRST
+        while True:  # not all at once: 30 times a second that would be 100 MB of copies
+            some = min(some, kept)
+            rows = np.arange(self._count - some, self._count, dtype=np.intp) % self._capacity
+            if some == kept or self._times[rows[0]] < self._times[rows[-1]] - seconds:
+                return rows
+            some *= 4
+
+
+def _put(store: NDArray[np.float64], place: int, new: NDArray[np.float64]) -> None:
+    until_end = min(len(new), len(store) - place)
+    store[place : place + until_end] = new[:until_end]
+    store[: len(new) - until_end] = new[until_end:]
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """The newest moment."""
+
+    time: float  # s
+    raw: NDArray[np.float64]  # raw, compensated: (6,); N and N·m; filtered; NaN without a calibration
+    compensated: NDArray[np.float64]
+    R_WS: NDArray[np.float64]  # (3, 3); NaN where no pose is known
+    contact: Contact | None  # None: nothing touches, or there is no probe or no calibration
+    # What the contact lies on, one of `contactbench.pipeline.contact.facet_marks.MARKS`; None: there is none
+    on: str | None = None
+
+
+class Moment:
+    """
+    What the filter says now; the contact is looked for when it is asked for, once for each sample.
+
+    Parameters
+    ----------
+    rate : float
+        Samples a second that the filter is made for, Hz.
+    """
+
+    def __init__(self, rate: float) -> None:
+        self._filter = KalmanFilter(rate)
+        self._time = -np.inf
+        self._raw: NDArray[np.float64] | None = None
+        self._R_WS = np.full((3, 3), np.nan)
+        self._told: tuple[tuple[object, ...], Reading] | None = None
+        self._looked = -np.inf
+        self._contacts: deque[tuple[float, NDArray[np.float64]]] = deque(maxlen=_CONTACTS)
+        self._lock = threading.Lock()
+        self._asking = threading.Lock()
+
+    def add(self, times: NDArray[np.float64], raw: NDArray[np.float64], R_WS: NDArray[np.float64]) -> None:
+        """Take samples: times (n,), raw wrenches (n, 6), orientations (n, 3, 3)."""
+        steps = np.diff(times, prepend=self._time)
+        if not 0 < steps[0] <= _GAP_S:
+            self._filter.reset()
+            steps[0] = 1 / self._filter.rate
+        # Times that repeat, as of a batch that came at once, are no reason to stop.
+        state = self._filter.update_block(raw, np.maximum(steps, 1e-6))[-1]
+        with self._lock:
+            self._time, self._raw, self._R_WS = float(times[-1]), state, R_WS[-1]
+
+    def reading(self, model: GravityModel | None, solver: ContactSolver | None) -> Reading | None:
+        """Return the newest moment; None before the first sample."""
+        with self._asking:
+            with self._lock:
+                time, raw, R_WS = self._time, self._raw, self._R_WS
+            if raw is None:
+                return None
+            key = (time, model, solver)
+            if self._told is None or self._told[0] != key:
+                self._told = key, self._look(time, raw, R_WS, model, solver)
+            return self._told[1]
+
+    def contacts(self, seconds: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return times (n,) and points (n, 3), S, m, of the last seconds of what was asked for; NaN: no contact."""
+        with self._asking:
+            kept = [each for each in self._contacts if each[0] >= self._time - seconds]
+        times = np.array([time for time, _ in kept])
+        return times, np.array([point for _, point in kept]).reshape(-1, 3)
+
+    def _look(
+        self,
+        time: float,
+        raw: NDArray[np.float64],
+        R_WS: NDArray[np.float64],
+        model: GravityModel | None,
+        solver: ContactSolver | None,
+    ) -> Reading:
+        compensated = np.full(6, np.nan) if model is None else model.compensate(R_WS, raw)
+        contact, on = None, None
+        if solver is not None and np.isfinite(compensated).all():
+            contact = self._follow(time, compensated, solver)
+            on = None if contact is None else solver.on(contact)
+        point = None if contact is None else contact.point
+        if (
+            self._contacts and self._contacts[-1][0] == time
+        ):  # looked for anew, with another calibration or probe
+            self._contacts.pop()
+        self._contacts.append((time, np.full(3, np.nan) if point is None else point))
+        return Reading(time, raw, compensated, R_WS, contact, on)
+
+    def _follow(self, time: float, compensated: NDArray[np.float64], solver: ContactSolver) -> Contact | None:
+        """Return the contact, followed as long as the press lasts: so a second touch that joins it is told apart."""
+        if not 0 <= time - self._looked <= _FORGET_S:
+            solver.reset()
+        self._looked = time
+        found = solver.track(compensated)
+        if found.reason in _NO_TOUCH:
+            solver.reset()  # the next press may be anywhere
+            return None
+        return found
 
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """
-    Samples that came together, each with the orientation that the sensor had; n of them.
+    """Samples that came together, each with the orientation that the sensor had; n of them."""
 
-    Attributes
-    ----------
-    times : (n,)
-        s, on the samples' clock.
-    wrenches : (n, 6)
-        Raw, S, N and N·m.
-    R_WS : (n, 3, 3)
-        NaN where no pose is known, or the reading is not to be used: the sensor hangs or flags it, or its time is a
-        guess.
-    saturated : (n,) bool
-    """
-
-    times: NDArray[np.float64]
-    wrenches: NDArray[np.float64]
+    times: NDArray[np.float64]  # (n,); s, on the samples' clock
+    wrenches: NDArray[np.float64]  # (n, 6); Raw, S, N and N·m
+    # (n, 3, 3); NaN where no pose is known, or the reading is not to be used: the sensor hangs or flags it,
+    # or its time is a guess
     R_WS: NDArray[np.float64]
-    saturated: NDArray[np.bool_]
+    saturated: NDArray[np.bool_]  # (n,) bool
+
+    @property
+    def whole(self) -> NDArray[np.bool_]:
+        """(n,): the wrench is a reading, not saturated."""
+        good: NDArray[np.bool_] = np.isfinite(self.wrenches).all(axis=1) & ~self.saturated
+        return good
+
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """(n,): it is whole, and the orientation is known."""
+        good: NDArray[np.bool_] = self.whole & np.isfinite(self.R_WS).all(axis=(1, 2))
+        return good
 
 
 @dataclass(frozen=True)
 class Tap:
-    """
-    Who gets all that the devices give, as they give it, in the streams' threads.
+    """Who gets all that the devices give, as they give it, in the streams' threads."""
 
-    Attributes
-    ----------
-    wrenches, flanges : callable
-        Get samples, oldest first.
-    health : callable
-        Gets "sensor" or "robot", and the health that changed.
-    closed : callable
-        Called when the devices are closed: nothing more comes.
-    """
-
-    wrenches: Callable[[Sequence[WrenchSample]], None]
+    wrenches: Callable[[Sequence[WrenchSample]], None]  # wrenches, flanges: Get samples, oldest first
     flanges: Callable[[Sequence[FlangeSample]], None]
-    health: Callable[[str, Health], None]
-    closed: Callable[[], None] = lambda: None
+    health: Callable[[str, Health], None]  # Gets "sensor" or "robot", and the health that changed
+    closed: Callable[[], None] = lambda: None  # Called when the devices are closed: nothing more comes
 
 
 class Live:

@@ -29,25 +29,13 @@ _BOTH = frozenset({Protocol.REPLAY, Protocol.VIRTUAL})
 
 @dataclass(frozen=True)
 class Devices:
-    """
-    The devices of a session, as its settings say.
+    """The devices of a session, as its settings say."""
 
-    Attributes
-    ----------
-    sensor : str
-        Address; empty: none is chosen.
-    poses : str or None
-        Address; None: nothing tells the orientation.
-    mount : (float, float, float)
-        Angles of R_ES about the fixed axes x, y, z, degrees.
-    serial : str
-        Serial number of the sensor; empty: nobody said.
-    """
-
-    sensor: str = ""
-    poses: str | None = None
+    sensor: str = ""  # Address; empty: none is chosen
+    poses: str | None = None  # Address; None: nothing tells the orientation
+    # (float, float, float); Angles of R_ES about the fixed axes x, y, z, degrees
     mount: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    serial: str = ""
+    serial: str = ""  # Serial number of the sensor; empty: nobody said
 
     @classmethod
     def of(cls, state: State) -> Devices:

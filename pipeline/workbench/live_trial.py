@@ -23,46 +23,22 @@ _CLOSE = 0.8  # of the range
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """
-    What is measured of open devices.
+    """What is measured of open devices."""
 
-    Attributes
-    ----------
-    state : State
-        Of the sensor.
-    rate : float or None
-        Of the sensor, Hz.
-    pose_rate : float or None
-        Hz; None: there are no poses, or not yet.
-    samples : int
-        Since they were opened.
-    lost : int
-        Samples that the sensor counted and that never came.
-    gaps : int
-        Silences in the last five seconds.
-    longest_gap : float
-        s; 0 without one.
-    noise : (6,)
-        Noise floor: standard deviation of one reading, N and N·m, of what is quicker than a hand; NaN: not yet known.
-    largest : (6,)
-        Largest reading of either sign, N and N·m.
-    range_used : (6,) or None
-        Share of the sensor's range that `largest` is; None: the range is not known.
-    sentences : tuple of str
-        What is wrong, and what to do; empty when nothing is.
-    """
-
-    state: State
-    rate: float | None
-    pose_rate: float | None
-    samples: int
-    lost: int
-    gaps: int
-    longest_gap: float
+    state: State  # Of the sensor
+    rate: float | None  # Of the sensor, Hz
+    pose_rate: float | None  # Hz; None: there are no poses, or not yet
+    samples: int  # Since they were opened
+    lost: int  # Samples that the sensor counted and that never came
+    gaps: int  # Silences in the last five seconds
+    longest_gap: float  # s; 0 without one
+    # (6,); Noise floor: standard deviation of one reading, N and N·m, of what is quicker than a hand; NaN:
+    # not yet known
     noise: NDArray[np.float64]
-    largest: NDArray[np.float64]
+    largest: NDArray[np.float64]  # (6,); Largest reading of either sign, N and N·m
+    # (6,); Share of the sensor's range that `largest` is; None: the range is not known
     range_used: NDArray[np.float64] | None
-    sentences: tuple[str, ...]
+    sentences: tuple[str, ...]  # What is wrong, and what to do; empty when nothing is
 
     @property
     def well(self) -> bool:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +21,7 @@ from contactbench.pipeline.verification.spread import grid_markers, spread_marke
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
     from numpy.typing import ArrayLike
 
@@ -36,16 +35,9 @@ _EMPTY = (",".join(COLUMNS) + "\n").encode()
 
 @dataclass(frozen=True, eq=False)
 class Markers:
-    """
-    Markers of a session, perhaps none.
+    """Markers of a session, perhaps none."""
 
-    Attributes
-    ----------
-    all : tuple of Marker
-        Points in S, m.
-    """
-
-    all: tuple[Marker, ...] = ()
+    all: tuple[Marker, ...] = ()  # Points in S, m
 
     def __len__(self) -> int:
         return len(self.all)
@@ -146,10 +138,10 @@ def _rounded(markers: MarkerSet) -> Markers:
 
 def kept(folder: Path, state: State) -> Markers:
     """Return the markers that a session keeps; reads a file. MarkerError: it cannot be read."""
-    found = [each for each in state.current_inputs.values() if each.kind == KIND]
-    if not found:
+    found = state.newest(KIND)
+    if found is None:
         return Markers()
-    file = folder / max(found, key=lambda each: each.number).file.path
+    file = folder / found.file.path
     try:
         data = file.read_bytes()
     except OSError as error:
@@ -159,7 +151,4 @@ def kept(folder: Path, state: State) -> Markers:
 
 def keep(session: Session, markers: Markers) -> None:
     """Keep markers in a session, in place of those before."""
-    with tempfile.TemporaryDirectory() as scratch:
-        file = Path(scratch) / NAME
-        file.write_bytes(markers.to_bytes())
-        session.add_input(file, KIND, name=NAME)
+    session.add_input(markers.to_bytes(), KIND, name=NAME)

@@ -110,22 +110,11 @@ class Change:
 
 @dataclass(frozen=True, eq=False)
 class Course:
-    """
-    What was until now.
+    """What was until now."""
 
-    Attributes
-    ----------
-    times : (n,)
-        s.
-    forces : (n,)
-        N.
-    angles : (n, 2)
-        In plane, out of plane, degrees.
-    """
-
-    times: NDArray[np.float64]
-    forces: NDArray[np.float64]
-    angles: NDArray[np.float64]
+    times: NDArray[np.float64]  # (n,); s
+    forces: NDArray[np.float64]  # (n,); N
+    angles: NDArray[np.float64]  # (n, 2); In plane, out of plane, degrees
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,18 +123,11 @@ class Placed:
     Where things are, for a picture.
 
     W is as the base, its origin where the sensor is while the probe stands upright on the phantom at rest.
-
-    Attributes
-    ----------
-    R_WS : (3, 3)
-    p_WS_W : (3,)
-        m.
-    phantom_S, normal_S : (3,)
-        The middle of the phantom's top, m, and what points out of it.
     """
 
-    R_WS: NDArray[np.float64]
-    p_WS_W: NDArray[np.float64]
+    R_WS: NDArray[np.float64]  # (3, 3)
+    p_WS_W: NDArray[np.float64]  # (3,); m
+    # phantom_S, normal_S: (3,); The middle of the phantom's top, m, and what points out of it
     phantom_S: NDArray[np.float64]
     normal_S: NDArray[np.float64]
 

@@ -6,6 +6,7 @@ import hashlib
 import shutil
 import tempfile
 from dataclasses import dataclass, fields
+from datetime import UTC, datetime
 from functools import partial
 from itertools import count
 from pathlib import Path
@@ -17,16 +18,22 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.inspect import inspect
-from contactbench.pipeline.preparation.alignment import from_angles, from_json
 from contactbench.pipeline.preparation.ladder import ExpectedTouches, measure_ladder
 from contactbench.pipeline.preparation.painted import put_on
 from contactbench.pipeline.preparation.prepare import place
 from contactbench.pipeline.preparation.steps import import_mesh
 from contactbench.pipeline.session.companions import companions_of
-from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of, prepared
+from contactbench.pipeline.session.files import chunks_of
+from contactbench.pipeline.session.make_probe import (
+    ProbeParameters,
+    alignment_of,
+    dense_of,
+    prepared,
+    probe_files,
+)
 from contactbench.pipeline.session.making import PREFIX, read_parameters
 from contactbench.pipeline.session.recompute import lay_out
-from contactbench.pipeline.workbench.probe_shell import PROBE_FILE, REGIONS, recipe_of
+from contactbench.pipeline.workbench.probe_shell import PROBE, PROBE_FILE, REGIONS, recipe_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -42,35 +49,24 @@ if TYPE_CHECKING:
 
     Progress = Callable[[float], None] | None
     Cancel = Callable[[], bool] | None
+    from contactbench.pipeline.session import Session
+    from contactbench.pipeline.session.actions import Record
 
 _PORTION = 2**20
 # Of the time that taking a mesh needs: copying it, and looking at it.
 _COPIED = 0.1
+ALIGNMENT, ALIGNMENT_FILE = "alignment", "alignment.json"
 
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """
-    A mesh file that was taken: a copy of it, so that nobody changes it under the work.
+    """A mesh file that was taken: a copy of it, so that nobody changes it under the work."""
 
-    Attributes
-    ----------
-    file : Path
-        The copy, under its own name, with what belongs to it beside it.
-    companions : mapping
-        Name -> file beside it.
-    inspection : Inspection
-    original : ProbeFile
-        As the file has it, m.
-    sha256 : str
-        Of the file.
-    """
-
-    file: Path
-    companions: Mapping[str, Path]
+    file: Path  # The copy, under its own name, with what belongs to it beside it
+    companions: Mapping[str, Path]  # Name -> file beside it
     inspection: Inspection
-    original: ProbeFile
-    sha256: str
+    original: ProbeFile  # As the file has it, m
+    sha256: str  # Of the file
 
     @property
     def unit_asked(self) -> bool:
@@ -81,38 +77,20 @@ class Mesh:
 
 @dataclass(frozen=True)
 class Plan:
-    """
-    What is chosen: as the options of ``contactbench probe prepare``, lengths in mm.
-
-    Attributes
-    ----------
-    units : str
-    close : tuple of str
-        How openings are closed, the largest first; empty: as it seems best.
-    alpha, gap : float or None
-        Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe.
-    alignment : Alignment or None
-        None: the mesh stays in its own frame.
-    facets, max_deviation, max_contact_error
-        The target: one of them, or none.
-    engine : str
-    region_ratio : float
-        Facets per area in the regions over that outside.
-    painted : bool
-        Whether the session's regions go on it.
-    """
+    """What is chosen: as the options of ``contactbench probe prepare``, lengths in mm."""
 
     units: str = "auto"
-    close: tuple[str, ...] = ()
+    close: tuple[str, ...] = ()  # How openings are closed, the largest first; empty: as it seems best
+    # alpha, gap: Size of the outer surface's facets, and what counts as a gap; None: by the size of the probe
     alpha: float | None = None
     gap: float | None = None
-    alignment: Alignment | None = None
-    facets: int | None = None
+    alignment: Alignment | None = None  # None: the mesh stays in its own frame
+    facets: int | None = None  # facets, max_deviation, max_contact_error: The target: one of them, or none
     max_deviation: float | None = None
     max_contact_error: float | None = None
     engine: str = "auto"
-    region_ratio: float = 1.0
-    painted: bool = True
+    region_ratio: float = 1.0  # Facets per area in the regions over that outside
+    painted: bool = True  # Whether the session's regions go on it
 
     @property
     def parameters(self) -> dict[str, Any]:
@@ -133,29 +111,14 @@ class Plan:
 
 @dataclass(frozen=True, eq=False)
 class Preview:
-    """
-    What a plan gives.
-
-    Attributes
-    ----------
-    plan : Plan
-    mesh : Mesh
-    placed : ProbeFile
-        The outer surface with all its facets, where it will be.
-    done : Preparation
-        The probe, and what was done.
-    regions : str
-        Content of the session's regions that are on it; empty: none.
-    deviation : (n,) float64
-        Distance of each vertex of `placed` from the probe, m.
-    """
+    """What a plan gives."""
 
     plan: Plan
     mesh: Mesh
-    placed: ProbeFile
-    done: Preparation
-    regions: str
-    deviation: NDArray[np.float64]
+    placed: ProbeFile  # The outer surface with all its facets, where it will be
+    done: Preparation  # The probe, and what was done
+    regions: str  # Content of the session's regions that are on it; empty: none
+    deviation: NDArray[np.float64]  # (n,) float64; Distance of each vertex of `placed` from the probe, m
 
 
 class ProbeWork:
@@ -224,18 +187,14 @@ class ProbeWork:
         files = lay_out(self.desk.folder, state, wanted, self._place())
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
         known = {each.name for each in fields(Plan)} & set(ProbeParameters.model_fields)
-        alignment = None
-        if "alignment" in files:
-            alignment = from_json(files["alignment"].read_bytes(), "alignment")
-        elif given.mount is not None:
-            alignment = from_angles(list(given.mount[:3]), list(given.mount[3:]))
+        alignment = alignment_of(given, files.get("alignment"))
         plan = Plan(alignment=alignment, **{name: getattr(given, name) for name in known})
         return self.take(files["mesh"], plan.units, progress, cancelled), plan
 
     @property
     def has_regions(self) -> bool:
         """Whether somebody painted regions in this session."""
-        return any(each.kind == REGIONS for each in self.desk.state.inputs)
+        return self.desk.state.newest(REGIONS) is not None
 
     # ---- what comes of it ------------------------------------------------------------------------
 
@@ -280,11 +239,11 @@ class ProbeWork:
     def _regions(self, plan: Plan) -> tuple[dict[str, Path], str]:
         """Return the session's regions as a file, and their content; neither where there are none."""
         state = self.desk.state
-        given = [each for each in state.current_inputs.values() if each.kind == REGIONS]
-        if not given or not plan.painted:
+        kept = state.newest(REGIONS)
+        if kept is None or not plan.painted:
             return {}, ""
-        content = max(given, key=lambda each: each.number).content
-        return lay_out(self.desk.folder, state, {REGIONS: content}, self._place()), content
+        files = lay_out(self.desk.folder, state, {REGIONS: kept.content}, self._place())
+        return files, kept.content
 
 
 def _inspected(file: Path, units: str, progress: Progress, cancelled: Cancel) -> Inspection:
@@ -318,3 +277,45 @@ def _part(progress: Progress, low: float, high: float) -> Progress:
     if progress is None:
         return None
     return lambda share: progress(low + share * (high - low))
+
+
+def commit(session: Session, preview: Preview) -> Record:
+    """
+    Put a prepared probe, and what it was made from, into a session; for `Desk.do`.
+
+    As ``contactbench session add SESSION MESH --kind mesh``, the same of the alignment, and ``contactbench session
+    compute SESSION probe probe.ply --set ...`` do, with the same bytes.
+    """
+    files = probe_files(preview.done.content, PROBE_FILE)
+    session.check_writable()
+    inputs = {"mesh": _mesh(session, preview.mesh)}
+    if preview.plan.alignment is not None:
+        inputs[ALIGNMENT] = _alignment(session, preview.plan.alignment.to_json())
+    if preview.regions:
+        inputs["regions"] = preview.regions
+    now = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return session.add_result(PROBE, PROBE_FILE, files, inputs, preview.plan.parameters, created=now)
+
+
+def _mesh(session: Session, mesh: Mesh) -> str:
+    """Make a mesh the one in use, unless it is; return its content."""
+    known = session.state.mesh
+    same = (
+        known is not None
+        and known.name == mesh.file.name
+        and known.file.sha256 == mesh.sha256
+        and set(known.companions) == set(mesh.companions)
+    )
+    if not same:
+        beside = {name: chunks_of(path) for name, path in mesh.companions.items()}
+        session.change_mesh(mesh.file.name, chunks_of(mesh.file), beside)
+    used = session.state.mesh
+    assert used is not None  # noqa: S101  (it was just added)
+    return used.content
+
+
+def _alignment(session: Session, text: str) -> str:
+    known = session.state.current_inputs.get((ALIGNMENT, ALIGNMENT_FILE))
+    if known is None or (session.folder / known.file.path).read_bytes() != text.encode():
+        session.add_input(text.encode(), ALIGNMENT, name=ALIGNMENT_FILE)
+    return session.state.current_inputs[ALIGNMENT, ALIGNMENT_FILE].content

@@ -37,19 +37,10 @@ _LARGEST_FILE = 2**20
 
 @dataclass(frozen=True, eq=False)
 class PointPair:
-    """
-    A place picked on the mesh, and where it lies.
+    """A place picked on the mesh, and where it lies."""
 
-    Attributes
-    ----------
-    point_P : (3,) float64
-        In the mesh's frame, m.
-    point_S : (3,) float64
-        In the sensor frame, m.
-    """
-
-    point_P: NDArray[np.float64]
-    point_S: NDArray[np.float64]
+    point_P: NDArray[np.float64]  # (3,) float64; In the mesh's frame, m
+    point_S: NDArray[np.float64]  # (3,) float64; In the sensor frame, m
 
 
 def back_to_mesh(points_S: ArrayLike, alignment: Alignment | None) -> NDArray[np.float64]:

@@ -11,47 +11,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class TradePoint:
-    """
-    One number of facets.
-
-    Attributes
-    ----------
-    facets : int
-    error_mm : float
-        What 95 % of the contacts move less than, against all facets, mm.
-    solve_us : float
-        Median time of a solve, µs.
-    loop_us : float
-        The same of the paper's loop over all facets, µs.
-    advised : bool
-        The fewest facets that will do: the knee.
-    """
+    """One number of facets."""
 
     facets: int
-    error_mm: float
-    solve_us: float
-    loop_us: float
-    advised: bool = False
+    error_mm: float  # What 95 % of the contacts move less than, against all facets, mm
+    solve_us: float  # Median time of a solve, µs
+    loop_us: float  # The same of the paper's loop over all facets, µs
+    advised: bool = False  # The fewest facets that will do: the knee
 
 
 @dataclass(frozen=True)
 class Trade:
-    """
-    A chart of speed against error.
+    """A chart of speed against error."""
 
-    Attributes
-    ----------
-    points : tuple of TradePoint
-        By facets, ascending; the last has all of them.
-    allowed_mm : float
-        Largest error that will do, mm.
-    reason : str
-        What to take and why.
-    """
-
-    points: tuple[TradePoint, ...]
-    allowed_mm: float
-    reason: str
+    points: tuple[TradePoint, ...]  # By facets, ascending; the last has all of them
+    allowed_mm: float  # Largest error that will do, mm
+    reason: str  # What to take and why
 
     @property
     def advised(self) -> int:

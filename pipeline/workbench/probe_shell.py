@@ -1,58 +1,37 @@
-"""The dense, aligned outer surface of a session's probe: what regions are painted on, and what holds them."""
+"""The dense, aligned outer surface of a session's probe: what regions are painted on."""
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh.regions import RegionSet
-from contactbench.pipeline.mesh.regions.exchange import encode_json
-from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file, sidecar_of
-from contactbench.pipeline.preparation.alignment import from_angles, from_json
-from contactbench.pipeline.preparation.painted import painted_regions
+from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.preparation.prepare import place
-from contactbench.pipeline.session.make_probe import ProbeParameters, dense_of
+from contactbench.pipeline.session.make_probe import ProbeParameters, alignment_of, dense_of
 from contactbench.pipeline.session.making import read_parameters
-from contactbench.pipeline.session.recompute import lay_out, newest_inputs
+from contactbench.pipeline.session.recompute import laid_out, newest_inputs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.sidecar import ProbeFile
-    from contactbench.pipeline.session import Session, State
-    from contactbench.pipeline.session.actions import Record
+    from contactbench.pipeline.session import State
     from contactbench.pipeline.session.state import Result
     from contactbench.pipeline.workbench.desk import Desk
 
 PROBE, PROBE_FILE = "probe", "probe.ply"
 REGIONS, REGIONS_FILE = "regions", "regions.json"
-# The surface that regions were painted on lies beside them under this name.
-_PAINTED = "painted.ply"
 
 
 @dataclass(frozen=True, eq=False)
 class Recipe:
-    """
-    How the session's probe is made.
+    """How the session's probe is made."""
 
-    Attributes
-    ----------
-    inputs : mapping
-        Role -> hash.
-    parameters : mapping
-        As `ProbeParameters`, without the name.
-    result : Result or None
-        The probe that was made so; None: it is only planned.
-    """
-
-    inputs: Mapping[str, str]
-    parameters: Mapping[str, Any]
-    result: Result | None = None
+    inputs: Mapping[str, str]  # Role -> hash
+    parameters: Mapping[str, Any]  # As `ProbeParameters`, without the name
+    result: Result | None = None  # The probe that was made so; None: it is only planned
 
 
 def recipe_of(state: State) -> Recipe | None:
@@ -62,9 +41,7 @@ def recipe_of(state: State) -> Recipe | None:
     What was set since in the session's parameters of the kind ``probe`` counts.
     """
     made = [
-        each
-        for each in state.current_results.values()
-        if each.action.kind == PROBE and (each.mark is None or each.mark.mark != "rejected")
+        each for each in state.current_results.values() if each.action.kind == PROBE and not each.rejected
     ]
     settings = {
         key.partition(".")[2]: setting
@@ -81,13 +58,13 @@ def recipe_of(state: State) -> Recipe | None:
     return Recipe(newest_inputs(state, PROBE), given)
 
 
-def shell_of(
+def shell_file_of(
     desk: Desk,
     progress: Callable[[float], None] | None = None,
     cancelled: Callable[[], bool] | None = None,
-) -> Probe:
+) -> ProbeFile:
     """
-    Return the surface that regions are painted on: closed, in S, with all its facets.
+    Return the surface that regions are painted on, with its history: closed, in S, with all its facets.
 
     It takes seconds the first time, so call it in a worker; the same mesh and parameters give the same one at once.
 
@@ -104,15 +81,6 @@ def shell_of(
     Cancelled
         `cancelled` answered True.
     """
-    return shell_file_of(desk, progress, cancelled).probe
-
-
-def shell_file_of(
-    desk: Desk,
-    progress: Callable[[float], None] | None = None,
-    cancelled: Callable[[], bool] | None = None,
-) -> ProbeFile:
-    """Return what `shell_of` does, with its history; for `regions_on` and `keep_regions`."""
     state = desk.state
     recipe = recipe_of(state)
     if recipe is None:
@@ -122,72 +90,11 @@ def shell_file_of(
             "This probe came from elsewhere, and the session does not have the mesh behind it: choose the mesh in step"
             " 3, Probe, to paint on it."
         )
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
-        files = lay_out(desk.folder, state, wanted, Path(scratch))
+    wanted = {role: sha for role, sha in recipe.inputs.items() if role in {"mesh", "alignment"}}
+    with laid_out(desk.folder, state, wanted) as files:
         given = read_parameters(ProbeParameters, {**recipe.parameters, "name": PROBE_FILE})
         dense = dense_of(files["mesh"], given, remember=True, progress=progress, cancelled=cancelled)
-        if "alignment" in files:
-            return place(dense, from_json(files["alignment"].read_bytes(), "alignment"))
-        if given.mount is not None:
-            return place(dense, from_angles(list(given.mount[:3]), list(given.mount[3:])))
-        return place(dense, None)
-
-
-def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionReport, ...]]:
-    """
-    Return the session's regions on a shell: as they were painted, or carried over from an older one.
-
-    Parameters
-    ----------
-    desk : Desk
-    shell : ProbeFile
-        From `shell_file_of`.
-
-    Returns
-    -------
-    regions : RegionSet
-        Those of the mesh file where nobody painted any.
-    carried : tuple of RegionReport
-        What carrying over did to each; empty where they are as they were painted.
-
-    Raises
-    ------
-    InputError
-        They do not belong to this surface.
-    """
-    state = desk.state
-    given = [each for each in state.current_inputs.values() if each.kind == REGIONS]
-    if not given:
-        return shell.regions, ()
-    newest = max(given, key=lambda each: each.number)
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = lay_out(desk.folder, state, {REGIONS: newest.content}, Path(scratch))
-        return painted_regions(shell, files[REGIONS])
-
-
-def keep_regions(session: Session, regions: RegionSet, shell: ProbeFile) -> Record:
-    """
-    Put regions into a session, with the surface that they were painted on, so that they outlive changes of it.
-
-    As ``contactbench session add SESSION regions.json --kind regions --companion painted.ply`` does.
-
-    Parameters
-    ----------
-    session : Session
-        Open for writing; for `Desk.do`.
-    regions : RegionSet
-        On the shell.
-    shell : ProbeFile
-        From `shell_file_of`.
-    """
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        folder = Path(scratch)
-        surface, file = folder / _PAINTED, folder / REGIONS_FILE
-        save_probe_file(shell, surface)
-        file.write_bytes(encode_json(regions, shell.probe))
-        beside = {each.name: each for each in (surface, sidecar_of(surface))}
-        return session.add_input(file, REGIONS, name=REGIONS_FILE, companions=beside)
+        return place(dense, alignment_of(given, files.get("alignment")))
 
 
 def used_probe(desk: Desk) -> Probe | None:
@@ -195,6 +102,5 @@ def used_probe(desk: Desk) -> Probe | None:
     recipe = recipe_of(desk.state)
     if recipe is None or recipe.result is None:
         return None
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = lay_out(desk.folder, desk.state, {PROBE: recipe.result.content}, Path(scratch))
+    with laid_out(desk.folder, desk.state, {PROBE: recipe.result.content}) as files:
         return load_probe_file(files[PROBE]).probe

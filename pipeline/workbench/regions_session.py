@@ -7,15 +7,16 @@ from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh.regions import RegionSet
 from contactbench.pipeline.mesh.regions.exchange import encode_json
-from contactbench.pipeline.session.recompute import recomputed
+from contactbench.pipeline.preparation.painted import painted_regions
+from contactbench.pipeline.session.make_probe import probe_files
+from contactbench.pipeline.session.recompute import laid_out, recomputed
 from contactbench.pipeline.workbench.probe_shell import (
     PROBE,
     REGIONS,
     REGIONS_FILE,
-    keep_regions,
     recipe_of,
-    regions_on,
     shell_file_of,
 )
 from contactbench.pipeline.workbench.regions import RegionsWork
@@ -23,17 +24,18 @@ from contactbench.pipeline.workbench.regions import RegionsWork
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.mesh.regions import RegionSet
+    from contactbench.pipeline.mesh.regions import RegionReport
     from contactbench.pipeline.mesh.sidecar import ProbeFile
     from contactbench.pipeline.session import Session, State
     from contactbench.pipeline.session.actions import Record
-    from contactbench.pipeline.session.state import Input
     from contactbench.pipeline.workbench.desk import Desk
 
 # What changes the number of facets, and not the surface that is painted on.
 _AFTER_PAINTING = frozenset(
     {"facets", "max_deviation", "max_contact_error", "forces", "engine", "region_ratio"}
 )
+# The surface that they were painted on lies beside them under this name: so they outlive changes of it.
+_PAINTED = "painted.ply"
 # Of the work of opening: the surface.
 _SURFACE = 0.8
 
@@ -47,15 +49,9 @@ class Standing(StrEnum):
     APPLIED = "applied"
 
 
-def stored(state: State) -> Input | None:
-    """Return the regions that the session keeps."""
-    kept = [each for each in state.current_inputs.values() if each.kind == REGIONS]
-    return max(kept, key=lambda each: each.number, default=None)
-
-
 def standing(state: State) -> Standing:
     """Say whether the newest probe has the regions that the session keeps."""
-    kept, recipe = stored(state), recipe_of(state)
+    kept, recipe = state.newest(REGIONS), recipe_of(state)
     if kept is None:
         return Standing.NONE
     if recipe is None or recipe.result is None:
@@ -109,9 +105,40 @@ def open_work(
     return work
 
 
+def regions_on(desk: Desk, shell: ProbeFile) -> tuple[RegionSet, tuple[RegionReport, ...]]:
+    """
+    Return the session's regions on a shell: as they were painted, or carried over from an older one.
+
+    Parameters
+    ----------
+    desk : Desk
+    shell : ProbeFile
+        From `shell_file_of`.
+
+    Returns
+    -------
+    regions : RegionSet
+        Those of the mesh file where nobody painted any.
+    carried : tuple of RegionReport
+        What carrying over did to each; empty where they are as they were painted.
+
+    Raises
+    ------
+    InputError
+        They do not belong to this surface.
+    """
+    kept = desk.state.newest(REGIONS)
+    if kept is None:
+        return shell.regions, ()
+    with laid_out(desk.folder, desk.state, {REGIONS: kept.content}) as files:
+        return painted_regions(shell, files[REGIONS])
+
+
 def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | None:
     """
-    Add the regions to a session, unless it has the very same already: ``session add S regions.json --kind regions``.
+    Add the regions to a session, unless it has the very same already.
+
+    As ``contactbench session add SESSION regions.json --kind regions --companion painted.ply`` does.
 
     Parameters
     ----------
@@ -126,13 +153,17 @@ def keep(session: Session, regions: RegionSet, shell: ProbeFile) -> Record | Non
     Record or None
         None: nothing was to be added; also where there are no regions and never were any.
     """
-    kept = stored(session.state)
+    kept = session.state.newest(REGIONS)
     if kept is None and not regions.regions:
         return None
-    digest = hashlib.sha256(encode_json(regions, shell.probe)).hexdigest()
-    if kept is not None and kept.name == REGIONS_FILE and kept.file.sha256 == digest:
+    painted = encode_json(regions, shell.probe)
+    if (
+        kept is not None
+        and kept.slot[1] == REGIONS_FILE
+        and kept.file.sha256 == hashlib.sha256(painted).hexdigest()
+    ):
         return None
-    return keep_regions(session, regions, shell)
+    return session.add_input(painted, REGIONS, name=REGIONS_FILE, companions=probe_files(shell, _PAINTED))
 
 
 def apply(
@@ -164,7 +195,7 @@ def apply(
         `cancelled` answered True; nothing was recorded.
     """
     state = desk.state
-    recipe, kept = recipe_of(state), stored(state)
+    recipe, kept = recipe_of(state), state.newest(REGIONS)
     if recipe is None or recipe.result is None:
         raise InputError("There is no probe yet: prepare it in the step Probe; it takes the regions along.")
     name, parameters = recipe.result.action.name, dict(recipe.parameters)

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.workbench.export import RESULTS
-from contactbench.pipeline.workbench.export_checklist import newest, results_of
+from contactbench.pipeline.workbench.export_checklist import (
+    content_of,
+    day_of,
+    figures_of,
+    results_of,
+    verdict_of,
+)
 from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 
@@ -25,69 +30,33 @@ SENSOR, POSES, SERIAL, MOUNT = "devices.sensor", "devices.poses", "devices.seria
 
 @dataclass(frozen=True)
 class Facts:
-    """
-    What the files of a session's newest results say, as far as it decides how steps stand.
+    """What the files of a session's newest results say, as far as it decides how steps stand."""
 
-    Attributes
-    ----------
-    calibration : str
-        "good", "usable", "refuse", or empty: there is none, or it cannot be read.
-    calibration_why : str
-        The first reason of its verdict.
-    passed : bool or None
-        Whether the verification did; None: there is none.
-    passed_why : str
-        The first reason why not, or the figures.
-    """
-
-    calibration: str = ""
-    calibration_why: str = ""
-    passed: bool | None = None
-    passed_why: str = ""
+    calibration: str = ""  # "good", "usable", "refuse", or empty: there is none, or it cannot be read
+    calibration_why: str = ""  # The first reason of its verdict
+    passed: bool | None = None  # Whether the verification did; None: there is none
+    passed_why: str = ""  # The first reason why not, or the figures
 
 
 def read_facts(folder: Path, state: State) -> Facts:
     """Read what a session's small JSON files say; what cannot be read is left out: whoever needs it says why."""
-    calibration, verification = newest(state, "calibration"), newest(state, "verification")
-    fit = _verdict(_content(folder, calibration))
-    content = _content(folder, verification)
-    judged = _verdict(content)
+    calibration, verification = (
+        {} if found is None else content_of(folder, found)
+        for found in map(state.newest, ("calibration", "verification"))
+    )
+    fit, judged = verdict_of(calibration), verdict_of(verification)
     passed = judged.get("passed")
     return Facts(
         str(fit.get("level", "")),
         _first(fit),
         passed if isinstance(passed, bool) else None,
-        _first(judged) or _figures(content),
+        _first(judged) or figures_of(verification),
     )
-
-
-def _content(folder: Path, found: Result | Input | None) -> dict[str, Any]:
-    if found is None:
-        return {}
-    try:
-        content = json.loads((folder / found.file.path).read_bytes())
-    except (OSError, ValueError):
-        return {}
-    return content if isinstance(content, dict) else {}
-
-
-def _verdict(content: Mapping[str, Any]) -> dict[str, Any]:
-    found = content.get("verdict")
-    return found if isinstance(found, dict) else {}
 
 
 def _first(verdict: Mapping[str, Any]) -> str:
     reasons = verdict.get("reasons")
     return str(reasons[0]) if isinstance(reasons, list) and reasons else ""
-
-
-def _figures(content: Mapping[str, Any]) -> str:
-    overall = content.get("overall")
-    mean = overall.get("mean_mm") if isinstance(overall, dict) else None
-    most = overall.get("max_mm") if isinstance(overall, dict) else None
-    if not isinstance(mean, int | float) or not isinstance(most, int | float):
-        return ""
-    return f"{mean:.2f} mm on average, {most:.2f} mm at most"
 
 
 # ---- the steps -------------------------------------------------------------------------------------
@@ -155,20 +124,15 @@ class _Judge:
 
     def _newest(self, kind: str) -> Result | Input | None:
         """Return what a step gave; None also for what somebody undid or rejected: it is to be done again."""
-        found = newest(self._state, kind)
-        mark = getattr(found, "mark", None)
-        return None if mark is not None and mark.mark == "rejected" else found
-
-    def _setting(self, key: str) -> Any:
-        found = self._state.settings.get(key)
-        return None if found is None else found.value
+        found = self._state.newest(kind)
+        return None if found is None or found.rejected else found
 
     def _why_stale(self, found: Result | Input) -> str | None:
         reasons = self._stale.get(found.slot, ())
         return reasons[0] if reasons else None
 
     def devices(self) -> StepStatus:
-        sensor, poses = self._setting(SENSOR), self._setting(POSES)
+        sensor, poses = self._state.setting(SENSOR), self._state.setting(POSES)
         if not sensor:
             words = "Choose the sensor and where its orientation comes from, then test the connection."
             return StepStatus(StepState.READY, words)
@@ -183,7 +147,7 @@ class _Judge:
     def gravity(self) -> StepStatus:
         found = self._calibration
         if found is None:
-            if not self._setting(SENSOR):
+            if not self._state.setting(SENSOR):
                 return StepStatus(StepState.LOCKED, "Choose the devices first.")
             words = "Hold the tool still in about six orientations; the next one is shown."
             return StepStatus(StepState.READY, words)
@@ -193,7 +157,7 @@ class _Judge:
         if self._facts.calibration == "refuse":
             return StepStatus(StepState.FAILED, f"The calibration was refused. {why} Calibrate again.")
         usable = " It is usable, not good." if self._facts.calibration == "usable" else ""
-        return StepStatus(StepState.DONE, f"Calibrated on {_day(found)}.{usable}")
+        return StepStatus(StepState.DONE, f"Calibrated on {day_of(found)}.{usable}")
 
     def probe(self) -> StepStatus:
         found = self._probe
@@ -203,7 +167,7 @@ class _Judge:
             )
         if why := self._why_stale(found):
             return StepStatus(StepState.STALE, f"{why} Prepare it again.")
-        return StepStatus(StepState.DONE, f"Prepared on {_day(found)}.")
+        return StepStatus(StepState.DONE, f"Prepared on {day_of(found)}.")
 
     def regions(self) -> StepStatus:
         where = standing(self._state)
@@ -232,7 +196,7 @@ class _Judge:
             return StepStatus(
                 StepState.FAILED, f"It did not pass. {why} See what to mend, then verify again."
             )
-        return StepStatus(StepState.DONE, f"Passed: {why}." if why else f"Verified on {_day(found)}.")
+        return StepStatus(StepState.DONE, f"Passed: {why}." if why else f"Verified on {day_of(found)}.")
 
     def export(self) -> StepStatus:
         if missing := self._missing():
@@ -241,7 +205,7 @@ class _Judge:
             return StepStatus(
                 StepState.LOCKED, "Verify first; for trials, an unverified bundle can be written."
             )
-        exported = self._setting(RESULTS)
+        exported = self._state.setting(RESULTS)
         if not exported:
             return StepStatus(StepState.READY, "See what is in the bundle, then export it.")
         if exported != dict(results_of(self._state)):
@@ -268,7 +232,3 @@ class _Judge:
 def _device_name(address: str) -> str:
     scheme = address.partition("://")[0]
     return {"virtual": "the virtual bench", "replay": "a recording"}.get(scheme, address.partition("?")[0])
-
-
-def _day(found: Result | Input) -> str:
-    return found.at[:16].replace("T", " ") + " UTC"

@@ -30,15 +30,7 @@ class StepState(StrEnum):
 
 @dataclass(frozen=True)
 class StepStatus:
-    """
-    How a step stands, and why.
-
-    Attributes
-    ----------
-    state : StepState
-    sentence : str
-        For people: what is missing, what came of it, or why it no longer holds.
-    """
+    """How a step stands, and why."""
 
     state: StepState
-    sentence: str
+    sentence: str  # For people: what is missing, what came of it, or why it no longer holds

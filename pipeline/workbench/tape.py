@@ -52,11 +52,9 @@ class Tape:
         self._ending = threading.Lock()
 
     @classmethod
-    def start(
-        cls, desk: Desk, live: Live, name: str | None = None, serial: str | None = None
-    ) -> Future[Tape]:
+    def start(cls, desk: Desk, live: Live, name: str | None = None) -> Future[Tape]:
         """
-        Begin to record what comes from now on.
+        Begin to record what comes from now on, by the sensor whose serial number is in the session.
 
         Parameters
         ----------
@@ -64,21 +62,21 @@ class Tape:
         live : Live
         name : str, optional
             Ends in .mcap; left out, with the time of the start.
-        serial : str, optional
-            Serial number of the sensor.
 
         Returns
         -------
         Future
             Of the tape; of InputError: nothing is open, the name is taken, or the disk fails.
         """
-        return desk.do(lambda session: cls._begin(desk, session, live, name, serial))
+        return desk.do(lambda session: cls._begin(desk, session, live, name))
 
     @classmethod
-    def _begin(cls, desk: Desk, session: Session, live: Live, name: str | None, serial: str | None) -> Tape:
+    def _begin(cls, desk: Desk, session: Session, live: Live, name: str | None) -> Tape:
         pair = live.pair
         if pair is None:
             raise InputError("No device is open, so there is nothing to record: choose devices first.")
+        known = session.state.setting("devices.serial")
+        serial = str(known) if known else None
         about = _with_serial(pair.about(), serial)
         recording = LiveRecording(
             session, about, sensor=serial, name=name, clock=pair.now, patient=pair.stepwise

@@ -23,22 +23,12 @@ UNDONE = "undone"
 
 @dataclass(frozen=True)
 class Change:
-    """
-    What an action did to a session; by it, the action can be taken back and done again.
+    """What an action did to a session; by it, the action can be taken back and done again."""
 
-    Attributes
-    ----------
-    settings : dict
-        Key -> value before and after; a setting that was not there has the value that it then stands for.
-    inputs : dict
-        Slot -> input before (None: none) and after.
-    results : dict
-        Slot -> result before (None: none) and after.
-    """
-
+    # Key -> value before and after; a setting that was not there has the value that it then stands for
     settings: dict[str, tuple[Any, Any]]
-    inputs: dict[Slot, tuple[Input | None, Input]]
-    results: dict[Slot, tuple[Result | None, Result]]
+    inputs: dict[Slot, tuple[Input | None, Input]]  # Slot -> input before (None: none) and after
+    results: dict[Slot, tuple[Result | None, Result]]  # Slot -> result before (None: none) and after
 
     @property
     def empty(self) -> bool:

@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-import re
-import tempfile
+import json
 import threading
 import time
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.session.recompute import lay_out
+from contactbench.pipeline.session.live import next_recording
+from contactbench.pipeline.session.recompute import compute, laid_out, newest_inputs, settings_of
+from contactbench.pipeline.verification.figures import ModelError
 from contactbench.pipeline.verification.markers import with_normals
-from contactbench.pipeline.workbench.export_checklist import newest
-from contactbench.pipeline.workbench.markers import KIND
+from contactbench.pipeline.verification.result import VerificationParameters
+from contactbench.pipeline.workbench.markers import KIND as MARKERS
 from contactbench.pipeline.workbench.markers import kept as read_kept
-from contactbench.pipeline.workbench.verify_outcome import Outcome, judge_recording, outcome_of
-from contactbench.pipeline.workbench.verify_settings import checked_parameters, parameters_of
 from contactbench.pipeline.workbench.verify_touches import LiveTouches, TouchView, live_noise
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
 
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
@@ -30,28 +29,57 @@ if TYPE_CHECKING:
     from contactbench.pipeline.workbench.live import Live
     from contactbench.pipeline.workbench.markers import Markers
     from contactbench.pipeline.workbench.tape import Tape
+    from contactbench.pipeline.workbench.verify_touches import TouchView
 
-_NAME = re.compile(r"verify-(\d+)\.mcap")
 _NOISE_S, _PATIENCE_S = 1.0, 5.0
+KIND, RESULT, REPORT = "verification", "verification.json", "report.html"
+_SAME_MM = 0.05
+
+
+def parameters_of(state: State, given: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """
+    Return the parameters that a session's verification is computed with, JSON values.
+
+    Parameters
+    ----------
+    state : State
+    given : mapping, optional
+        Parameters that count more than the session's settings.
+
+    Raises
+    ------
+    InputError
+        One of them is wrong.
+    """
+    found = settings_of(state, KIND)
+    mount = state.setting("devices.mount")
+    if mount is not None:
+        found.setdefault("mount", mount)
+    found.update(given or {})
+    checked_parameters(found)
+    return found
+
+
+def checked_parameters(parameters: Mapping[str, Any]) -> VerificationParameters:
+    """Return parameters as a verification has them; InputError, with the first that is wrong."""
+    checked = VerificationParameters.checked({"name": RESULT, **parameters})
+    checked.settings()
+    return checked
+
+
+def plain_parameters(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Return all parameters as JSON values, those that were left out as they are used."""
+    plain: dict[str, Any] = checked_parameters(parameters).model_dump(mode="json", exclude={"name"})
+    return plain
 
 
 @dataclass(frozen=True, eq=False)
 class Tool:
-    """
-    What touches are located with.
+    """What touches are located with."""
 
-    Attributes
-    ----------
-    probe : Probe
-        S.
-    model : GravityModel
-    content : tuple of str
-        Hashes of probe and calibration: other ones are another tool.
-    """
-
-    probe: Probe
+    probe: Probe  # S
     model: GravityModel
-    content: tuple[str, str]
+    content: tuple[str, str]  # Hashes of probe and calibration: other ones are another tool
 
 
 def tool_of(folder: Path, state: State) -> Tool:
@@ -70,10 +98,7 @@ def tool_of(folder: Path, state: State) -> Tool:
     content = tool_key(state)
     if content is None:
         raise InputError(why_locked(state))
-    with tempfile.TemporaryDirectory(prefix="contactbench-") as scratch:
-        files = lay_out(
-            folder, state, dict(zip(("probe", "calibration"), content, strict=True)), Path(scratch)
-        )
+    with laid_out(folder, state, dict(zip(("probe", "calibration"), content, strict=True))) as files:
         calibration = load_calibration(files["calibration"])
         probe = load_surface(files["probe"])
     if calibration.verdict.level is Level.REFUSE:
@@ -85,26 +110,18 @@ def tool_of(folder: Path, state: State) -> Tool:
 
 def tool_key(state: State) -> tuple[str, str] | None:
     """Return the hashes of a session's newest probe and calibration; None: one is missing."""
-    probe, calibration = newest(state, "probe"), newest(state, "calibration")
+    probe, calibration = state.newest("probe"), state.newest("calibration")
     return None if probe is None or calibration is None else (probe.content, calibration.content)
 
 
 def why_locked(state: State, *kinds: str) -> str:
     """Say what is missing before touches can be located, of some kinds or of all; empty: nothing."""
-    missing = [kind for kind in kinds or ("calibration", "probe") if newest(state, kind) is None]
+    missing = [kind for kind in kinds or ("calibration", "probe") if state.newest(kind) is None]
     if not missing:
         return ""
     steps = {"calibration": "calibrate in step 2, Gravity", "probe": "prepare the probe in step 3, Probe"}
     todo = ", and ".join(steps[kind] for kind in missing)
     return f"A contact cannot be located without {' and '.join(missing)}: {todo}."
-
-
-def next_name(state: State) -> str:
-    """Return the name of the next recording of touches."""
-    taken = [
-        int(found[1]) for kind, name in state.current_inputs if (found := _NAME.fullmatch(name)) and kind
-    ]
-    return f"verify-{max(taken, default=0) + 1}.mcap"
 
 
 class VerifyWork:
@@ -173,7 +190,7 @@ class VerifyWork:
     def _used(self, tool: Tool, markers: Markers) -> dict[str, str]:
         """Return what the touches are judged with, by role: also if there is something newer when they are."""
         state = self._desk.do(lambda session: session.state).result()  # after all that waits to be written
-        kept = newest(state, KIND)
+        kept = state.newest(MARKERS)
         if kept is None or read_kept(self._desk.folder, state) != markers:
             raise InputError("The markers are not in the session yet: wait a moment, then start again.")
         probe, calibration = tool.content
@@ -201,12 +218,8 @@ class VerifyWork:
     def _record(self) -> None:
         from contactbench.pipeline.workbench.tape import Tape
 
-        serial = self._desk.state.settings.get("devices.serial")
-        known = (
-            serial.value if serial is not None and isinstance(serial.value, str) and serial.value else None
-        )
-        self._name = next_name(self._desk.state)
-        self._tape = Tape.start(self._desk, self._live, self._name, known).result()
+        self._name = next_recording(self._desk.state, self._desk.folder, "verify")
+        self._tape = Tape.start(self._desk, self._live, self._name).result()
 
     def _stop(self) -> TouchView | None:
         """End the following; returns what was seen last."""
@@ -262,3 +275,184 @@ class VerifyWork:
             if tape is not None:
                 touched = seen is not None and seen.last is not None and tape.samples
                 (tape.keep() if touched else tape.discard()).result()
+
+
+@dataclass(frozen=True)
+class MarkerOutcome:
+    """Of one marker, mm."""
+
+    name: str
+    touches: int
+    mean_mm: float
+    max_mm: float
+    bias_mm: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A verification, as it is shown."""
+
+    passed: bool
+    # reasons, notes, warnings: Why not; what it says nothing about; what to know of the recording
+    reasons: tuple[str, ...]
+    notes: tuple[str, ...]
+    warnings: tuple[str, ...]
+    diagnosis: str  # What to fix first; empty: too few touches
+    touches: int  # Accepted
+    mean_mm: float | None
+    sd_mm: float | None
+    p95_mm: float | None
+    max_mm: float | None
+    low_mm: float | None  # low_mm, high_mm: The mean is between them, 95 %
+    high_mm: float | None
+    ratio: float | None  # Error over what noise and calibration explain
+    mean_limit_mm: float
+    max_limit_mm: float
+    rejected: tuple[tuple[str, int], ...]  # (reason, count)
+    markers: tuple[MarkerOutcome, ...]
+    report: Path | None
+    differs: str = ""  # What was another while it was live; empty: nothing
+    stale: str = ""  # Why it no longer holds; empty: it does
+    model_error: str = ""  # What the model leaves out of the wrench, and what to do about it
+
+    def with_difference(self, words: str) -> Outcome:
+        """Return it with what was another while it was live."""
+        return replace(self, differs=words)
+
+
+def outcome_of(
+    folder: Path,
+    state: State,
+    stale: Mapping[tuple[str, str], tuple[str, ...]],
+    live: TouchView | None = None,
+) -> Outcome | None:
+    """
+    Read a session's verification; None: there is none.
+
+    Parameters
+    ----------
+    folder : Path
+    state : State
+    stale : mapping
+        As `Session.stale` says.
+    live : TouchView, optional
+        What was seen while it was recorded.
+
+    Raises
+    ------
+    InputError
+        It cannot be read.
+    """
+    found = state.current_results.get((KIND, RESULT))
+    if found is None:
+        return None
+    file = folder / found.file.path
+    try:
+        content = json.loads(file.read_bytes())
+        outcome = _read(content, _report(folder, state, found.known_as))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(
+            f"{file}: the verification cannot be read ({error}): see `contactbench session verify`."
+        ) from error
+    reasons = stale.get(found.slot, ())
+    return replace(
+        outcome, differs="" if live is None else differs(outcome, live), stale=" ".join(reasons[:1])
+    )
+
+
+def _report(folder: Path, state: State, verification: set[str]) -> Path | None:
+    found = state.current_results.get(("report", REPORT))
+    if found is None or not set(found.action.inputs.values()) & verification:
+        return None
+    return folder / found.file.path
+
+
+def _read(content: dict[str, Any], report: Path | None) -> Outcome:
+    from contactbench.pipeline.verification.model_error import model_error_words
+
+    verdict, overall = content["verdict"], content.get("overall") or {}
+    interval = (content.get("ci") or {}).get("mean_mm") or (None, None)
+    diagnosis, left = content.get("diagnosis") or {}, content.get("model_error")
+    return Outcome(
+        passed=bool(verdict["passed"]),
+        reasons=tuple(verdict["reasons"]),
+        notes=tuple(verdict.get("notes", ())),
+        warnings=tuple(content.get("warnings", ())),
+        diagnosis=str(diagnosis.get("text", "")),
+        touches=int(overall.get("touches", 0)),
+        mean_mm=overall.get("mean_mm"),
+        sd_mm=overall.get("sd_mm"),
+        p95_mm=overall.get("p95_mm"),
+        max_mm=overall.get("max_mm"),
+        low_mm=interval[0],
+        high_mm=interval[1],
+        ratio=content.get("ratio"),
+        mean_limit_mm=1e3 * float(content["limits"]["mean_m"]),
+        max_limit_mm=1e3 * float(content["limits"]["max_m"]),
+        rejected=tuple((str(why), int(count)) for why, count in content.get("rejected", {}).items()),
+        markers=tuple(
+            MarkerOutcome(
+                str(each["name"]),
+                int(each["touches"]),
+                float(each["mean_mm"]),
+                float(each["max_mm"]),
+                (float(each["bias_mm"][0]), float(each["bias_mm"][1]), float(each["bias_mm"][2])),
+            )
+            for each in content.get("per_marker", ())
+        ),
+        report=report,
+        model_error=model_error_words(None if left is None else ModelError(**left)),
+    )
+
+
+def differs(outcome: Outcome, live: TouchView) -> str:
+    """Say what the raw recording gave otherwise than what was seen while it was made; empty: nothing."""
+    if live.mean_mm is None or outcome.mean_mm is None:
+        if live.accepted == outcome.touches:
+            return ""
+        return (
+            f"Live, {live.accepted} touches were accepted; the recording gives {outcome.touches}."
+            " The recording counts."
+        )
+    same_count = live.accepted == outcome.touches
+    if same_count and abs(live.mean_mm - outcome.mean_mm) <= _SAME_MM:
+        return ""
+    return (
+        f"Live, {live.accepted} touches were accepted with a mean error of {live.mean_mm:.2f} mm; the recording gives"
+        f" {outcome.touches} with {outcome.mean_mm:.2f} mm, because its noise is known as a whole. The recording"
+        " counts."
+    )
+
+
+def judge_recording(
+    session: Session,
+    recording: str,
+    given: Mapping[str, Any] | None = None,
+    used: Mapping[str, str] | None = None,
+) -> None:
+    """
+    Compute verification and report from a recording of the session, with the session's settings.
+
+    As ``contactbench session compute SESSION verification verification.json --input recording=NAME``, with ``--set``
+    for each parameter, and then ``report report.html``.
+
+    Parameters
+    ----------
+    session : Session
+        Open for writing.
+    recording : str
+        Its name.
+    given : mapping, optional
+        Parameters that count more than the session's settings, such as the order in which markers were asked for.
+    used : mapping, optional
+        Role -> hash of what was touched with, where that is not the newest.
+
+    Raises
+    ------
+    InputError
+        The recording holds no touch, or something is missing.
+    """
+    parameters = parameters_of(session.state, given)
+    inputs = newest_inputs(session.state, KIND, {"recording": recording})
+    compute(session, KIND, RESULT, {**inputs, **(used or {})}, parameters)
+    compute(session, "report", REPORT, newest_inputs(session.state, "report"), {})

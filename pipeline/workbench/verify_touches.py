@@ -11,9 +11,10 @@ import numpy as np
 
 from contactbench.pipeline.verification.locating import Placing, memory, sample_noise
 from contactbench.pipeline.verification.protocol import State, Touch, TouchEvent, TouchProtocol
-from contactbench.pipeline.workbench.verify_settings import Turns
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
@@ -28,29 +29,44 @@ _RECENT_S = 1.0
 _FEWEST = 40  # samples that noise is told from
 
 
+@dataclass
+class Turns:
+    """
+    The order in which markers are touched, where it is given; it can be changed while touches go on.
+
+    A protocol asks for ``order[accepted % len(order)]``; written out touch by touch, a marker can be left out, or
+    touched again, without a change of what was asked before.
+    """
+
+    names: list[str]  # One for each touch
+
+    @classmethod
+    def of(cls, order: Sequence[str], repeats: int, windows: int) -> Turns:
+        """Return every marker in its turn, once per repeat and force window."""
+        return cls([name for _ in range(repeats * windows) for name in order])
+
+    def skip(self, accepted: int) -> bool:
+        """Leave out the marker that would come next, this time and all others; whether there was one."""
+        if accepted >= len(self.names):
+            return False
+        name = self.names[accepted]
+        self.names[accepted:] = [each for each in self.names[accepted:] if each != name]
+        return True
+
+    def repeat(self, accepted: int, name: str) -> None:
+        """Have a marker touched next."""
+        self.names.insert(min(accepted, len(self.names)), name)
+
+
 @dataclass(frozen=True)
 class TouchOf:
-    """
-    A press that was decided, as it is shown.
+    """A press that was decided, as it is shown."""
 
-    Attributes
-    ----------
-    marker : str or None
-        None: unknown.
-    why : str
-        Why it was rejected; empty: it was accepted.
-    force : float
-        N.
-    error_mm : (3,) tuple or None
-        Contact minus marker, S.
-    size_mm, sigma_mm : float or None
-        Length of that, and what noise and calibration explain (1 sigma).
-    """
-
-    marker: str | None
-    why: str
-    force: float
-    error_mm: tuple[float, float, float] | None = None
+    marker: str | None  # None: unknown
+    why: str  # Why it was rejected; empty: it was accepted
+    force: float  # N
+    error_mm: tuple[float, float, float] | None = None  # (3,) tuple; Contact minus marker, S
+    # size_mm, sigma_mm: Length of that, and what noise and calibration explain (1 sigma)
     size_mm: float | None = None
     sigma_mm: float | None = None
 
@@ -79,43 +95,22 @@ class MarkerRow:
 
 @dataclass(frozen=True, eq=False)
 class TouchView:
-    """
-    All that there is to see now.
-
-    Attributes
-    ----------
-    state : State
-    force : float
-        |F|, N, compensated; NaN: not known.
-    rows : tuple of MarkerRow
-    next_one : int or None
-        Place of the marker that should be touched next; None: all are done.
-    window : (low, high)
-        With what force, N.
-    last : TouchOf or None
-    errors_mm : tuple of float
-        Of the accepted touches, oldest first.
-    mean_mm, sd_mm, max_mm : float or None
-    accepted, wanted : int
-    notice : str
-        What is in the way; empty: nothing.
-    contacts : tuple of (start, end)
-        Places of markers and where they were found, m, for the accepted touches.
-    """
+    """All that there is to see now."""
 
     state: State
-    force: float
+    force: float  # |F|, N, compensated; NaN: not known
     rows: tuple[MarkerRow, ...]
-    next_one: int | None
-    window: tuple[float, float]
+    next_one: int | None  # Place of the marker that should be touched next; None: all are done
+    window: tuple[float, float]  # (low, high); With what force, N
     last: TouchOf | None
-    errors_mm: tuple[float, ...]
+    errors_mm: tuple[float, ...]  # Of the accepted touches, oldest first
     mean_mm: float | None
     sd_mm: float | None
     max_mm: float | None
     accepted: int
     wanted: int
-    notice: str
+    notice: str  # What is in the way; empty: nothing
+    # (start, end); Places of markers and where they were found, m, for the accepted touches
     contacts: tuple[tuple[NDArray[np.float64], NDArray[np.float64]], ...] = field(default=())
 
 

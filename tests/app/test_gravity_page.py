@@ -14,8 +14,8 @@ from contactbench.pipeline.devices.emulate import emulator
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.unfinished import adopt_unfinished
 from contactbench.pipeline.workbench.desk import Desk
+from contactbench.pipeline.workbench.gravity_fit import Finding, Solved
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.gravity_solving import Finding, Solved
 from contactbench.pipeline.workbench.steps import StepState, StepStatus
 
 STEPWISE = "virtual://bench?probe=t-shape&sensor=paper&speed=step"

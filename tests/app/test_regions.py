@@ -16,7 +16,7 @@ from contactbench.app.pages.regions import RegionsPage
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.regions_session import Standing, standing, stored
+from contactbench.pipeline.workbench.regions_session import Standing, standing
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.scene import Scene
 from contactbench.widgets.scene.scene import Pick
@@ -151,7 +151,7 @@ def test_a_stroke_that_is_drawn_while_the_regions_are_kept_is_not_lost(window, q
     assert int((page.work.model.labels > 0).sum()) > before
     qtbot.waitUntil(lambda: not page.keeper.dirty, timeout=LONG)
     window.bench.desk.do(lambda session: session).result(10)
-    assert stored(window.bench.desk.state) is not None
+    assert window.bench.desk.state.newest("regions") is not None
 
 
 def test_the_mouse_paints_what_is_under_it(window, qtbot):
@@ -341,7 +341,7 @@ def test_import_and_export(window, qtbot, tmp_path):
 def test_it_is_kept_by_itself_and_found_again(window, opened, folder, qtbot):  # noqa: F811
     draw(window, (0, 0, 1))
     assert "in a moment" in said(window)
-    qtbot.waitUntil(lambda: stored(window.bench.desk.state) is not None, timeout=LONG)
+    qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)
     qtbot.waitUntil(lambda: "does not have them yet" in said(window), timeout=LONG)
     draw(window, (0, 1, 0))
     painted = rows(window)
@@ -356,7 +356,7 @@ def test_leaving_keeps_at_once_and_gives_the_tool_back(window, qtbot):
     window.page.leave()
     assert not window.page.keeper.dirty
     assert window.scene.mouse.tool == "turn"
-    qtbot.waitUntil(lambda: stored(window.bench.desk.state) is not None, timeout=LONG)
+    qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)
     shown = []
     window.bench.go_to.connect(lambda step: (shown.append(step), window.page.enter()))
     window.bench.undo.undo()
@@ -422,7 +422,7 @@ def test_a_full_disk_is_said_and_tried_again(window, qtbot, monkeypatch):
     monkeypatch.setattr(regions_keeping, "keep", real)
     draw(window, (0, 1, 0))
     window.page.keeper.keep_now()
-    qtbot.waitUntil(lambda: stored(window.bench.desk.state) is not None, timeout=LONG)
+    qtbot.waitUntil(lambda: window.bench.desk.state.newest("regions") is not None, timeout=LONG)
     qtbot.waitUntil(lambda: "does not have them yet" in said(window), timeout=LONG)
 
 

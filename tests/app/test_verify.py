@@ -14,7 +14,7 @@ from contactbench.app.pages.verify import VerifyPage
 from contactbench.pipeline.kernel import Reason
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.live_moment import Reading
+from contactbench.pipeline.workbench.live import Reading
 from contactbench.pipeline.workbench.markers import Markers, kept
 from contactbench.pipeline.workbench.steps import Step, StepState, StepStatus
 from contactbench.widgets.scene import Scene

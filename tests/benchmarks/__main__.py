@@ -27,18 +27,20 @@ BENCHMARKS = {
     "faults": "faults:run",
     "gravity": "gravity:run",
     "live": "live.report:run",
-    "mesh-fuzz": "preparation.fuzz:run",
+    "mesh-fuzz": "mesh_fuzz.fuzz:run",
     "mistakes": "mistakes:run",
     "painting": "painting:run",
-    "protocols": "devices:run_protocols",
+    "prepared-meshes": "prepared_meshes:run",
+    "protocols": "soak:run",
     "regions": "preparation.regions:run",
     "reproduce-dynamic": "reproduce.dynamic:run",
     "reproduce-filter": "reproduce.filter:run",
     "reproduce-static": "reproduce.static:run",
     "runtime": "runtime:run",
-    "sessions": "devices:run_sessions",
+    "sessions": "session_crash:run",
     "shell": "preparation.shell:run",
     "simplify": "preparation.simplify:run",
+    "solver": "solver.exact:run",
     "verification": "verification:run",
     "window-brush": "window.brush:run",
     "window-charts": "window.charts:run",
@@ -48,17 +50,12 @@ BENCHMARKS = {
     "window-stalls": "window.stalls:run",
     "window-startup": "window.startup:run",
 }
-# These take their own options.
-PROGRAMS = ("prepared_meshes",)
 
 
 def main(words: list[str]) -> int:
     """Run the benchmark that the first word names."""
-    if words and words[0] in PROGRAMS:
-        sys.argv = words
-        return int(import_module(f"benchmarks.{words[0]}").main())
     parser = argparse.ArgumentParser(prog="packaging/run benchmark", description=__doc__)
-    parser.add_argument("name", choices=[*BENCHMARKS, *PROGRAMS])
+    parser.add_argument("name", choices=[*BENCHMARKS])
     name = parser.parse_args(words[:1]).name
     function = function_of(name)
     given = options_of(name, function).parse_args(words[1:])
@@ -128,20 +125,15 @@ def finish(report, out: Path | None, *, as_json: bool) -> int:
     if isinstance(report, int):
         return report
     if out is not None:
-        if hasattr(report, "write"):
-            report.write(out)
-        else:
-            out.write_text(report.markdown(), encoding="utf-8")
-    judged = getattr(report, "report", report)
+        report.write(out)
     if as_json:
         print(json.dumps(report.to_json()))  # noqa: T201
     else:
         from rich.console import Console
 
-        tables = [sheet.table() for sheet in getattr(report, "sheets", ())]
-        for table in (*tables, judged.table()):
+        for table in (*(sheet.table() for sheet in report.sheets if sheet.shown), report.table()):
             Console().print(table)
-    return 0 if judged.passed else 1
+    return 0 if report.passed else 1
 
 
 if __name__ == "__main__":

@@ -70,24 +70,7 @@ def example_config(
     clamped: bool = False,
     down_W: tuple[float, float, float] = DOWN_W,
 ) -> RuntimeConfig:
-    """
-    Make a config of the bundled T-shape; the same arguments give the same bytes.
-
-    Parameters
-    ----------
-    facets : int
-    rate : float
-        Hz.
-    seed : int
-        Of the readings that the calibration is made from.
-    verified : bool
-        Left out, the verification is missing.
-    clamped : bool
-        A clamp hides the end at the sensor, the model error was measured, a drift was found, and a known weight and a
-        known touch were checked.
-    down_W : (3,) tuple
-        Unit vector: the robot stands, hangs from the ceiling, or is on a wall.
-    """
+    """Make a config of the bundled T-shape; the same arguments give the same bytes."""
     rng = np.random.default_rng(seed)
     truth = GravityModel(
         _leaning(down_W),

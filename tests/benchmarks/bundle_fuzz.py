@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import subprocess
 from collections import Counter
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -23,77 +22,11 @@ from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from typing import Any
 
 _FACETS, _OTHER_FACETS = 300, 400
 _BATCH = 200
 _LONGEST_S, _MOST_MIB = 2.0, 500.0
 _NO_NAMES = frozenset("/\\:\0")
-
-
-@dataclass(frozen=True)
-class BundleFuzzReport:
-    """
-    What became of the mutated bundles.
-
-    Attributes
-    ----------
-    count : int
-    refused : int
-        With a typed error.
-    same : int
-        Loaded as exactly what they were before, to the byte.
-    other : int
-        Loaded as another config, where a changed number may be as good as the one before.
-    compared : int
-        Also given to the loader in C++.
-    slowest_s : float
-        Longest time that a loader took.
-    largest_MiB : float
-        Memory by which this process grew, or that the loader in C++ used, whichever is more; 0: not known.
-    kinds : mapping of str to int
-        How many of each kind.
-    failures : tuple of str
-        Kind and what happened: accepted but wrong, an error of another type, or a loader that disagrees.
-    """
-
-    count: int
-    refused: int
-    same: int
-    other: int
-    compared: int
-    slowest_s: float
-    largest_MiB: float
-    kinds: dict[str, int]
-    failures: tuple[str, ...]
-
-    @property
-    def passed(self) -> bool:
-        """Nothing went wrong, took long, or filled the memory."""
-        return not self.failures and self.slowest_s <= _LONGEST_S and self.largest_MiB <= _MOST_MIB
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data."""
-        return {**vars(self), "failures": list(self.failures), "passed": self.passed}
-
-    @property
-    def report(self) -> Report:
-        """Return the counts as figures with their targets."""
-        figures = [
-            Figure("bundles", "tried", self.count),
-            Figure("bundles", "refused with an error of this project's own", self.refused),
-            Figure("bundles", "loaded as what they were", self.same),
-            Figure("bundles", "loaded as another valid config", self.other),
-            Figure("bundles", "also given to the loader in C++", self.compared),
-            Figure("bundles", "accepted though wrong, or loaders that disagree", len(self.failures), most=0),
-            Figure("bundles", "longest time to load, s", self.slowest_s, most=_LONGEST_S),
-            Figure("bundles", "most memory to load, MiB", self.largest_MiB, most=_MOST_MIB),
-        ]
-        notes = [
-            "Another valid config: a number was changed and every hash made anew, by somebody who may do that.",
-            *self.failures[:20],
-        ]
-        return Report("Mutated bundles", {"kinds": len(self.kinds)}, tuple(figures), tuple(notes))
 
 
 def mutants(count: int, seed: int = 0) -> Iterator[Mutant]:
@@ -107,23 +40,8 @@ def mutants(count: int, seed: int = 0) -> Iterator[Mutant]:
         yield mutant(sound, plain, other, rng)
 
 
-def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> BundleFuzzReport:
-    """
-    Load mutated bundles.
-
-    Parameters
-    ----------
-    count : int
-    seed : int
-    cpp : path, optional
-        The program contactbench-load_all: the loader in C++ is given the same bundles, as far as they are folders, and
-        must accept exactly those that are accepted here.
-
-    Raises
-    ------
-    InputError
-        `count` is below 1, or the program does not run.
-    """
+def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> Report:
+    """Load mutated bundles."""
     sound = _bases()
     outcomes: Counter[str] = Counter()
     kinds: Counter[str] = Counter()
@@ -152,17 +70,21 @@ def run(count: int = 5_000, seed: int = 0, cpp: Path | None = None) -> BundleFuz
             slowest, compared = max(slowest, took), compared + len(told)
     grown = _most_memory() - before
     used = 0.0 if cpp is None else _most_memory(children=True)
-    return BundleFuzzReport(
-        count,
-        outcomes["refused"],
-        outcomes["same"],
-        outcomes["other"],
-        compared,
-        slowest,
-        max(grown, used),
-        dict(sorted(kinds.items())),
-        tuple(failures),
+    figures = (
+        Figure("bundles", "tried", count),
+        Figure("bundles", "refused with an error of this project's own", outcomes["refused"]),
+        Figure("bundles", "loaded as what they were", outcomes["same"]),
+        Figure("bundles", "loaded as another valid config", outcomes["other"]),
+        Figure("bundles", "also given to the loader in C++", compared),
+        Figure("bundles", "accepted though wrong, or loaders that disagree", len(failures), most=0),
+        Figure("bundles", "longest time to load", slowest, "s", most=_LONGEST_S),
+        Figure("bundles", "most memory to load", max(grown, used), "MiB", most=_MOST_MIB),
     )
+    other = (
+        "Another valid config: a number was changed and every hash made anew, by somebody who may do that."
+    )
+    settings = {"kinds": len(kinds), "seed": seed}
+    return Report("Mutated bundles", settings, figures, (other, *failures[:20]))
 
 
 def _bases() -> tuple[dict[str, bytes], dict[str, bytes]]:

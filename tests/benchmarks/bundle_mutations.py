@@ -50,26 +50,13 @@ Expected = Literal["refused", "any"]
 
 @dataclass(frozen=True)
 class Mutant:
-    """
-    A mutated bundle.
-
-    Attributes
-    ----------
-    kind : str
-    expected : {"refused", "any"}
-    files : dict or None
-        Its files; None for one that exists as a zip file only.
-    packed : bytes or None
-        The zip file.
-    sealed : bool
-        All hashes fit.
-    """
+    """A mutated bundle."""
 
     kind: str
-    expected: Expected
-    files: Files | None
-    packed: bytes | None = None
-    sealed: bool = False
+    expected: Expected  # {"refused", "any"}
+    files: Files | None  # Its files; None for one that exists as a zip file only
+    packed: bytes | None = None  # The zip file
+    sealed: bool = False  # All hashes fit
 
 
 def seal(files: Files) -> Files:
@@ -87,19 +74,7 @@ def seal(files: Files) -> Files:
 
 
 def mutant(files: Files, plain: Files, other: Files, rng: np.random.Generator) -> Mutant:
-    """
-    Draw a mutated bundle.
-
-    Parameters
-    ----------
-    files : dict
-        The sound one.
-    plain : dict
-        One that was not verified, which fewer checks refuse.
-    other : dict
-        Another sound one, to take files from.
-    rng : numpy.random.Generator
-    """
+    """Draw a mutated bundle."""
     kinds = [*_DAMAGE, *_EDITS, *_TEXTS, *_ZIPS, *_SEALED, "swapped mesh", "swapped file"]
     kind = kinds[int(rng.integers(len(kinds)))]
     if kind in _SEALED:

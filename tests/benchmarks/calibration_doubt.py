@@ -7,25 +7,23 @@ the calibration says with the truth at the session's end.
 
 from __future__ import annotations
 
-import os
 import time
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial, reduce
-from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 from zlib import crc32
 
 import numpy as np
 from benchmarks import wrong_models as wrong
-from benchmarks.gravity import Figure, GravityReport
-from scipy.stats import beta
+from benchmarks.trials import in_processes, share
 
 from contactbench.pipeline.calibration import Level, calibrate
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Sequence
 
     from benchmarks.wrong_models import Session
     from numpy.typing import NDArray
@@ -42,43 +40,20 @@ _STEP = 1e-9  # N, N·m: less is no step
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """What one session came to.
+    """What one session came to."""
 
-    Attributes
-    ----------
-    cause, odds : str, float
-        The most probable cause, and its probability.
-    adopted : str
-        What was added beside the model: a drift, a rezero, or nothing.
-    steps : tuple of int
-        Poses, from 0, before which a re-zero is told.
-    rezeroed : tuple of int
-        Poses before which the zero did jump.
-    level : str
-        Of the verdict.
-    covered : bool
-        The ellipsoid of 95 % holds the truth.
-    scaled : (12,)
-        Errors over the sigmas of the Cramér-Rao bound.
-    wrongly_bumped, missed : bool
-        A clean pose was left out; a bumped one was not.
-    error, claimed : float
-        Largest shift of a contact, and what is claimed for it, m.
-    seconds : float
-    """
-
-    cause: str
-    odds: float
-    adopted: str
-    steps: tuple[int, ...]
-    rezeroed: tuple[int, ...]
-    level: str
-    covered: bool
-    scaled: NDArray[np.float64]
-    wrongly_bumped: bool
-    missed: bool
-    error: float
-    claimed: float
+    cause: str  # The most probable cause, and its probability
+    odds: float  # The most probable cause, and its probability
+    adopted: str  # What was added beside the model: a drift, a rezero, or nothing
+    steps: tuple[int, ...]  # Poses, from 0, before which a re-zero is told
+    rezeroed: tuple[int, ...]  # Poses before which the zero did jump
+    level: str  # Of the verdict
+    covered: bool  # The ellipsoid of 95 % holds the truth
+    scaled: NDArray[np.float64]  # Errors over the sigmas of the Cramér-Rao bound
+    wrongly_bumped: bool  # A clean pose was left out; a bumped one was not
+    missed: bool  # A clean pose was left out; a bumped one was not
+    error: float  # Largest shift of a contact, and what is claimed for it, m
+    claimed: float  # Largest shift of a contact, and what is claimed for it, m
     seconds: float
 
     @property
@@ -94,32 +69,18 @@ class Trial:
 
 @dataclass(frozen=True)
 class Cell:
-    """One way to draw sessions, and what must come of them.
-
-    Attributes
-    ----------
-    name : str
-    draw : callable
-        Draws a session from a random generator.
-    noise : float, optional
-        The noise is given, as so many times the true one; left out: it is not given.
-    orientation_deg : float, optional
-        The orientations' noise is given, degrees; left out: it is not given.
-    told : tuple of str
-        Keys of the causes that are right to tell; without any, the plain model must be.
-    bounds : tuple of (measure, comparison, percent or ratio)
-        What must be reached.
-    timed : bool
-        The poses have times.
-    """
+    """One way to draw sessions, and what must come of them."""
 
     name: str
-    draw: Callable[[np.random.Generator], Session]
-    noise: float | None = None
+    draw: Callable[[np.random.Generator], Session]  # Draws a session from a random generator
+    noise: float | None = None  # The noise is given, as so many times the true one; left out: it is not given
+    # The orientations' noise is given, degrees; left out: it is not given
     orientation_deg: float | None = None
+    # Keys of the causes that are right to tell; without any, the plain model must be
     told: tuple[str, ...] = ()
+    # tuple of (measure, comparison, percent or ratio). What must be reached.
     bounds: tuple[tuple[str, str, float], ...] = ()
-    timed: bool = True
+    timed: bool = True  # The poses have times
 
     def tried(self, seed: int, numbers: range) -> list[Trial]:
         """Draw and calibrate the sessions of these numbers."""
@@ -172,31 +133,23 @@ def judged(session: Session, calibration: Calibration, seconds: float) -> Trial:
 # ---- measures ----------------------------------------------------------------------------------
 
 
-def _share(pick: Callable[[Cell, Trial], bool]) -> Callable[[Cell, Sequence[Trial]], tuple[float, str]]:
-    def of(cell: Cell, trials: Sequence[Trial]) -> tuple[float, str]:
-        hits, n = sum(pick(cell, trial) for trial in trials), len(trials)
-        low = beta.ppf(0.025, hits, n - hits + 1) if hits else 0.0
-        high = beta.ppf(0.975, hits + 1, n - hits) if hits < n else 1.0
-        return 100 * hits / n, f"{100 * hits / n:.1f} % ({100 * low:.1f}-{100 * high:.1f})"
-
-    return of
+Measure = Callable[["Cell", "Sequence[Trial]", str], Figure]
 
 
-def _over_bound(cell: Cell, trials: Sequence[Trial]) -> tuple[float, str]:
-    del cell
+def _share(pick: Callable[[Cell, Trial], bool]) -> Measure:
+    return lambda cell, trials, question: share(
+        cell.name, question, sum(pick(cell, trial) for trial in trials), len(trials)
+    )
+
+
+def _over_bound(cell: Cell, trials: Sequence[Trial], question: str) -> Figure:
     ratios = np.sqrt(np.mean([trial.scaled**2 for trial in trials], axis=0))
-    chance = 1 / np.sqrt(2 * len(trials))
-    return float(
-        ratios.mean()
-    ), f"{ratios.mean():.3f} (worst {ratios.max():.3f}; chance alone ± {chance:.3f})"
+    return Figure(cell.name, question, float(ratios.mean()), worst=float(ratios.max()))
 
 
-def _off(cell: Cell, trials: Sequence[Trial]) -> tuple[float, str]:
-    del cell
+def _off(cell: Cell, trials: Sequence[Trial], question: str) -> Figure:
     errors = 1e3 * np.array([trial.error for trial in trials])
-    ratio = np.median([trial.error / trial.claimed for trial in trials])
-    median, most = np.percentile(errors, [50, 95])
-    return float(most), f"{most:.2f} mm (median {median:.2f} mm, {ratio:.1f} times what is claimed)"
+    return Figure(cell.name, question, float(np.percentile(errors, 95)), "mm", worst=float(errors.max()))
 
 
 MEASURES = {
@@ -228,18 +181,14 @@ def figures_of(cell: Cell, trials: Sequence[Trial]) -> list[Figure]:
     figures = []
     for measure, comparison, limit in cell.bounds:
         question, of = MEASURES[measure]
-        value, text = of(cell, trials)
-        reached = value >= limit if comparison == ">=" else value <= limit
-        unit = {"bound": "", "error": " mm"}.get(measure, " %")
-        target = f"{'at least' if comparison == '>=' else 'at most'} {limit:g}{unit}"
-        figures.append(Figure(f"{cell.name}: {question}", target, text, bool(reached)))
-    also = [
-        f"{question} {of(cell, trials)[1]}"
+        bound = {"least" if comparison == ">=" else "most": limit}
+        figures.append(replace(of(cell, trials, question), **bound))
+    return figures + [
+        of(cell, trials, question)
         for measure, (question, of) in MEASURES.items()
         if (measure in _ALSO or (measure == "told" and cell.told))
         and measure not in {bound for bound, _, _ in cell.bounds}
     ]
-    return [*figures, Figure(f"{cell.name}: besides", "", "; ".join(also), True)]
 
 
 # ---- cells -------------------------------------------------------------------------------------
@@ -356,27 +305,8 @@ def run(
     workers: int | None = None,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> GravityReport:
-    """Measure every cell.
-
-    Parameters
-    ----------
-    sets : int
-        Sessions for each cell, at least 20.
-    cells : str
-        Only cells whose name has this in it.
-    workers : int, optional
-        Processes; left out: as many as there are cores.
-    seed : int
-        Of chance, at least 0: the same seed gives the same sessions, whatever the number of workers.
-    progress : callable
-        Told how far it is.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or no cell has such a name.
-    """
+) -> Report:
+    """Measure every cell."""
     if sets < 20 or seed < 0:
         raise InputError(f"{sets} sets, seed {seed}: give at least 20 sets and a seed of at least 0")
     chosen = [cell for cell in CELLS if cells in cell.name]
@@ -390,21 +320,12 @@ def run(
         for start in range(0, sets, _BLOCK)
     ]
     trials: dict[str, list[Trial]] = {cell.name: [] for cell in chosen}
-    for done, (name, made) in enumerate(_all(jobs, min(workers or os.cpu_count() or 1, len(jobs))), 1):
+    for done, (name, made) in enumerate(in_processes(_block, jobs, workers), 1):
         trials[name] += made
         if len(trials[name]) == sets:
             progress(f"{done} of {len(jobs)} blocks: {name}")
-    return GravityReport(
-        sets, seed, tuple(figure for cell in chosen for figure in figures_of(cell, trials[cell.name]))
-    )
-
-
-def _all(jobs: list[tuple[int, int, range]], workers: int) -> Iterator[tuple[str, list[Trial]]]:
-    if workers == 1:
-        yield from map(_block, jobs)
-        return
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(_block, jobs)
+    figures = tuple(figure for cell in chosen for figure in figures_of(cell, trials[cell.name]))
+    return Report("Calibration doubt", {"sets": sets, "seed": seed}, figures)
 
 
 def _block(job: tuple[int, int, range]) -> tuple[str, list[Trial]]:

@@ -42,25 +42,13 @@ class Touches:
 
 @dataclass(frozen=True)
 class ContactError:
-    """
-    What answers are worth.
+    """What answers are worth."""
 
-    Attributes
-    ----------
-    over_bound : float
-        Root mean square error of the sure answers that are not astray, over that of the noise bound.
-    p95 : float
-        Of the errors of all sure answers, mm.
-    sure : float
-        Share of the touches that are answered without doubt.
-    astray : float
-        Share of the touches whose answer is sure and more than 10 mm off.
-    """
-
+    # Root mean square error of the sure answers that are not astray, over that of the noise bound
     over_bound: float
-    p95: float
-    sure: float
-    astray: float
+    p95: float  # Of the errors of all sure answers, mm
+    sure: float  # Share of the touches that are answered without doubt
+    astray: float  # Share of the touches whose answer is sure and more than 10 mm off
 
 
 def draw_touches(shape: Shape, count: int, *, seed: int = 0) -> Touches:
@@ -122,19 +110,7 @@ def _in_the_open(
 
 
 def locate(mesh: Mesh, touches: Touches, reference: Mesh, *, seed: int = 1) -> ContactError:
-    """
-    Locate touches on a mesh.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        What they are located on.
-    touches : Touches
-    reference : Mesh
-        Its place decides where the sensor is: the same for every mesh of a shape.
-    seed : int
-        Of the sensor's noise.
-    """
+    """Locate touches on a mesh."""
     corners = reference.corners.reshape(-1, 3)
     low, high = corners.min(axis=0), corners.max(axis=0)
     shift = np.array([*(-0.5 * (low + high)[:2]), _HEIGHT_MM - low[2]])

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import json
-import os
 from collections import Counter
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.reproduce.dynamic_store import code_print
+from benchmarks.trials import in_processes
 
 from contactbench import assets
 from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
@@ -38,8 +33,6 @@ _PERIOD_S = (2.0, 10.0)
 _JUMP_N, _JUMP_NM = 8.0, 0.4
 _SPIKE_N, _SPIKE_NM = 60.0, 3.0
 _NONE = "none"
-_HERE = Path(__file__)
-_TOLD = ("peak", "limit", "ended", "tracked", "force", "tilt")
 _SWUNG_DEG = 20.0
 
 
@@ -62,39 +55,19 @@ class Placed(PlatformMotion):
 
 @dataclass(frozen=True)
 class Start:
-    """
-    One random start.
+    """One random start."""
 
-    Attributes
-    ----------
-    number : int
-        Which seed it was drawn from.
-    probe : str
-    variant : Variant
-    stiffness : float
-        Multiple of the usual modulus.
-    friction, gap : float
-        m.
-    tilt : (about x, about y)
-        Of the phantom, rad.
-    axis : str
-        Of the platform's motion.
-    size, period, begin : float
-        m or rad, s, s.
-    faults : tuple of ScriptedFault
-    """
-
-    number: int
+    number: int  # Which seed it was drawn from
     probe: str
     variant: Variant
-    stiffness: float
-    friction: float
-    gap: float
-    tilt: tuple[float, float]
-    axis: str
-    size: float
-    period: float
-    begin: float
+    stiffness: float  # Multiple of the usual modulus
+    friction: float  # m
+    gap: float  # m
+    tilt: tuple[float, float]  # Of the phantom, rad
+    axis: str  # Of the platform's motion
+    size: float  # m or rad, s, s
+    period: float  # m or rad, s, s
+    begin: float  # m or rad, s, s
     faults: tuple[ScriptedFault, ...]
 
     @property
@@ -105,32 +78,16 @@ class Start:
 
 @dataclass(frozen=True)
 class End:
-    """
-    What came of it.
-
-    Attributes
-    ----------
-    start : Start
-    peak : float
-        Largest |F| of the true contact, N.
-    limit : float
-        N.
-    ended : str
-        The last state; "physics" if the scene came apart.
-    tracked : bool
-        Whether it ever tracked.
-    force : float
-        True force at the end, N.
-    tilt : float
-        Largest angle between axis and normal from a second after it began to track, degrees; NaN if it never did.
-    """
+    """What came of it."""
 
     start: Start
-    peak: float
-    limit: float
-    ended: str
-    tracked: bool
-    force: float
+    peak: float  # Largest |F| of the true contact, N
+    limit: float  # N
+    ended: str  # The last state; "physics" if the scene came apart
+    tracked: bool  # Whether it ever tracked
+    force: float  # True force at the end, N
+    # Largest angle between axis and normal from a second after it began to track, degrees; NaN if it never
+    # did
     tilt: float
 
     @property
@@ -226,90 +183,17 @@ def run(
     *,
     seed: int = 0,
     workers: int | None = None,
-    kept: Path | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> Report:
-    """
-    Run many random starts, a fifth with each kind of fault and a fifth with none.
-
-    Parameters
-    ----------
-    runs : int
-    seed : int
-    workers : int, optional
-        Processes; left out, one for each core; 1: in this one.
-    kept : Path, optional
-        File to which each end is added as it comes; those of the same code that are there are not run again.
-    progress : callable, optional
-        Told how many of how many are done; what it raises ends the work.
-
-    Raises
-    ------
-    InputError
-        `runs` is out of its range, MuJoCo is missing, or `kept` cannot be read or written.
-    """
+    """Run many random starts, a fifth with each kind of fault and a fifth with none."""
     if not 1 <= runs <= 1_000_000:
         raise InputError(f"{runs} runs: give 1 to 1,000,000.")
-    there = {} if kept is None else _read(kept, seed)
-    ends = [there[number] for number in range(runs) if number in there]
-    starts = [draw(number, seed) for number in range(runs) if number not in there]
-
-    def take(end: End) -> None:
+    ends = []
+    for end in in_processes(run_start, [draw(number, seed) for number in range(runs)], workers):
         ends.append(end)
-        if kept is not None:
-            _add(kept, seed, end)
         progress(len(ends), runs)
-
-    if starts:
-        _run_all(starts, min(workers or os.cpu_count() or 1, len(starts)), take)
     ends.sort(key=lambda end: end.start.number)
     return report_of(ends, {"runs": runs, "seed": seed})
-
-
-def _run_all(starts: list[Start], workers: int, take: Callable[[End], None]) -> None:
-    if workers == 1:
-        for start in starts:
-            take(run_start(start))
-        return
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as pool:
-        try:
-            for job in as_completed([pool.submit(run_start, start) for start in starts]):
-                take(job.result())
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-
-
-def _add(file: Path, seed: int, end: End) -> None:
-    told = {"code": code_print(_HERE), "seed": seed, "number": end.start.number}
-    told |= {name: getattr(end, name) for name in _TOLD}
-    try:
-        with file.open("a", encoding="utf-8") as stream:
-            stream.write(json.dumps(told) + "\n")
-    except OSError as error:
-        raise InputError(
-            f"{file}: cannot be written ({error}): choose another file to keep ends in."
-        ) from error
-
-
-def _read(file: Path, seed: int) -> dict[int, End]:
-    """Return the ends by number that this code came to with this seed; a line that was cut off is none."""
-    if not file.exists():
-        return {}
-    try:
-        lines = file.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{file}: cannot be read ({error}): choose another file to keep ends in.") from error
-    ends = {}
-    for line in lines:
-        try:
-            told = json.loads(line)
-            if (told["code"], told["seed"]) == (code_print(_HERE), seed):
-                start = draw(told["number"], seed)
-                ends[start.number] = End(start, **{name: told[name] for name in _TOLD})
-        except (ValueError, KeyError, TypeError):
-            continue
-    return ends
 
 
 def report_of(ends: list[End], settings: dict[str, object]) -> Report:

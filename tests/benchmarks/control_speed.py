@@ -42,23 +42,6 @@ def run(
 
     A step is what a controller does within a period: readings compensated and located, state machine, admittance and
     inverse kinematics; without the simulation of arm, tissue and sensor, which the second figure is of.
-
-    Parameters
-    ----------
-    scene : {"platform", "arm"}
-    probe : str
-        One of assets.PROBE_NAMES.
-    seconds : float
-        Of the scene, 5 to 600.
-    seed : int
-        Of load, calibration and noise.
-    progress : callable, optional
-        Told how many seconds of how many are done.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or MuJoCo is missing.
     """
     world = next((each for each in SCENES if each == scene), None)
     if world is None:

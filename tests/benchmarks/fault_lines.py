@@ -72,39 +72,20 @@ LINES = (
 
 @dataclass(frozen=True)
 class Outcome:
-    """
-    What one fault did.
-
-    Attributes
-    ----------
-    line : FaultLine
-    fault : Fault
-    expected : str
-        "shown", "unseen" (it must cost nothing and show nothing), or why the stream cannot show it.
-    detected : float or None
-        Seconds from the fault to the first change that shows it; None: never shown.
-    shown : str
-        The state and the finding that came first.
-    flowing : float or None
-        Seconds from the fault's end to the next sample.
-    well : float or None
-        Seconds from its end until nothing is shown any more.
-    samples, made_up, lost : int
-        Given; of them not among those sent intact, in their order; sent intact and not given.
-    late : float
-        Seconds that the emulated device was behind its own time at worst: this machine was busy.
-    """
+    """What one fault did."""
 
     line: FaultLine
     fault: Fault
+    # "shown", "unseen" (it must cost nothing and show nothing), or why the stream cannot show it
     expected: str
-    detected: float | None
-    shown: str
-    flowing: float | None
-    well: float | None
-    samples: int
-    made_up: int
-    lost: int
+    detected: float | None  # Seconds from the fault to the first change that shows it; None: never shown
+    shown: str  # The state and the finding that came first
+    flowing: float | None  # Seconds from the fault's end to the next sample
+    well: float | None  # Seconds from its end until nothing is shown any more
+    samples: int  # Given; of them not among those sent intact, in their order; sent intact and not given
+    made_up: int  # Given; of them not among those sent intact, in their order; sent intact and not given
+    lost: int  # Given; of them not among those sent intact, in their order; sent intact and not given
+    # Seconds that the emulated device was behind its own time at worst: this machine was busy
     late: float = 0.0
 
     @property
@@ -141,14 +122,7 @@ def cases(lines: Sequence[FaultLine] = LINES) -> Iterator[tuple[FaultLine, Fault
 
 
 def run_case(line: FaultLine, fault: Fault, *, seed: int = 0) -> Outcome:
-    """
-    Play one fault to a stream, as a user would open it.
-
-    Raises
-    ------
-    EmulatorError
-        The emulated device failed.
-    """
+    """Play one fault to a stream, as a user would open it."""
     heard = _Heard()
     script = _script(fault)
     made = emulator(
@@ -277,14 +251,7 @@ def _shown(health: Health) -> str:
 def compare(
     samples: Sequence[WrenchSample | FlangeSample], sent: Sequence[Sent], address: DeviceAddress
 ) -> tuple[int, int]:
-    """
-    Look for each sample among what was sent intact, in order.
-
-    Returns
-    -------
-    (int, int)
-        Samples that were not sent; frames between the first and the last match that were not given.
-    """
+    """Look for each sample among what was sent intact, in order."""
     rows = [_values(each, address) for each in sent]
     tolerance = _JOINT_TOLERANCE if address.gives_poses else 0.0
     made_up, position, first, matched = 0, 0, None, 0

@@ -37,18 +37,10 @@ _SHORT = (
 
 @dataclass(frozen=True)
 class Measured:
-    """
-    All outcomes.
-
-    Attributes
-    ----------
-    outcomes : tuple of Outcome
-    repeated : int
-        Runs that were made again because this machine paused in them.
-    """
+    """All outcomes."""
 
     outcomes: tuple[Outcome, ...]
-    repeated: int
+    repeated: int  # Runs that were made again because this machine paused in them
 
 
 def run(
@@ -58,26 +50,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Play every fault to every protocol, and judge what was shown, what came back and what was made up.
-
-    Parameters
-    ----------
-    short : bool
-        One fault of each kind, with two protocols.
-    trials : int
-        Re-zeros to be suspected, and half minutes of touches that must not be; above 0.
-    seed : int
-    progress : callable, optional
-        Told what is being done.
-
-    Raises
-    ------
-    InputError
-        `trials` is not above 0.
-    EmulatorError
-        An emulated device failed.
-    """
+    """Play every fault to every protocol, and judge what was shown, what came back and what was made up."""
     if trials < 1:
         raise InputError("give a number of trials above 0.")
     measured = measure(list(_SHORT if short else cases()), seed=seed, progress=progress)
@@ -98,11 +71,6 @@ def measure(
     Run cases, some at a time.
 
     A case that does not come out as it must, while this machine paused, is run again.
-
-    Raises
-    ------
-    EmulatorError
-        An emulated device failed.
     """
     repeated: list[FaultLine] = []
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.gravity import Figure, GravityReport
+from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
@@ -20,6 +20,7 @@ from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.calibration.orientation import Convention, Kind, rotations
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.weighing import draw_load, weigh
+from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,19 +37,11 @@ _EULER, _VECTOR = Kind.EULER, Kind.ROTATION_VECTOR
 
 @dataclass(frozen=True, eq=False)
 class Recorded:
-    """Poses with a mistake in them.
+    """Poses with a mistake in them."""
 
-    Attributes
-    ----------
-    R_WS : (n, 3, 3)
-    wrenches : (n, 6)
-    raw : RawOrientations or None
-        The numbers behind the orientations, where an option is wrong.
-    """
-
-    R_WS: NDArray[np.float64]
-    wrenches: NDArray[np.float64]
-    raw: RawOrientations | None = None
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    wrenches: NDArray[np.float64]  # (n, 6)
+    raw: RawOrientations | None = None  # The numbers behind the orientations, where an option is wrong
 
 
 Mistake = tuple[tuple[str, ...], "Callable[[Recorded, np.random.Generator], Recorded]"]
@@ -291,25 +284,13 @@ UNKNOWN: dict[str, Mistake] = {
 
 @dataclass(frozen=True)
 class Count:
-    """What came of the sets of one mistake.
-
-    Attributes
-    ----------
-    sets : int
-    first : int
-        The true cause was the most probable, or named as one that is as good.
-    wrong : int
-        Another one was said with odds above 3 to 1.
-    consistent : int
-    instead : Counter
-        Keys that came first instead.
-    """
+    """What came of the sets of one mistake."""
 
     sets: int
-    first: int
-    wrong: int
+    first: int  # The true cause was the most probable, or named as one that is as good
+    wrong: int  # Another one was said with odds above 3 to 1
     consistent: int
-    instead: Counter[str]
+    instead: Counter[str]  # Keys that came first instead
 
 
 def draw(rng: np.random.Generator) -> tuple[Recorded, GravityModel, PoseNoise]:
@@ -324,17 +305,7 @@ def draw(rng: np.random.Generator) -> tuple[Recorded, GravityModel, PoseNoise]:
 
 
 def judge(mistake: Mistake, rng: np.random.Generator, sets: int, *, given: bool = True) -> Count:
-    """Diagnose random sets with one mistake.
-
-    Parameters
-    ----------
-    mistake : Mistake
-        Keys that tell it, or their beginnings, and what makes it.
-    rng : numpy.random.Generator
-    sets : int
-    given : bool
-        Whether mass and noise are known.
-    """
+    """Diagnose random sets with one mistake."""
     keys, make = mistake
     first = wrong = consistent = 0
     instead: Counter[str] = Counter()
@@ -371,51 +342,33 @@ def _diagnosed(made: Recorded, load: GravityModel | None, noise: PoseNoise | Non
     return diagnose(poses, noise, prior=prior, raw=made.raw)
 
 
-def run(
-    *, trials: int = 200, seed: int = 0, progress: Callable[[str], None] = lambda _: None
-) -> GravityReport:
-    """Diagnose random sets with each mistake, and clean ones.
-
-    Parameters
-    ----------
-    trials : int
-        Sets for each mistake, at least 1.
-    seed : int
-        Of chance, at least 0.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+def run(*, trials: int = 200, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+    """Diagnose random sets with each mistake, and clean ones."""
     if trials < 1 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 1 trial and a seed of at least 0")
     figures: list[Figure] = []
+    notes: list[str] = []
     clean: Mistake = ((AS_DECLARED,), lambda truth, _: truth)
     for number, (name, mistake) in enumerate({"no mistake": clean, **KNOWN, **UNKNOWN}.items()):
         progress(name)
         count = judge(mistake, np.random.default_rng([seed, number]), trials)
         blind = judge(mistake, np.random.default_rng([seed, number]), -(-trials // 10), given=False)
-        figures.append(_figure(name, count, blind))
-    return GravityReport(trials, seed, tuple(figures))
+        figures += _figures(name, count, blind)
+        if count.instead:
+            notes.append(f"{name}: first instead: {dict(count.instead.most_common(3))}.")
+    return Report("Mistakes", {"trials": trials, "seed": seed}, tuple(figures), tuple(notes))
 
 
-def _figure(name: str, count: Count, blind: Count) -> Figure:
+def _figures(name: str, count: Count, blind: Count) -> list[Figure]:
     """Return what came of one mistake: with mass and noise, and without (`blind`)."""
-    instead = ", ".join(f"{key} {times}" for key, times in count.instead.most_common(3))
-    measured = f"{100 * count.first / count.sets:.1f} % first, {count.wrong} wrong" + (
-        instead and f" ({instead})"
-    )
     if name == "no mistake":
-        share = count.consistent / count.sets
-        return Figure(
-            name, "consistent in >= 98 %", f"{100 * share:.1f} %, {count.wrong} wrong", share >= 0.98
-        )
-    measured += f"; consistent: {count.consistent}, without mass and noise {blind.consistent}"
-    good = count.wrong == 0 and count.consistent + blind.consistent == 0
-    if name in KNOWN:
-        target = "the cause first in >= 95 %, never another above 3 to 1, never consistent"
-        return Figure(name, target, measured, good and count.first >= 0.95 * count.sets)
-    return Figure(name, "never a wrong cause above 3 to 1, never consistent", measured, good)
+        return [
+            share(name, "consistent", count.consistent, count.sets, least=98),
+            share(name, "a wrong cause above 3 to 1", count.wrong, count.sets),
+        ]
+    return [
+        share(name, "the cause first", count.first, count.sets, least=95 if name in KNOWN else None),
+        share(name, "a wrong cause above 3 to 1", count.wrong, count.sets, most=0),
+        share(name, "consistent", count.consistent, count.sets, most=0),
+        share(name, "consistent, without mass and noise", blind.consistent, blind.sets, most=0),
+    ]

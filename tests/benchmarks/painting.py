@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from time import perf_counter_ns
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import Brush, RegionSet
 from contactbench.pipeline.mesh.sidecar import ProbeFile
+from contactbench.pipeline.study.report import Figure, Report
 from contactbench.pipeline.timing import Timing
 from contactbench.pipeline.workbench.regions import RegionsWork
 
@@ -29,79 +30,25 @@ _STEP = 0.002  # m between two events: a hand at 0.1 m/s, a mouse at 50 Hz
 
 @dataclass(frozen=True)
 class BrushRow:
-    """
-    One width of the brush.
-
-    Attributes
-    ----------
-    radius_mm : float
-    events : int
-    changed : float
-        Facets that changed with an event, on average.
-    event : Timing
-        The stroke goes on, and the colours of what changed are there, ns.
-    whole : Timing
-        The same, where all facets are coloured anew instead, ns.
-    finish : Timing
-        The end of a stroke: its step, and the areas of the list, ns.
-    """
+    """One width of the brush."""
 
     radius_mm: float
     events: int
-    changed: float
-    event: Timing
-    whole: Timing
-    finish: Timing
+    changed: float  # Facets that changed with an event, on average
+    event: Timing  # The stroke goes on, and the colours of what changed are there, ns
+    whole: Timing  # The same, where all facets are coloured anew instead, ns
+    finish: Timing  # The end of a stroke: its step, and the areas of the list, ns
 
-    @property
-    def ratio(self) -> float:
-        """How many times as long colouring all facets takes."""
-        return self.whole.median / self.event.median
-
-    @property
-    def met(self) -> bool:
-        """Whether 99 of 100 events leave at least half of the limit to drawing."""
-        return self.event.p99 < LIMIT_MS * 1e6 / 2
-
-
-@dataclass(frozen=True)
-class PaintingReport:
-    """Everything that `run` measured."""
-
-    probe: str
-    facets: int
-    seed: int
-    rows: tuple[BrushRow, ...]
-
-    @property
-    def passed(self) -> bool:
-        """Whether every brush is quick enough."""
-        return all(row.met for row in self.rows)
-
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        """The figures for people."""
-        return tuple(
-            f"A brush of {row.radius_mm:g} mm on {self.facets:,} facets: {row.event.median / 1e6:.2f} ms an event"
-            f" (p99 {row.event.p99 / 1e6:.2f} ms), {row.changed:.0f} facets each; colouring all takes"
-            f" {row.ratio:.1f} times as long. Ending a stroke: {row.finish.median / 1e6:.2f} ms."
-            for row in self.rows
-        )
-
-    def markdown(self) -> str:
-        """Write it for a file."""
-        return "\n".join(self.sentences) + "\n"
-
-    def table(self) -> str:
-        """Write it for a terminal."""
-        return self.markdown()
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        data = asdict(self)
-        for entry, row in zip(data["rows"], self.rows, strict=True):
-            entry |= {"ratio": row.ratio, "met": row.met}
-        return data
+    def figures(self) -> list[Figure]:
+        """99 of 100 events leave at least half of the limit to drawing."""
+        brush = f"brush of {self.radius_mm:g} mm"
+        return [
+            Figure(brush, "an event", self.event.median / 1e6, "ms", worst=self.event.p99 / 1e6,
+                   most=LIMIT_MS / 2, judged="worst"),
+            Figure(brush, "facets that change with an event", self.changed),
+            Figure(brush, "colouring all takes so many times as long", self.whole.median / self.event.median),
+            Figure(brush, "end of a stroke", self.finish.median / 1e6, "ms"),
+        ]  # fmt: skip
 
 
 def run(
@@ -113,29 +60,8 @@ def run(
     events: int = 30,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
-) -> PaintingReport:
-    """
-    Draw strokes over a bundled probe, and time each event.
-
-    Parameters
-    ----------
-    probe : str
-        A bundled probe.
-    facets : int
-    radii : sequence of float
-        Of the brush, m.
-    strokes, events : int
-        Strokes of each radius, and picks of each stroke, 2 mm apart.
-    seed : int
-        Of where they are.
-    progress : callable
-        Told in words what is being measured.
-
-    Raises
-    ------
-    InputError
-        There is no such probe, or nothing to measure.
-    """
+) -> Report:
+    """Draw strokes over a bundled probe, and time each event."""
     if probe not in assets.PROBE_NAMES:
         raise InputError(
             f"there is no bundled probe {probe!r}; choose one of {', '.join(assets.PROBE_NAMES)}"
@@ -151,7 +77,8 @@ def run(
     for radius in radii:
         progress(f"a brush of {1000 * radius:g} mm")
         rows.append(_row(work, radius, [_path(work, events, rng) for _ in range(strokes)]))
-    return PaintingReport(probe, len(body.faces), seed, tuple(rows))
+    figures = tuple(figure for row in rows for figure in row.figures())
+    return Report("Painting", {"probe": probe, "facets": len(body.faces), "seed": seed}, figures)
 
 
 Picks = list[tuple[int, "NDArray[np.float64]"]]

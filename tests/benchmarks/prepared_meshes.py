@@ -1,30 +1,33 @@
 """Prepare many mesh files as a user would, and look at what comes out as a stranger would.
 
-Run by ``packaging/run benchmark prepared_meshes --out DIR [--shapes NAME,...] [--json]``. Every shape goes through
-the public commands `probe inspect`, `shell` and `prepare` in processes of their own. Exit code 1: a figure is missed.
+Every shape goes through the public commands `probe inspect`, `shell` and `prepare` in processes of their own.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import subprocess
 import sys
 import tempfile
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import shapes
+from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.sheets import Sheet
+
+from . import shapes as catalogue
 from .contact_error import ContactError, distances, draw_touches, locate, visible_points
 from .solids import Mesh, joined
 from .stranger import look, normal_deviations, read_prepared, sample
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
+
+    from contactbench.pipeline.study.sheets import Cell
 
     from .shapes import Shape
     from .stranger import Prepared
@@ -68,37 +71,18 @@ class Ran:
 
 @dataclass(frozen=True)
 class Judged:
-    """
-    A written mesh against its original.
-
-    Attributes
-    ----------
-    facets : int
-    wrong : str
-        What the stranger saw; "" when nothing.
-    parts : int
-    invented : float
-        Share of its area.
-    p95_mm, most_mm : float
-        From the visible outside to the mesh.
-    back_mm : float
-        From what the mesh did not invent to the outside, largest.
-    fold_deg : float
-        Largest deviation of a normal from the original's own, where it did not invent.
-    folded : int
-        Facets beyond what is allowed.
-    """
+    """A written mesh against its original."""
 
     facets: int
     sound: bool
-    wrong: str
+    wrong: str  # What the stranger saw; "" when nothing
     parts: int
-    invented: float
-    p95_mm: float
-    most_mm: float
-    back_mm: float
-    fold_deg: float
-    folded: int
+    invented: float  # Share of its area
+    p95_mm: float  # From the visible outside to the mesh
+    most_mm: float  # From the visible outside to the mesh
+    back_mm: float  # From what the mesh did not invent to the outside, largest
+    fold_deg: float  # Largest deviation of a normal from the original's own, where it did not invent
+    folded: int  # Facets beyond what is allowed
 
 
 @dataclass(frozen=True)
@@ -119,7 +103,7 @@ class Row:
     faults: tuple[str, ...] = ()
 
 
-def run(arguments: Sequence[str | Path], command: Path = _COMMAND) -> Ran:
+def run_command(arguments: Sequence[str | Path], command: Path = _COMMAND) -> Ran:
     """Run a command of contactbench in a process of its own."""
     with tempfile.TemporaryDirectory() as scratch:
         used = Path(scratch) / "used.json"
@@ -142,10 +126,12 @@ def measure(shape: Shape, folder: Path, command: Path = _COMMAND) -> Row:
     for old in (shell_file, result_file):
         old.unlink(missing_ok=True)
     units = ("--units", "mm")
-    inspected = run(["probe", "inspect", file, *units, "--json"], command)
-    shelled = run(["probe", "shell", file, *units, "--out", shell_file, "--json"], command)
-    prepared = run(["probe", "prepare", file, *units, "--out", result_file, "--json"], command)
-    checked = run(["probe", "inspect", result_file, "--json"], command) if result_file.exists() else None
+    inspected = run_command(["probe", "inspect", file, *units, "--json"], command)
+    shelled = run_command(["probe", "shell", file, *units, "--out", shell_file, "--json"], command)
+    prepared = run_command(["probe", "prepare", file, *units, "--out", result_file, "--json"], command)
+    checked = (
+        run_command(["probe", "inspect", result_file, "--json"], command) if result_file.exists() else None
+    )
     shell = _judge(shape, read_prepared(shell_file)) if shell_file.exists() else None
     result = exact = contact = None
     touches = draw_touches(shape, _TOUCHES)
@@ -246,69 +232,48 @@ def _unsound(name: str, judged: Judged) -> list[str]:
     return found
 
 
-def table(rows: Sequence[Row]) -> str:
-    """Write all rows as a Markdown table."""
-    head = (
-        "shape", "exit", "facets", "s", "MB", "sound", "invented %", "shell p95 mm", "shell back mm",
-        "prepared max mm", "turned °", "error/bound", "on exact", "sure %", "on exact", "astray %", "misses",
-    )  # fmt: skip
-    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
-    lines += ["| " + " | ".join(_cells(row)) + " |" for row in rows]
-    missed = sum(bool(row.faults) for row in rows)
-    return "\n".join(
-        [*lines, "", f"{len(rows)} shapes, {len(rows) - missed} reach all figures, {missed} do not."]
-    )
-
-
-def _cells(row: Row) -> list[str]:
-    shell, result, contact, exact = row.shell, row.result, row.contact, row.exact
-    none = "-"
-    return [
-        row.name + ("" if row.closed else " (open)"),
-        str(row.prepared.exit),
-        f"{result.facets:,}" if result else none,
-        f"{row.prepared.seconds:.1f}",
-        f"{row.prepared.peak_mb:.0f}",
-        ("yes" if result.sound else "no") if result else none,
-        f"{100 * shell.invented:.2f}" if shell else none,
-        f"{shell.p95_mm:.4f}" if shell else none,
-        f"{shell.back_mm:.3f}" if shell else none,
-        f"{result.most_mm:.2f}" if result else none,
-        f"{result.fold_deg:.0f}" if result else none,
-        f"{contact.over_bound:.3f}" if contact else none,
-        f"{exact.over_bound:.3f}" if exact else none,
-        f"{100 * contact.sure:.1f}" if contact else none,
-        f"{100 * exact.sure:.1f}" if exact else none,
-        f"{100 * contact.astray:.2f}" if contact else none,
-        "; ".join(row.faults) or "",
-    ]
-
-
-def main() -> int:
-    """Measure the shapes that were asked for."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "--out", type=Path, required=True, help="Folder to write: files, table.md, rows.json."
-    )
-    parser.add_argument("--shapes", help="Names, with commas between them [all].")
-    parser.add_argument("--json", action="store_true", help="Print all figures as JSON.")
-    parser.add_argument("--command", type=Path, default=_COMMAND, help="The contactbench to measure.")
-    options = parser.parse_args()
-    options.out.mkdir(parents=True, exist_ok=True)
+def run(
+    shapes: Sequence[str] = (),
+    *,
+    folder: Path | None = None,
+    command: Path = _COMMAND,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Report:
+    """Prepare each shape, all of them unless told otherwise; their files stay in the folder, if there is one."""
     rows = []
-    for name in options.shapes.split(",") if options.shapes else shapes.names():
-        row = measure(shapes.make(name), options.out, options.command)
-        rows.append(row)
-        print(f"{name}: {'; '.join(row.faults) or 'all figures reached'}", file=sys.stderr, flush=True)  # noqa: T201
-        (options.out / "rows.json").write_text(
-            json.dumps([asdict(row) for row in rows], indent=1), encoding="utf-8"
-        )
-        (options.out / "table.md").write_text(table(rows) + "\n", encoding="utf-8")
-    print(json.dumps([asdict(row) for row in rows]) if options.json else table(rows))  # noqa: T201
-    return int(any(row.faults for row in rows))
+    with tempfile.TemporaryDirectory() as scratch:
+        place = folder or Path(scratch)
+        place.mkdir(parents=True, exist_ok=True)
+        for name in shapes or catalogue.names():
+            rows.append(measure(catalogue.make(name), place, command))
+            progress(f"{name}: {'; '.join(rows[-1].faults) or 'all figures reached'}")
+    figures = tuple(Figure(row.name, "figures missed", len(row.faults), most=0) for row in rows)
+    columns = (
+        "shape", "exit", "facets", "s", "MB", "sound", "invented %", "shell p95 mm", "shell back mm",
+        "prepared max mm", "turned °", "error/bound", "on exact", "sure %", "sure on exact %", "astray %", "misses",
+    )  # fmt: skip
+    sheet = Sheet("shapes", "Prepared meshes", columns, tuple(map(_cells, rows)))
+    return Report("Prepared meshes", {"shapes": len(rows)}, figures, (), (sheet,))
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def _cells(row: Row) -> tuple[Cell, ...]:
+    shell, result, contact, exact = row.shell, row.result, row.contact, row.exact
+    return (
+        row.name + ("" if row.closed else " (open)"),
+        row.prepared.exit,
+        result and result.facets,
+        row.prepared.seconds,
+        row.prepared.peak_mb,
+        result and ("yes" if result.sound else "no"),
+        shell and 100 * shell.invented,
+        shell and shell.p95_mm,
+        shell and shell.back_mm,
+        result and result.most_mm,
+        result and result.fold_deg,
+        contact and contact.over_bound,
+        exact and exact.over_bound,
+        contact and 100 * contact.sure,
+        exact and 100 * exact.sure,
+        contact and 100 * contact.astray,
+        "; ".join(row.faults),
+    )

@@ -47,27 +47,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Measure the Python runtime.
-
-    Parameters
-    ----------
-    seconds : float
-        Of a 1 kHz sensor on a pseudo-terminal, once on the machine as it is and once beside a busy core; above 1.
-    minutes : float
-        Of 1 kHz samples replayed as fast as possible, above 0.
-    facets : int
-        Of the probe.
-    seed : int
-        Of the replayed samples.
-    progress : callable, optional
-        Told what is being done.
-
-    Raises
-    ------
-    InputError
-        A number is out of its range, or a process of the study failed.
-    """
+    """Measure the Python runtime."""
     if not seconds >= 1 or not minutes > 0:
         raise InputError("give at least 1 second, and a number of minutes above 0.")
     config = example_config(facets)
@@ -96,44 +76,18 @@ def run(
 
 @dataclass(frozen=True, eq=False)
 class Latency:
-    """
-    What one run showed.
+    """What one run showed."""
 
-    Attributes
-    ----------
-    pair : Comparison
-        Frames sent beside contacts given.
-    processor : float
-        Time of the processor that the reading process used for one sample, s, all of its threads together.
-    machine : float
-        99th percentile of how much later than it asked for an idle process was woken meanwhile, s.
-    lost : int
-        Contacts that were not published.
-    """
-
-    pair: Comparison
+    pair: Comparison  # Frames sent beside contacts given
+    # Time of the processor that the reading process used for one sample, s, all of its threads together
     processor: float
+    # 99th percentile of how much later than it asked for an idle process was woken meanwhile, s
     machine: float
-    lost: int
+    lost: int  # Contacts that were not published
 
 
 def latency(folder: Path, seconds: float, *, busy: bool) -> Latency:
-    """
-    Run a bundle on an emulated SRI sensor at 1 kHz.
-
-    Parameters
-    ----------
-    folder : Path
-        With the bundle in ``bundle``; scratch files go beside it.
-    seconds : float
-    busy : bool
-        One more process uses all that it gets of the processor meanwhile.
-
-    Raises
-    ------
-    InputError
-        A process failed.
-    """
+    """Run a bundle on an emulated SRI sensor at 1 kHz."""
     sent, given = folder / "sent.bin", folder / "given.bin"
     with ExitStack() as stack:
         url = stack.enter_context(sensor_process(sent, 1000.0))
@@ -177,18 +131,7 @@ def _child(folder: Path, *arguments: str) -> dict[str, float]:
 
 
 def write_tape(path: Path, config: RuntimeConfig, count: int, seed: int = 0) -> None:
-    """
-    Record samples at 1 kHz, with poses at 100 Hz: touches that come and go while the robot turns.
-
-    Parameters
-    ----------
-    path : Path
-        Must not exist.
-    config : RuntimeConfig
-    count : int
-        Wrenches.
-    seed : int
-    """
+    """Record samples at 1 kHz, with poses at 100 Hz: touches that come and go while the robot turns."""
     rng = np.random.default_rng(seed)
     corners = config.probe.vertices[config.probe.faces]
     devices = (

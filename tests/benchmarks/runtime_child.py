@@ -36,24 +36,7 @@ _STILL = "still://?rpy=0,0,0"
 
 
 def live(folder: Path, url: str, seconds: float, notes: Path) -> dict[str, float]:
-    """
-    Run on a sensor for a time, and note each contact when it is there.
-
-    Parameters
-    ----------
-    folder : Path
-        With the bundle in ``bundle``.
-    url : str
-    seconds : float
-        Counted from the first contact.
-    notes : Path
-        Gets a `GIVEN` for each.
-
-    Raises
-    ------
-    TimeoutError
-        The sensor gives nothing.
-    """
+    """Run on a sensor for a time, and note each contact when it is there."""
     config = RuntimeConfig.load(folder / "bundle")
     lines = folder / "live.jsonl"
     lines.unlink(missing_ok=True)
@@ -77,15 +60,7 @@ def live(folder: Path, url: str, seconds: float, notes: Path) -> dict[str, float
 
 
 def replay(folder: Path, tape: Path) -> dict[str, float]:
-    """
-    Run on a recording as fast as it can be read.
-
-    Parameters
-    ----------
-    folder : Path
-        With the bundle in ``bundle``.
-    tape : Path
-    """
+    """Run on a recording as fast as it can be read."""
     config = RuntimeConfig.load(folder / "bundle")
     address = f"replay://{tape}?speed=step"
     runner: Run

@@ -14,10 +14,17 @@ import sys
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
 
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.session.check import check
 from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.store import Session
+from contactbench.pipeline.study.report import Figure, Report
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _PATIENCE_S = 60.0
 _LATEST_S = 0.05
@@ -25,38 +32,32 @@ _LATEST_S = 0.05
 
 @dataclass(frozen=True)
 class KillReport:
-    """
-    What became of a session whose writer was killed again and again.
-
-    Attributes
-    ----------
-    kills : int
-    acknowledged : int
-        Actions that writers were told are safe.
-    torn : int
-        How often a record was cut off in the middle.
-    problems : tuple of str
-        What was lost or is half there; empty when all is well.
-    """
+    """What became of a session whose writer was killed again and again."""
 
     kills: int
-    acknowledged: int
-    torn: int
-    problems: tuple[str, ...]
+    acknowledged: int  # Actions that writers were told are safe
+    torn: int  # How often a record was cut off in the middle
+    problems: tuple[str, ...]  # What was lost or is half there; empty when all is well
+
+
+def run(kills: int = 200, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+    """Kill a writing process again and again, and look what is left."""
+    if kills < 1:
+        raise InputError("give a number of kills above 0.")
+    progress(f"killing a writer {kills} times")
+    with TemporaryDirectory() as folder:
+        report = kill_writers(Path(folder) / "session", kills, seed=seed)
+    figures = (
+        Figure("session", "actions acknowledged", report.acknowledged, least=1),
+        Figure("session", "lost, or half there", len(report.problems), most=0),
+        Figure("session", "records cut off in the middle", report.torn),
+    )
+    settings = {"kills": kills, "seed": seed}
+    return Report("Sessions whose writer is killed", settings, figures, report.problems)
 
 
 def kill_writers(folder: Path, kills: int, *, seed: int = 0) -> KillReport:
-    """
-    Kill a process that adds to a session at random moments, and check the session after each.
-
-    Parameters
-    ----------
-    folder : path
-        New; it holds the session afterwards.
-    kills : int
-    seed : int
-        Of the moments: up to 50 ms after the first action was acknowledged, one in five before it.
-    """
+    """Kill a process that adds to a session at random moments, and check the session after each."""
     moments = random.Random(seed)  # noqa: S311 moments, no secrets
     Session.create(folder, by="crash").close()
     problems: list[str] = []

@@ -39,41 +39,20 @@ _REAL = Path(__file__).parents[3] / "shared" / "data" / "probes"
 
 @dataclass(frozen=True, eq=False)
 class Shape:
-    """
-    A file to prepare, and what is true of it.
-
-    Attributes
-    ----------
-    name : str
-    file : Mesh or bytes
-        What is written, as binary STL where it is a mesh.
-    outside : Mesh
-        All that can be touched: touches are drawn on it, and the result should lie on it.
-    solid : Mesh or None
-        The closed body behind it, where it is known: contacts on it err as little as they can.
-    closed : bool
-        The file says all about its outside, so nothing need be invented.
-    known : bool
-        `outside` is no more than the outside, and faces out; otherwise it is the file, inner walls and all.
-    suffix : str
-    partly : bool
-        `outside` is only a part of the outside.
-    oriented : bool
-        The file's own facets face out, where they are outside.
-    body : bool
-        Something can be made of it; otherwise it must be refused, in words.
-    """
+    """A file to prepare, and what is true of it."""
 
     name: str
-    file: Mesh | bytes
-    outside: Mesh
+    file: Mesh | bytes  # What is written, as binary STL where it is a mesh
+    outside: Mesh  # All that can be touched: touches are drawn on it, and the result should lie on it
+    # The closed body behind it, where it is known: contacts on it err as little as they can
     solid: Mesh | None
-    closed: bool = True
+    closed: bool = True  # The file says all about its outside, so nothing need be invented
+    # `outside` is no more than the outside, and faces out; otherwise it is the file, inner walls and all
     known: bool = True
     suffix: str = ".stl"
-    partly: bool = False
-    oriented: bool = True
-    body: bool = True
+    partly: bool = False  # `outside` is only a part of the outside
+    oriented: bool = True  # The file's own facets face out, where they are outside
+    body: bool = True  # Something can be made of it; otherwise it must be refused, in words
 
     def write(self, folder: Path) -> Path:
         """Write the file into a folder."""
@@ -127,14 +106,7 @@ def names() -> tuple[str, ...]:
 
 @cache
 def make(name: str) -> Shape:
-    """
-    Make a shape.
-
-    Raises
-    ------
-    KeyError
-        There is none of that name.
-    """
+    """Make a shape."""
     return replace(_SHAPES[name](), name=name)
 
 

@@ -1,19 +1,18 @@
-"""Long trials of the parsers with random and damaged bytes.
-
-Every trial also watches the parser itself: nothing may be raised but its own error, what waits stays
-shorter than a frame, and every byte is accounted for.
-"""
+"""What damage and chance do to protocols: random bytes, and streams with one byte in a hundred damaged."""
 
 from __future__ import annotations
 
 import struct
+import zlib
 from dataclasses import dataclass
 from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.soak_frames import SUBJECTS, Subject
 
+from contactbench.pipeline.devices.protocols import bota, robotiq
+from contactbench.pipeline.devices.protocols.bota import BotaParser
+from contactbench.pipeline.devices.protocols.checksums import crc16_modbus, crc16_x25, sum8
 from contactbench.pipeline.devices.protocols.elfin import (
     ElfinError,
     Question,
@@ -22,15 +21,99 @@ from contactbench.pipeline.devices.protocols.elfin import (
     read_state,
 )
 from contactbench.pipeline.devices.protocols.parser import ProtocolError
+from contactbench.pipeline.devices.protocols.rdt import ATI_TYPICAL, RECORD_BYTES, RdtParser
+from contactbench.pipeline.devices.protocols.robotiq import RobotiqParser
+from contactbench.pipeline.devices.protocols.sri import Layout, SriParser, Trailer
 from contactbench.pipeline.devices.protocols.ur_pose import UrStream
 from contactbench.pipeline.devices.protocols.ur_rtde import Kind, Packet, PacketReader, RtdeError, packet
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
+    from contactbench.pipeline.devices.protocols.parser import SensorParser
     from contactbench.pipeline.devices.sample import WrenchSample
+
+_LAYOUTS = {Trailer.SUM: Layout(Trailer.SUM), Trailer.CRC32: Layout(Trailer.CRC32)}
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """One sensor protocol under trial."""
+
+    parser: Callable[[], SensorParser]  # Makes a fresh parser
+    # Makes an intact frame from its number and 24 bytes of payload (Robotiq takes the first 12)
+    frame: Callable[[int, bytes], bytes]
+    frame_bytes: int  # Length of a frame, and where in it the payload begins
+    payload_at: int  # Length of a frame, and where in it the payload begins
+    payload_bytes: int
+    # A false frame begins at one place in 2 to this power of random bytes; None without a checksum
+    false_bits: int | None
+
+
+def _sri(number: int, payload: bytes, trailer: Trailer) -> bytes:
+    head = struct.pack(">HHH", 0xAA55, _LAYOUTS[trailer].package_length, number & 0xFFFF)
+    if trailer is Trailer.SUM:
+        return head + payload + bytes([sum8(payload)])
+    return head + payload + struct.pack("<I", zlib.crc32(payload))
+
+
+def _sri_sum(number: int, payload: bytes) -> bytes:
+    return _sri(number, payload, Trailer.SUM)
+
+
+def _sri_crc(number: int, payload: bytes) -> bytes:
+    return _sri(number, payload, Trailer.CRC32)
+
+
+def _bota(number: int, payload: bytes) -> bytes:
+    body = bytes(2) + payload + struct.pack("<If", number * 1000 & 0xFFFFFFFF, 31.5)
+    return b"\xaa" + body + struct.pack("<H", crc16_x25(body))
+
+
+def _robotiq(number: int, payload: bytes) -> bytes:  # noqa: ARG001 (the protocol has no number)
+    body = b"\x20\x4e" + payload[:12]
+    return body + struct.pack("<H", crc16_modbus(body))
+
+
+def _rdt(number: int, payload: bytes) -> bytes:
+    return struct.pack(">3I", number & 0xFFFFFFFF, number & 0xFFFFFFFF, 0) + payload
+
+
+SUBJECTS = {
+    "sri": Subject(SriParser, _sri_sum, frame_bytes=31, payload_at=6, payload_bytes=24, false_bits=40),
+    "sri-crc32": Subject(
+        lambda: SriParser(_LAYOUTS[Trailer.CRC32]),
+        _sri_crc,
+        frame_bytes=34,
+        payload_at=6,
+        payload_bytes=24,
+        false_bits=64,
+    ),
+    "bota": Subject(
+        BotaParser, _bota, frame_bytes=bota.FRAME_BYTES, payload_at=3, payload_bytes=24, false_bits=24
+    ),
+    "robotiq": Subject(
+        RobotiqParser,
+        _robotiq,
+        frame_bytes=robotiq.FRAME_BYTES,
+        payload_at=2,
+        payload_bytes=12,
+        false_bits=32,
+    ),
+    "rdt": Subject(
+        lambda: RdtParser(ATI_TYPICAL),
+        _rdt,
+        frame_bytes=RECORD_BYTES,
+        payload_at=12,
+        payload_bytes=24,
+        false_bits=None,
+    ),
+}
+
 
 ROBOTS = ("elfin", "ur")
 PROTOCOLS = (*SUBJECTS, *ROBOTS)
@@ -64,6 +147,8 @@ _FRAGMENTS = {
 _LONGEST_CHUNK = 300
 _BLOCK = 1 << 16
 _PAUSE = 1e-3
+_RECOVERED = 0.95
+_SIGMAS = 5.0  # how far above the chance expected false frames may be
 
 
 class SoakError(AssertionError):
@@ -72,79 +157,62 @@ class SoakError(AssertionError):
 
 @dataclass(frozen=True, slots=True)
 class SoakReport:
-    """
-    What came of random bytes.
-
-    Attributes
-    ----------
-    protocol : str
-    bytes_fed : int
-    false_frames : int
-        Frames found; nothing in the bytes was one.
-    expected : float or None
-        How many chance makes; None where there is no checksum.
-    refusals : int
-        Errors of the parser's own kind (robots only: there, what is found is often made of true pieces).
-    seconds : float
-        Time in the parser.
-    """
+    """What came of random bytes."""
 
     protocol: str
     bytes_fed: int
-    false_frames: int
-    expected: float | None
+    false_frames: int  # Frames found; nothing in the bytes was one
+    expected: float | None  # How many chance makes; None where there is no checksum
+    # Errors of the parser's own kind (robots only: there, what is found is often made of true pieces)
     refusals: int
-    seconds: float
+    seconds: float  # Time in the parser
 
 
 @dataclass(frozen=True, slots=True)
 class DamageReport:
-    """
-    What came of a stream with damaged bytes.
-
-    Attributes
-    ----------
-    protocol : str
-    frames : int
-        Frames sent.
-    intact : int
-        Of them without a damaged byte.
-    recovered : int
-        Intact frames whose samples came out.
-    false_frames : int
-        Samples with a payload that was never sent.
-    seconds : float
-        Time in the parser.
-    """
+    """What came of a stream with damaged bytes."""
 
     protocol: str
-    frames: int
-    intact: int
-    recovered: int
-    false_frames: int
-    seconds: float
+    frames: int  # Frames sent
+    intact: int  # Of them without a damaged byte
+    recovered: int  # Intact frames whose samples came out
+    false_frames: int  # Samples with a payload that was never sent
+    seconds: float  # Time in the parser
+
+
+def run(
+    count: int = 10_000_000,
+    frames: int = 50_000,
+    *,
+    seed: int = 0,
+    progress: Callable[[str], None] = lambda _: None,
+) -> Report:
+    """Feed each parser random bytes, and a stream with one byte in a hundred damaged."""
+    if count < 1 or frames < 1:
+        raise InputError("give numbers of bytes and frames above 0.")
+    figures = []
+    for protocol in PROTOCOLS:
+        progress(f"{protocol}: {count:,} random bytes")
+        chance = soak(protocol, count, seed)
+        expected = chance.expected
+        most = None if expected is None else expected + _SIGMAS * max(expected, 1e-3) ** 0.5
+        figures += [
+            Figure(protocol, "false frames in random bytes", chance.false_frames, most=most),
+            Figure(protocol, "speed", chance.bytes_fed / max(chance.seconds, 1e-9) / 1e6, "MB/s"),
+        ]
+        if expected is None:
+            continue
+        progress(f"{protocol}: {frames:,} frames, 1 % of the bytes damaged")
+        hurt = damage(protocol, frames, seed)
+        share = hurt.recovered / max(hurt.intact, 1)
+        figures.append(Figure(protocol, "intact frames recovered", share, least=_RECOVERED))
+    notes = ("False frames: chance makes as many as the checksum lets through; SRI's sum is one byte.",)
+    settings = {"bytes": count, "frames": frames, "seed": seed}
+    return Report("Protocols under damage", settings, tuple(figures), notes)
 
 
 def soak(protocol: str, count: int, seed: int) -> SoakReport:
-    """
-    Feed random bytes, cut at random; for robots, mixed with pieces of the protocol.
-
-    Parameters
-    ----------
-    protocol : str
-        One of `PROTOCOLS`. RDT takes each cut as a datagram: every one of the right length is a record.
-    count : int
-        Bytes.
-    seed : int
-        The same seed, the same bytes.
-
-    Raises
-    ------
-    ProtocolError
-        There is no such protocol.
-    SoakError
-        The parser broke a promise.
-    """
+    """Feed random bytes, cut at random; for robots, mixed with pieces of the protocol."""
     rng = np.random.default_rng(seed)
     if protocol in SUBJECTS:
         return _soak_sensor(protocol, SUBJECTS[protocol], count, rng)
@@ -155,27 +223,7 @@ def soak(protocol: str, count: int, seed: int) -> SoakReport:
 
 
 def damage(protocol: str, frames: int, seed: int, *, share: float = 0.01) -> DamageReport:
-    """
-    Feed a stream of frames, a share of its bytes damaged, cut at random.
-
-    Parameters
-    ----------
-    protocol : str
-        A sensor's: a key of `SUBJECTS`.
-    frames : int
-        How many.
-    seed : int
-        The same seed, the same bytes.
-    share : float
-        Of the bytes, 0 to 1; each gets another value.
-
-    Raises
-    ------
-    ProtocolError
-        There is no such sensor protocol.
-    SoakError
-        The parser broke a promise.
-    """
+    """Feed a stream of frames, a share of its bytes damaged, cut at random."""
     if protocol not in SUBJECTS:
         raise ProtocolError(f"soak: there is no sensor protocol {protocol!r}; known: {', '.join(SUBJECTS)}.")
     subject, rng = SUBJECTS[protocol], np.random.default_rng(seed)

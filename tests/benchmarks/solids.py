@@ -99,18 +99,7 @@ def levels(*stops: float, step: float = np.inf) -> Floats:
 
 
 def cells(axes: Sequence[Floats], filled: Bools, *, around: bool = False) -> Mesh:
-    """
-    Skin the filled cells of a grid.
-
-    Parameters
-    ----------
-    axes : three of (n,) ascending
-        Where the grid's planes are.
-    filled : (nx, ny, nz) bool
-        One a cell. Filled cells that meet only along an edge make that edge one of four facets.
-    around : bool
-        The first axis goes round and meets itself.
-    """
+    """Skin the filled cells of a grid."""
     shape = filled.shape
     padded = np.zeros(np.add(shape, 2), bool)
     padded[1:-1, 1:-1, 1:-1] = filled
@@ -189,15 +178,7 @@ def rolled_up(mesh: Mesh) -> Mesh:
 
 
 def lathe(profile: Sequence[tuple[float, float]], sides: int = 72) -> Mesh:
-    """
-    Turn a closed outline round z.
-
-    Parameters
-    ----------
-    profile : (radius, height) mm
-        Counter-clockwise with the radius to the right: outside is on the right of the way. Where it begins and ends
-        on the axis it is closed by that.
-    """
+    """Turn a closed outline round z."""
     points = np.asarray(profile, float)
     angles = 2 * np.pi * np.arange(sides) / sides
     rings = points[None, :, :].repeat(sides, 0)

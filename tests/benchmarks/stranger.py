@@ -65,36 +65,16 @@ def read_prepared(path: Path) -> Prepared:
 
 @dataclass(frozen=True)
 class Seen:
-    """
-    What is wrong with a mesh; all 0 of one that is sound, except `parts` and `touching`.
+    """What is wrong with a mesh; all 0 of one that is sound, except `parts` and `touching`."""
 
-    Attributes
-    ----------
-    open_edges : int
-        With one facet only.
-    bad_edges : int
-        With more than two facets, or with two that run the same way.
-    bad_vertices : int
-        Whose facets are more than one fan.
-    parts : int
-    inward : int
-        Parts of no volume above 0.
-    buried : int
-        Parts inside another.
-    crossing : int
-        Pairs of facets that pass through or lie on each other.
-    touching : int
-        Pairs that only touch beyond what they share.
-    """
-
-    open_edges: int
-    bad_edges: int
-    bad_vertices: int
+    open_edges: int  # With one facet only
+    bad_edges: int  # With more than two facets, or with two that run the same way
+    bad_vertices: int  # Whose facets are more than one fan
     parts: int
-    inward: int
-    buried: int
-    crossing: int
-    touching: int
+    inward: int  # Parts of no volume above 0
+    buried: int  # Parts inside another
+    crossing: int  # Pairs of facets that pass through or lie on each other
+    touching: int  # Pairs that only touch beyond what they share
 
     @property
     def sound(self) -> bool:
@@ -194,16 +174,7 @@ def _split_vertices(faces: Longs, edge: Longs) -> int:
 
 
 def crossings(mesh: Mesh) -> tuple[Longs, Longs]:
-    """
-    Find facets that share more than they should, with no rounding anywhere.
-
-    Returns
-    -------
-    crossing : (k, 2)
-        Pairs that pass through each other, or overlap in one plane.
-    touching : (l, 2)
-        Pairs that touch beyond the vertices they share.
-    """
+    """Find facets that share more than they should, with no rounding anywhere."""
     pairs = _near(mesh)
     pairs = pairs[~_surely_apart(mesh, pairs)]
     points = _whole(mesh.vertices)
@@ -418,10 +389,6 @@ def normal_deviations(result: Mesh, original: Mesh, *, points: int = 300_000) ->
 
     Near is three times as far as the nearest of them, and a thousandth of the size at least: at a sharp edge both its
     sides count, so only what is turned against all of them stands out.
-
-    Returns
-    -------
-    (m,) degrees
     """
     rng = np.random.default_rng(0)
     drawn, facet = sample(original, points, rng)

@@ -5,7 +5,6 @@ from collections import Counter
 from dataclasses import replace
 
 import pytest
-from benchmarks import control_safety
 from benchmarks.control_safety import OVER, SPREAD, draw, report_of, run, run_start
 
 from contactbench.pipeline.control.faults import FaultKind
@@ -49,16 +48,6 @@ def test_what_is_not_safe_is_said():
         report = report_of([wrong], {})
         assert not report.passed
         assert any("Not safe" in note for note in report.notes)
-
-
-def test_ends_that_are_kept_are_not_run_again(tmp_path, monkeypatch):
-    file = tmp_path / "ends.jsonl"
-    once = run(2, workers=1, kept=file)
-    file.write_text(file.read_text(encoding="utf-8") + '{"code": "cut', encoding="utf-8")
-    monkeypatch.setattr(control_safety, "run_start", None)
-    assert run(2, workers=1, kept=file) == once
-    with pytest.raises(TypeError):
-        run(2, workers=1, seed=1, kept=file)  # other starts: they are to be run
 
 
 @pytest.mark.parametrize("runs", [0, -1, 10**9])

@@ -60,11 +60,8 @@ def test_the_command_judges_every_mistake(monkeypatch, benchmark):
     ran = benchmark("mistakes", "--trials", 2, "--json")
     assert ran.exit_code == 0, ran.stderr
     report = json.loads(ran.stdout)
-    assert [figure["question"] for figure in report["figures"]] == [
-        "no mistake",
-        "transposed",
-        "random readings",
-    ]
+    subjects = dict.fromkeys(figure["subject"] for figure in report["figures"])
+    assert list(subjects) == ["no mistake", "transposed", "random readings"]
     assert report["passed"]
 
 

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from benchmarks.preparation import alignment, peak, regions, shapes, shell
 from benchmarks.preparation import simplify as simplification
-from benchmarks.preparation.housing import WALL, housing
+from benchmarks.preparation.regions import distance_errors
 from benchmarks.preparation.rivals import Rival
-from benchmarks.preparation.surface_distance import distance_errors
+from benchmarks.preparation.shell import WALL, housing
 
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.kernel import Geodesic
@@ -33,38 +33,6 @@ def named(figures, text: str) -> Figure:
 # ---- shapes --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("random", [False, True])
-def test_the_sphere_is_closed_and_outward(random):
-    probe = shapes.Probe.from_arrays(
-        *shapes.sphere(600, np.random.default_rng(0) if random else None), check_size=False
-    )
-    assert probe.health.sentences == ()
-    assert len(probe.faces) == pytest.approx(600, rel=0.01)
-
-
-def test_the_bumpy_sphere_is_sound_and_bumpy():
-    probe = shapes.bumpy_sphere(2_000)
-    assert probe.health.sentences == ()
-    radius = np.linalg.norm(probe.vertices, axis=1)
-    assert np.ptp(radius) > 0.002
-    assert probe.size == pytest.approx(0.08, rel=0.1)
-
-
-def test_the_cylinder_has_all_its_side_and_no_caps():
-    vertices, faces = shapes.cylinder(4_000, np.random.default_rng(1))
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    cross = np.cross(b - a, c - a)
-    assert np.linalg.norm(cross, axis=1).sum() / 2 == pytest.approx(2 * np.pi * 4, rel=0.03)
-    outwards = np.einsum("ij,ij->i", cross[:, :2], (a + b + c)[:, :2])
-    assert (outwards > 0).mean() > 0.99
-
-
-def test_the_painted_part_has_its_share_and_hangs_together():
-    probe = shapes.painted(shapes.bundled("convex", SMALL), 0.1, np.random.default_rng(2))
-    share = probe.areas[probe.region == 1].sum() / probe.areas.sum()
-    assert share == pytest.approx(0.1, abs=0.005)
-
-
 def test_a_housing_is_hollow_and_open_at_the_flange():
     hollow, outside = housing("linear", 3_000)
     assert hollow.health.watertight
@@ -82,30 +50,10 @@ def test_a_housing_is_hollow_and_open_at_the_flange():
 # ---- simplification ------------------------------------------------------------------------------
 
 
-def test_a_bare_rival_gives_what_the_library_gives(tmp_path):
-    probe = shapes.bundled("t-shape", SMALL)
-    with Rival("fast-simplification", tmp_path) as rival:
-        made = rival.simplify(1e3 * probe.vertices, probe.faces, 500)
-        again = rival.simplify(1e3 * probe.vertices, probe.faces, 500)
-    assert len(made.faces) == pytest.approx(500, abs=2)
-    assert made.seconds > 0
-    assert np.array_equal(made.vertices, again.vertices)
-    assert np.abs(made.vertices).max() > 50  # in the unit given
-    assert rival._child.poll() is not None
-
-
 def test_a_rival_that_is_missing_or_dies_is_an_error(tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "executable", "/bin/false")
     with pytest.raises(InputError, match="pymeshlab is not installed"):
         Rival("pymeshlab", tmp_path)
-
-
-def test_a_rival_that_dies_at_work_is_an_error(tmp_path):
-    with Rival("fast-simplification", tmp_path) as rival:
-        rival._child.kill()
-        rival._child.wait()
-        with pytest.raises(InputError, match="ended its process"):
-            rival.simplify(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), 1)
 
 
 def test_the_simplification_study_in_short():
@@ -150,11 +98,6 @@ def test_peak_memory_grows_with_the_mesh(tmp_path):
     assert large.memory - small.memory > more
 
 
-def test_a_failed_measurement_of_memory_is_an_error(tmp_path):
-    with pytest.raises(InputError, match="leave --memory out"):
-        peak.measure_peak(10, 5, tmp_path)
-
-
 # ---- regions -------------------------------------------------------------------------------------
 
 
@@ -185,7 +128,7 @@ def test_wrong_distances_are_seen(monkeypatch):
             there, distance = self._inner.around(face, point, limit)
             return there, 1.03 * distance
 
-    monkeypatch.setattr("benchmarks.preparation.surface_distance.Geodesic", Longer)
+    monkeypatch.setattr("benchmarks.preparation.regions.Geodesic", Longer)
     for _, errors in distance_errors(np.random.default_rng(5), 2_000):
         assert not Figure.of("", "", errors, most=0.02, judged="worst").passed
 
@@ -203,15 +146,6 @@ def test_an_undo_that_leaves_something_is_counted(monkeypatch):
 
     monkeypatch.setattr(regions.RegionModel, "undo", forgetful)
     assert regions._undo(graph, 12, rng).measured > 0
-
-
-def test_a_stroke_wanders_on_the_surface_in_steps():
-    graph = FacetGraph(shapes.bundled("linear", 2_000))
-    faces, points = regions.wander(graph, np.random.default_rng(0))
-    assert len(faces) == 20
-    assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() < 0.0075
-    distance, _, _ = graph.index.closest(points)
-    assert distance.max() < 1e-12
 
 
 # ---- alignment -----------------------------------------------------------------------------------
@@ -235,16 +169,6 @@ def test_a_fit_that_stays_where_it_was_misses(monkeypatch):
     figures = alignment._errors("linear", 5, [0])
     assert not named(figures, "fitted mount").passed
     assert not named(figures, "ellipsoid").passed
-
-
-def test_a_mount_off_by_nothing_has_the_true_mount_s_errors():
-    rng = np.random.default_rng(8)
-    setup = alignment.draw_setup("convex", rng, 0.0, 0.0)
-    assert setup.T_before == pytest.approx(setup.T_true, abs=1e-15)
-    far = alignment.draw_setup("convex", rng)
-    off = far.T_before @ np.linalg.inv(far.T_true)
-    assert np.linalg.norm(off[:3, 3]) == pytest.approx(0.002)
-    assert np.degrees(np.arccos((np.trace(off[:3, :3]) - 1) / 2)) == pytest.approx(1.5)
 
 
 @pytest.mark.parametrize(
@@ -309,16 +233,6 @@ def test_an_opening_left_open_misses(hollow):
     made = shell.make_shell(case.probe, Closing.OPEN, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
     assert not named(shell._openings(case, made), "left open").passed
     assert named(shell._openings(replace(case, openings=None), made), "left open").passed
-
-
-def test_a_wrap_has_its_distances_and_no_inner_hits(hollow, monkeypatch):
-    case, _ = hollow
-    monkeypatch.setattr("contactbench.pipeline.mesh.shell.shell.find_outside", lambda *_, **__: None)
-    made = shell.make_shell(case.probe, alpha=case.probe.size / 60, coarse=case.probe.size / 30)
-    assert made.how == "wrapped"
-    figures = shell._fit(case, made, np.random.default_rng(0))
-    assert named(figures, "inner hits").measured == 0
-    assert not named(figures, "visible outside to shell, 95 %").passed
 
 
 def test_a_file_is_measured_from_the_command_line(tmp_path, benchmark):

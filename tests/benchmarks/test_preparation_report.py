@@ -7,9 +7,7 @@ import json
 
 import numpy as np
 import pytest
-from benchmarks import mesh_fuzz
-from benchmarks.__main__ import BENCHMARKS, PROGRAMS
-from benchmarks.preparation.fuzz import summarise
+from benchmarks.__main__ import BENCHMARKS
 from rich.console import Console
 
 from contactbench.pipeline.study.report import Figure, Report
@@ -84,38 +82,14 @@ def test_a_report_is_a_table_and_plain_data():
     assert len({row.replace("\\|", "").count("|") for row in rows if row.startswith("|")}) == 1
 
 
-def test_a_fuzz_report_fails_by_a_failure_or_a_missing_file():
-    sound = mesh_fuzz.FuzzReport(3, 1)
-    sound.valid[".stl"], sound.refused[".ply"] = 1, 2
-    assert summarise(sound).passed
-    assert any(figure.subject == ".ply" and figure.measured == 2 for figure in summarise(sound).figures)
-    lost = mesh_fuzz.FuzzReport(4, 1)
-    lost.valid[".stl"] = 3
-    assert not summarise(lost).passed
-    sound.failures.append(mesh_fuzz.Failure(2, ".ply", "cut short", "it hangs"))
-    judged = summarise(sound)
-    assert not judged.passed
-    assert any("Case 2 (.ply, cut short): it hangs." in note for note in judged.notes)
-
-
 # ---- the command line ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", [*BENCHMARKS, *PROGRAMS])
+@pytest.mark.parametrize("name", [*BENCHMARKS])
 def test_every_benchmark_has_help(name, benchmark):
     ran = benchmark(name, "--help")
     assert ran.exit_code == 0
     assert "--json" in ran.stdout
-
-
-def test_the_fuzz_command_reads_files_and_prints_figures(tmp_path, benchmark):
-    out = tmp_path / "fuzz.md"
-    ran = benchmark("mesh-fuzz", "--count", 12, "--seed", 4, "--json", "--write", out)
-    assert ran.exit_code == 0
-    data = json.loads(ran.stdout)
-    assert data["passed"] is True
-    assert data["figures"][0]["measured"] == 12
-    assert out.read_text(encoding="utf-8").startswith("Hostile mesh files: files 12, seed 4")
 
 
 def test_a_missed_target_is_exit_code_1(monkeypatch, benchmark):

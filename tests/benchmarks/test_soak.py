@@ -1,12 +1,16 @@
-"""Short runs of the long trials."""
+"""Short runs of the trials of protocols and sessions."""
 
 from __future__ import annotations
 
+import json
+
 import pytest
-from benchmarks.soak import PROTOCOLS, damage, soak
-from benchmarks.soak_frames import SUBJECTS
+from benchmarks import session_crash
+from benchmarks import soak as soaking
+from benchmarks.soak import PROTOCOLS, SUBJECTS, damage, soak
 
 from contactbench.pipeline.devices.protocols import ProtocolError
+from contactbench.pipeline.errors import InputError
 
 _CHECKED = [name for name, subject in SUBJECTS.items() if subject.false_bits is not None]
 
@@ -46,3 +50,22 @@ def test_an_unknown_protocol_is_refused() -> None:
         soak("x", 1, 0)
     with pytest.raises(ProtocolError, match="there is no sensor protocol 'elfin'"):
         damage("elfin", 1, 0)
+
+
+def test_the_command_prints_one_object(benchmark) -> None:
+    result = benchmark("protocols", "--count", 20000, "--frames", 200, "--json")
+    assert result.exit_code == 0, result.stderr
+    report = json.loads(result.stdout)
+    assert {figure["subject"] for figure in report["figures"]} == set(PROTOCOLS)
+
+
+def test_a_killed_writer_loses_nothing() -> None:
+    report = session_crash.run(3, seed=2)
+    assert report.passed
+    assert report.figures[0].measured > 0
+
+
+def test_nonsense_is_refused() -> None:
+    for run in (soaking.run, session_crash.run):
+        with pytest.raises(InputError):
+            run(0)

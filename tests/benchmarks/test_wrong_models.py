@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from benchmarks import calibration_doubt as study
 from benchmarks import wrong_models as wrong
-from benchmarks.gravity import Figure, GravityReport
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
@@ -38,16 +37,6 @@ def test_a_clean_session_reads_bias_and_weight(plan):
     assert (np.diff(session.times) >= 10).all()
 
 
-def test_gravity_points_where_it_is_said_to():
-    down = np.array([0.6, 0.0, 0.8])
-    session = drawn(down_W=down, plan="cone")
-    g = session.truth[:3]
-    assert g @ down > 0.999 * np.linalg.norm(g)
-    # A probe on an arm points down, within the cone.
-    assert (session.R_WS[:, :, 2] @ down > np.cos(np.radians(101))).all()
-    assert session.contact_error(session.truth, down) < 1e-12
-
-
 def test_the_bound_is_the_information_of_the_readings():
     session = drawn(force_noise=(0.03, 0.03), torque_noise=(0.001, 0.001), orientation_deg=0.2)
     information = np.zeros((12, 12))
@@ -65,13 +54,6 @@ def test_the_bound_is_the_information_of_the_readings():
         V = np.diag(session.sigmas**2) + np.radians(0.2) ** 2 * turned @ turned.T
         information += J.T @ np.linalg.inv(V) @ J
     assert np.allclose(session.bound(), np.linalg.inv(information), rtol=1e-5)
-
-
-def test_a_bias_that_is_off_moves_the_contact():
-    session = drawn()
-    off = session.truth.copy()
-    off[10] += 0.01  # 10 mN·m on 10 N: 1 mm, and more where the force leans
-    assert 0.001 < session.contact_error(off) < 0.0016
 
 
 def test_drift_is_over_at_the_end():
@@ -97,13 +79,6 @@ def test_a_rezero_is_before_the_pose_that_is_named():
     assert wrong.rezero(session, np.random.default_rng(1)).rezeroed[0] == 5
 
 
-def test_orientations_are_off_by_what_is_said():
-    session = drawn(5, poses=(400, 400), orientation_deg=0.2)
-    off = Rotation.from_matrix(session.true_R_WS.transpose(0, 2, 1) @ session.R_WS).as_rotvec()
-    assert np.degrees(off.std()) == pytest.approx(0.2, rel=0.1)
-    assert session.orientation_sigma == pytest.approx(np.radians(0.2))
-
-
 def test_a_turned_mount_is_right_for_who_knows_it():
     session = wrong.turned_mount(drawn(6), np.random.default_rng(1), deg=5.0)
     assert np.allclose(session.R_WS @ session.R_FS, session.true_R_WS)
@@ -125,18 +100,6 @@ def test_a_cable_pulls_with_the_force_that_is_said(fault):
     assert (session.contact_error(session.truth) > 0.001) == (fault is not wrong.hysteresis)
     in_world = np.einsum("nij,nj->ni", clean.true_R_WS, added)
     assert np.allclose(in_world, in_world[0]) == (fault is wrong.side_pull)
-
-
-def test_bumps_and_channels():
-    clean, rng = drawn(8), np.random.default_rng(1)
-    session = wrong.bump(clean, rng, count=3)
-    assert session.bumped.sum() == 3
-    assert ((np.abs(session.wrenches - clean.wrenches) > 1e-3).any(axis=1) == session.bumped).all()
-    scaled = wrong.scale(clean, rng, by=-1.0, channel=4)
-    assert np.allclose(scaled.wrenches[:, 4], -clean.wrenches[:, 4])
-    swapped = wrong.swap(clean, rng, channels=(0, 2))
-    assert np.allclose(swapped.wrenches[:, [2, 1, 0]], clean.wrenches[:, :3])
-    assert scaled.contact_error(clean.truth) > 0.001
 
 
 # ---- the study ---------------------------------------------------------------------------------
@@ -186,14 +149,14 @@ def trial(**facts) -> study.Trial:
 def test_measures_count_what_they_say(measure, hits, misses):
     _, of = study.MEASURES[measure]
     for facts, share in [*((hit, 100) for hit in hits), *((miss, 0) for miss in misses)]:
-        assert of(cell("re-zero 0.3 N, 10 mN·m, noise given"), [trial(**facts)])[0] == share
+        assert of(cell("re-zero 0.3 N, 10 mN·m, noise given"), [trial(**facts)], "").measured == share
 
 
 def test_drift_is_told_and_clean_sets_are_left_alone():
     told = study.figures_of(*tried("drift 0.3 N, 10 mN·m, 10 poses, noise given", 40))
-    assert told[0].measured.startswith(("95", "97.5", "100"))
+    assert told[0].measured >= 95
     clean = study.figures_of(*tried("clean, robot's orientations, noise given", 40))
-    assert float(clean[0].measured.split()[0]) <= 5.0
+    assert clean[0].measured <= 5.0
 
 
 def tried(words: str, sets: int) -> tuple[study.Cell, list[study.Trial]]:
@@ -214,7 +177,7 @@ def test_a_calibration_that_lies_misses(monkeypatch):
         monkeypatch.setattr(study, "calibrate", calibrate)
         figures = study.figures_of(*tried(words, 20))
         for question in questions[: 3 if not passed else 1]:
-            assert [f.passed for f in figures if f.question == f"{words}: {question}"] == [passed]
+            assert [f.passed for f in figures if f.name == question] == [passed]
 
 
 def test_sessions_do_not_depend_on_the_number_of_workers():
@@ -231,16 +194,11 @@ def test_wrong_arguments_are_refused(wrong_one, words):
         study.run(**wrong_one)
 
 
-@pytest.mark.parametrize("passed", [True, False])
-def test_the_command_tells_by_its_exit_code(monkeypatch, passed, benchmark):
-    asked = {}
-
-    def run(*, sets: int = 1, seed: int = 0, cells: str = "") -> GravityReport:
-        asked.update(sets=sets, seed=seed, cells=cells)
-        return GravityReport(25, 3, (Figure("is it?", "yes", "no", passed),))
-
-    monkeypatch.setattr(study, "run", run)
-    result = benchmark("calibration-doubt", "--sets", 25, "--seed", 3, "--cells", "drift", "--json")
-    assert result.exit_code == (0 if passed else 1)
-    assert json.loads(result.stdout)["passed"] is passed
-    assert (asked["sets"], asked["seed"], asked["cells"]) == (25, 3, "drift")
+def test_the_command_takes_its_options(benchmark):
+    result = benchmark(
+        "calibration-doubt", "--sets", 20, "--seed", 3, "--cells", "times 2", "--workers", 1, "--json"
+    )
+    report = json.loads(result.stdout)
+    assert result.exit_code == (0 if report["passed"] else 1)
+    assert report["settings"] == {"sets": 20, "seed": 3}
+    assert {figure["subject"] for figure in report["figures"]} == {"noise given times 2"}

@@ -7,9 +7,8 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.gravity import Figure, GravityReport
+from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
-from scipy.stats import beta
 
 from contactbench import assets
 from contactbench.pipeline.calibration import GravityModel, calibrate
@@ -20,6 +19,7 @@ from contactbench.pipeline.simulation import add_noise
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers as bundled_markers
 from contactbench.pipeline.simulation.weighing import draw_weighing
+from contactbench.pipeline.study.report import Figure, Report
 from contactbench.pipeline.verification.figures import Cause
 from contactbench.pipeline.verification.markers import make_markers
 from contactbench.pipeline.verification.source import TouchRecording
@@ -58,23 +58,11 @@ _EVERY, _AWAY_M = 4, (0.0015, 0.003)
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """
-    What is verified, with one thing wrong.
+    """What is verified, with one thing wrong."""
 
-    Attributes
-    ----------
-    probe : Probe
-        What the program is told.
-    markers : MarkerSet
-        In S as the program is told.
-    model : GravityModel
-        What the program is told.
-    recording : TouchRecording
-    """
-
-    probe: Probe
-    markers: MarkerSet
-    model: GravityModel
+    probe: Probe  # What the program is told
+    markers: MarkerSet  # In S as the program is told
+    model: GravityModel  # What the program is told
     recording: TouchRecording
 
     def verified(self, settings: VerifySettings | None = None) -> Verification:
@@ -88,25 +76,8 @@ class Bench:
         return verify(self.probe, self.model, self.markers, self.recording, stated)
 
 
-def run(
-    *, trials: int = 1000, seed: int = 0, progress: Callable[[str], None] = lambda _: None
-) -> GravityReport:
-    """
-    Measure every figure.
-
-    Parameters
-    ----------
-    trials : int
-        Of each figure, at least 20.
-    seed : int
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+def run(*, trials: int = 1000, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> Report:
+    """Measure every figure."""
     if trials < 20 or seed < 0:
         raise InputError(f"{trials} trials, seed {seed}: give at least 20 trials and a seed of at least 0.")
     progress("intervals of bias and scatter")
@@ -116,7 +87,7 @@ def run(
     for cause in Cause:
         progress(f"diagnosis: {cause}")
         figures.append(naming(cause, -(-trials // len(Cause)), seed))
-    return GravityReport(trials, seed, tuple(figures))
+    return Report("Verification", {"trials": trials, "seed": seed}, tuple(figures))
 
 
 def coverage(trials: int, seed: int) -> tuple[Figure, ...]:
@@ -298,13 +269,6 @@ def _coverage(question: str, held: NDArray[np.bool_]) -> tuple[Figure, ...]:
 
 
 def _figure(question: str, hits: int, trials: int) -> Figure:
-    """Return a share with its own 95 % interval (Clopper-Pearson); it passes where 95 % is not excluded."""
-    low = float(beta.ppf(0.025, hits, trials - hits + 1)) if hits else 0.0
-    high = float(beta.ppf(0.975, hits + 1, trials - hits)) if hits < trials else 1.0
-    share = hits / trials
-    return Figure(
-        question,
-        f"{100 * LEVEL:g} %",
-        f"{100 * share:.1f} % of {trials:,} ({100 * low:.1f} to {100 * high:.1f} %)",
-        high >= LEVEL,
-    )
+    """Return a share with its own 95 % interval, judged by its upper end: it fails where 95 % is excluded."""
+    found = share("verification", question, hits, trials, least=100 * LEVEL, judged="worst")
+    return replace(found, worst=found.spread[1] if found.spread else None)

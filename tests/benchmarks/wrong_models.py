@@ -42,51 +42,24 @@ PLANS: tuple[Plan, ...] = ("cube", "random", "cone", "sweep")
 
 @dataclass(frozen=True, eq=False)
 class Session:
-    """Still poses in the order in which they were taken, and the truth behind them.
+    """Still poses in the order in which they were taken, and the truth behind them."""
 
-    Attributes
-    ----------
-    R_WS : (n, 3, 3)
-        Orientations as they are written down.
-    true_R_WS : (n, 3, 3)
-        Orientations of the sensor.
-    wrenches : (n, 6)
-        Mean readings, S, N and N·m.
-    times : (n,)
-        s, from the first pose.
-    sigmas : (6,)
-        True noise of a mean reading, N and N·m.
-    truth : (12,)
-        Weight in W (N), force bias (N), centre of mass in S (m), torque bias (N·m), at the session's end.
-    R_FS : (3, 3)
-        How the sensor is turned in the frame whose orientation is written down.
-    bumped : (n,) bool
-        Poses that something touched.
-    rezeroed : tuple of int
-        Poses, from 0, before which the zero jumped.
-    orientation_sigma : float
-        1 sigma of the written orientations, rad about each axis.
-    pull : callable
-        What a cable adds to the readings (6,) at R_WS (3, 3): it is still there when the probe is used.
-    channels : (6, 6)
-        What the sensor makes of a wrench: the identity, but for wrong gains, signs and swaps.
-    plan : str
-        How the orientations were chosen.
-    """
-
-    R_WS: Floats
-    true_R_WS: Floats
-    wrenches: Floats
-    times: Floats
-    sigmas: Floats
+    R_WS: Floats  # (n, 3, 3). Orientations as they are written down.
+    true_R_WS: Floats  # (n, 3, 3). Orientations of the sensor.
+    wrenches: Floats  # (n, 6). Mean readings, S, N and N·m.
+    times: Floats  # (n,). s, from the first pose.
+    sigmas: Floats  # (6,). True noise of a mean reading, N and N·m.
+    # Weight in W (N), force bias (N), centre of mass in S (m), torque bias (N·m), at the session's end
     truth: Floats
-    R_FS: Floats
-    bumped: Bools
-    rezeroed: tuple[int, ...] = ()
-    orientation_sigma: float = 0.0
+    R_FS: Floats  # (3, 3). How the sensor is turned in the frame whose orientation is written down.
+    bumped: Bools  # (n,) bool. Poses that something touched.
+    rezeroed: tuple[int, ...] = ()  # Poses, from 0, before which the zero jumped
+    orientation_sigma: float = 0.0  # 1 sigma of the written orientations, rad about each axis
+    # What a cable adds to the readings (6,) at R_WS (3, 3): it is still there when the probe is used
     pull: Callable[[Floats], Floats] = lambda _: np.zeros(6)
+    # (6, 6). What the sensor makes of a wrench: the identity, but for wrong gains, signs and swaps.
     channels: Floats = field(default_factory=lambda: np.eye(6))
-    plan: str = ""
+    plan: str = ""  # How the orientations were chosen
 
     def __len__(self) -> int:
         return len(self.times)
@@ -126,15 +99,8 @@ class Session:
         return np.asarray(np.linalg.inv(information), dtype=np.float64)
 
     def contact_error(self, theta: Floats, down_W: Floats = _DOWN) -> float:
-        """Return the largest shift of a contact, m, when readings at the session's end are compensated by `theta`.
-
-        Parameters
-        ----------
-        theta : (12,)
-            Weight in W, force bias, centre of mass, torque bias as the calibration has them, for orientations
-            as they are written down.
-        down_W : (3,)
-            Where the probe points when it is upright.
+        """
+        Return the largest shift of a contact, m, when readings at the session's end are compensated by `theta`.
         """
         worst = 0.0
         for R_WS in _touching(down_W):
@@ -160,25 +126,7 @@ def draw(
     orientation_deg: float = 0.0,
     down_W: Floats = _DOWN,
 ) -> Session:
-    """Draw a tool on a sensor, poses as technicians take them, and what the sensor reads.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-    poses : (low, high)
-        How many, both included.
-    mass : (low, high)
-        kg, uniform.
-    force_noise, torque_noise : (low, high)
-        Of a mean reading per axis, N and N·m, uniform.
-    plan : str, optional
-        Faces of a cube and tilts, any orientation, a cone that an arm reaches, or that cone from upright to
-        its edge; left out: any of these.
-    orientation_deg : float
-        1 sigma of the written orientations about each axis, degrees.
-    down_W : (3,)
-        Direction of gravity in W, of length 1; the base is level to a degree.
-    """
+    """Draw a tool on a sensor, poses as technicians take them, and what the sensor reads."""
     n = int(rng.integers(poses[0], poses[1] + 1))
     plan = plan or PLANS[rng.integers(len(PLANS))]
     leaning = Rotation.from_rotvec(np.radians(rng.normal(0, 0.5, 3)))
@@ -238,16 +186,8 @@ def drift(
     torque: float = 0.01,
     warm_up: float | None = None,
 ) -> Session:
-    """Let the zero creep by `force` N and `torque` N·m from the first pose to the last, each in any direction.
-
-    Parameters
-    ----------
-    session : Session
-    rng : numpy.random.Generator
-    force, torque : float
-        Length of the whole change, N and N·m.
-    warm_up : float, optional
-        Time constant of an exponential over the session's length; left out: the drift is linear.
+    """
+    Let the zero creep by `force` N and `torque` N·m from the first pose to the last, each in any direction.
     """
     run = session.times / session.times[-1]
     left = 1 - run  # of the drift: none at the end

@@ -12,6 +12,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.calibration.stillness import StillnessDetector
 
 FORCE, TORQUE = slice(0, 3), slice(3, 6)
 WHITE = np.repeat([0.05, 0.0014], 3)
@@ -258,3 +259,11 @@ def _drift(rng: np.random.Generator, t: np.ndarray, rate: float) -> np.ndarray:
 def _direction(rng: np.random.Generator) -> np.ndarray:
     v = rng.standard_normal(3)
     return v / np.linalg.norm(v)
+
+
+def find_captures(t, wrenches, settings=None, R_WS=None, model=None):
+    """Return the detector after a whole recording: with its captures, and what it rejected."""
+    detector = StillnessDetector(None, settings, model)
+    detector.update_block(t, wrenches, R_WS)
+    detector.finish()
+    return detector

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from calibration.streams import Recording, stream
+from calibration.streams import Recording, find_captures, stream
 from scipy.spatial.transform import Rotation
 from typer.testing import CliRunner
 
@@ -21,7 +21,6 @@ from contactbench.pipeline.calibration.files.capture_file import (
     read_any_poses,
 )
 from contactbench.pipeline.calibration.files.pose_csv import PoseFileError
-from contactbench.pipeline.calibration.stillness import find_captures
 from contactbench.pipeline.contact.wrench_csv import WrenchFileError
 from contactbench.pipeline.demo.files import write_csv
 from contactbench.pipeline.errors import InputError
@@ -64,7 +63,7 @@ def test_the_poses_lead_to_the_load(recording: Recording, file: Path) -> None:
 
 
 def test_a_file_gives_what_the_arrays_give(recording: Recording, file: Path) -> None:
-    from_file = capture_file(file).report
+    from_file = capture_file(file)
     from_arrays = find_captures(recording.t, recording.wrenches, R_WS=recording.R_WS)
     assert len(from_file.captures) == len(from_arrays.captures)
     for one, other in zip(from_file.captures, from_arrays.captures, strict=True):
@@ -115,12 +114,12 @@ def test_every_stop_is_captured_or_told(seed: int, dwell: float, bumps: float) -
         rows = slice(begin, begin + 999)
         work.update(made.t[rows], made.wrenches[rows], made.R_WS[rows])
     found = work.finish()
-    told = [(each.start, each.stop) for each in (*found.report.captures, *found.report.rejected)]
+    told = [(each.start, each.stop) for each in (*found.captures, *found.rejected)]
     for each in made.dwells:
         assert any(start < each.stop and stop > each.start for start, stop in told), each.start
-    starts = [each.start for each in found.report.rejected]
+    starts = [each.start for each in found.rejected]
     assert starts == sorted(starts)
-    for each in found.report.rejected:
+    for each in found.rejected:
         assert made.t[each.start_index] == pytest.approx(each.start)
         assert made.t[each.stop_index - 1] == pytest.approx(each.stop)
     if dwell == 1.2:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from scipy.special import chdtri
+from scipy.special import chdtri, fdtri
 
 from contactbench.pipeline.calibration import (
     PARAMETERS,
@@ -18,6 +18,8 @@ from contactbench.pipeline.calibration import (
     PoseSample,
 )
 from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.calibration.fit import turn_jacobian
+from contactbench.pipeline.calibration.model import prediction_jacobian
 from contactbench.pipeline.calibration.mount import MountCalibration, estimate_mount
 from contactbench.pipeline.errors import InputError
 
@@ -101,6 +103,27 @@ def square_error(error, covariance):
     return error @ np.linalg.solve(covariance, error)
 
 
+def refused(result):
+    return result.calibration.verdict.level is Level.REFUSE
+
+
+def reasons(result):
+    return result.calibration.verdict.reasons
+
+
+def rotation_ellipsoid(result):
+    """Return d² for 95 %; forces tell most of the rotation."""
+    freedom = result.calibration.noise.freedom[0]
+    return chdtri(3, 0.05) if np.isinf(freedom) else 3 * fdtri(3, freedom, 0.95)
+
+
+def wrench_covariance(result, R_WE):
+    """Return (n, 6, 6) of compensated wrenches, by the joint covariance."""
+    R_SW, theta = result.R_SE @ R_WE.swapaxes(1, 2), result.calibration.model.vector
+    J = np.concatenate([prediction_jacobian(R_SW, theta), turn_jacobian(R_SW, theta)], axis=2)
+    return J @ result.joint_covariance @ J.swapaxes(1, 2)
+
+
 # ---- right ---------------------------------------------------------------------------------------
 
 
@@ -117,23 +140,23 @@ def test_without_noise_everything_is_recovered(seed, known):
 
 def test_errors_are_those_of_the_bound_and_of_the_covariance():
     rng = np.random.default_rng(11)
-    over_bound, turn, joint, deviates, refused = [], [], [], [], 0
+    over_bound, turn, joint, deviates, refusals = [], [], [], [], 0
     for _ in range(150):
         case = set_up(rng)
         result = case.estimate()
         error = case.error(result)
         over_bound.append(error[12:] / np.sqrt(np.diag(case.bound())[12:]))
-        turn.append(square_error(error[12:], result.rotation_covariance) < result.rotation_ellipsoid())
+        turn.append(square_error(error[12:], result.rotation_covariance) < rotation_ellipsoid(result))
         joint.append(square_error(error, result.joint_covariance) < chdtri(15, 0.05))
         deviates += result.calibration.deviates.ravel().tolist()
-        refused += result.refused
+        refusals += refused(result)
     ratio = np.sqrt(np.mean(np.square(over_bound), axis=0))
     # 150 sets: 1 +- 0.06 for a ratio, 0.95 +- 0.018 for a coverage; three times that.
     assert ratio == pytest.approx(np.ones(3), abs=0.18)
     assert 0.89 < np.mean(turn) < 0.99
     assert 0.89 < np.mean(joint) < 0.99
     assert np.mean(np.square(deviates)) == pytest.approx(1, abs=0.1)  # each pose as if it were left out
-    assert refused < 20  # light loads and much noise: more than 1.5 mm at the contact
+    assert refusals < 20  # light loads and much noise: more than 1.5 mm at the contact
 
 
 def test_noise_that_is_estimated_covers_too():
@@ -144,7 +167,7 @@ def test_noise_that_is_estimated_covers_too():
         case = set_up(rng, Rotation.random(int(rng.integers(5, 8)), random_state=rng).as_matrix())
         result = case.estimate(known=False)
         error = case.error(result)
-        turn.append(square_error(error[12:], result.rotation_covariance) < result.rotation_ellipsoid())
+        turn.append(square_error(error[12:], result.rotation_covariance) < rotation_ellipsoid(result))
         joint.append(square_error(error, result.joint_covariance) < result.calibration.ellipsoid() * 15 / 12)
     assert 0.87 < np.mean(turn) <= 1
     assert 0.87 < np.mean(joint) <= 1
@@ -180,10 +203,10 @@ def test_the_base_may_hang_on_a_wall(degrees):
     result = moved.estimate(down_W=turn @ [0, 0, -1.0])
     assert square_error(case.error(result)[12:], result.rotation_covariance) < 16
     assert result.calibration.gravity_W == pytest.approx(turn @ case.model.gravity_W, abs=0.5)
-    assert not result.refused
+    assert not refused(result)
     unsaid = moved.estimate()
-    assert unsaid.refused == (degrees > 60)
-    assert not unsaid.refused or "--down" in unsaid.reasons[0]
+    assert refused(unsaid) == (degrees > 60)
+    assert not refused(unsaid) or "--down" in reasons(unsaid)[0]
 
 
 def test_the_same_poses_give_the_same_answer():
@@ -207,9 +230,8 @@ def test_poses_that_cannot_show_the_mount_are_refused(poses, word, known):
         tilt = 0.0 if poses is spun else 3.0
         case = set_up(rng, poses(rng, int(rng.integers(5, 11))), tilt=tilt)
         result = case.estimate(known=known)
-        assert result.refused
-        assert word in " ".join(result.reasons)
-        assert result.calibration.verdict.reasons == result.reasons
+        assert refused(result)
+        assert word in " ".join(reasons(result))
         assert not result.mounting
         assert result.rotation_sigma_deg > 100
         assert square_error(case.error(result)[12:], result.rotation_covariance) < chdtri(3, 0.001)
@@ -221,8 +243,8 @@ def test_without_weight_no_rotation_is_claimed(known):
     for _ in range(10):
         case = set_up(rng, mass=1e-6)
         result = case.estimate(known=known)
-        assert result.refused
-        assert "weight is too small" in result.reasons[0]
+        assert refused(result)
+        assert "weight is too small" in reasons(result)[0]
         assert result.rotation_covariance == pytest.approx(np.eye(3) * np.pi**2 / 3)
         assert result.calibration.mass == 0
         assert square_error(case.error(result), result.joint_covariance) < 60
@@ -236,7 +258,7 @@ def test_a_weight_that_is_not_felt_is_within_its_uncertainty():
         clean = case.model.predict(case.R_WE @ case.R_SE.T)
         case.wrenches = clean + case.noise.sigmas * rng.standard_normal(clean.shape)
         result = case.estimate()
-        assert "weight is too small" in result.reasons[0]
+        assert "weight is too small" in reasons(result)[0]
         error = case.error(result)
         assert square_error(error[:3], result.joint_covariance[:3, :3]) < chdtri(3, 0.05)
         assert square_error(error, result.joint_covariance) < chdtri(15, 0.001)
@@ -249,16 +271,16 @@ def test_a_light_load_has_a_rotation_too_uncertain_to_use():
     case.noise = PoseNoise(0.08, 0.02)
     case.wrenches = case.model.predict(R_WE @ case.R_SE.T) + case.noise.sigmas * rng.standard_normal((8, 6))
     result = case.estimate()
-    assert result.refused
+    assert refused(result)
     assert result.rotation_sigma_deg > 10
-    assert f"known to {result.rotation_sigma_deg:.1f}°" in result.reasons[0]
+    assert f"known to {result.rotation_sigma_deg:.1f}°" in reasons(result)[0]
 
 
 def test_the_axis_that_is_not_seen_is_named_in_the_flange():
     rng = np.random.default_rng(25)
     R_WE = Rotation.from_euler("x", np.linspace(0, 150, 7)[:, None], degrees=True).as_matrix()
     result = set_up(rng, R_WE, mass=1.0).estimate()
-    assert "(1.00, 0.00, 0.00)" in result.reasons[0]
+    assert "(1.00, 0.00, 0.00)" in reasons(result)[0]
     unseen = result.R_SE[:, 0]
     assert np.sqrt(unseen @ result.rotation_covariance @ unseen) > 1.5
     for seen in (result.R_SE[:, 1], result.R_SE[:, 2]):
@@ -286,7 +308,7 @@ def test_bumped_poses_are_named_and_do_not_bend_the_answer(known):
         false_alarms += len(named - bumped)
         assert np.array_equal(np.flatnonzero(~result.calibration.kept), sorted(named))
         inside.append(
-            square_error(case.error(result)[12:], result.rotation_covariance) < result.rotation_ellipsoid()
+            square_error(case.error(result)[12:], result.rotation_covariance) < rotation_ellipsoid(result)
         )
     assert false_alarms <= 2
     assert np.mean(inside) > 0.8
@@ -301,8 +323,8 @@ def test_a_rotation_that_few_poses_agree_on_is_refused(n, bumped):
     case.wrenches[:bumped] += rng.normal(size=(bumped, 6)) * [5, 5, 5, 0.5, 0.5, 0.5]
     result = case.estimate()
     assert {rejection.index for rejection in result.calibration.rejected} == set(range(bumped))
-    assert result.refused
-    assert f"Only {n - bumped} of {n} poses" in result.reasons[0]
+    assert refused(result)
+    assert f"Only {n - bumped} of {n} poses" in reasons(result)[0]
 
 
 @pytest.mark.parametrize("known", [True, False])
@@ -313,9 +335,9 @@ def test_a_left_handed_frame_and_a_negated_wrench_are_refused_in_words(sign, kno
         case = set_up(rng, mass=1.0)
         case.wrenches *= np.tile(sign, 2)
         result = case.estimate(known=known)
-        assert result.refused
-        assert "left-handed" in " ".join(result.reasons)
-        assert "opposite sign" in " ".join(result.reasons)
+        assert refused(result)
+        assert "left-handed" in " ".join(reasons(result))
+        assert "opposite sign" in " ".join(reasons(result))
 
 
 @pytest.mark.parametrize("known", [True, False])
@@ -324,7 +346,7 @@ def test_orientations_the_wrong_way_round_are_refused(known):
     for _ in range(15):
         case = set_up(rng, mass=1.0)
         case.R_WE = case.R_WE.transpose(0, 2, 1).copy()
-        assert case.estimate(known=known).refused
+        assert refused(case.estimate(known=known))
 
 
 # ---- what is made of it ----------------------------------------------------------------------------
@@ -340,26 +362,18 @@ def test_the_calibration_is_that_of_the_sensor():
         assert pytest.approx(R_WE @ result.R_SE.T, abs=1e-12) == pose.R_WS
     predicted = result.calibration.model.predict([pose.R_WS for pose in result.calibration.poses])
     assert result.calibration.residuals == pytest.approx(case.wrenches - predicted, abs=1e-12)
-    touch = np.array([1.0, -2.0, 3.0, 0.1, 0.2, -0.3])
-    loaded = case.model.predict(TILTED_90 @ case.R_SE.T) + touch
-    found = result.compensate(TILTED_90, loaded)
-    assert square_error(found - touch, result.wrench_covariance(TILTED_90)) < chdtri(6, 1e-3)
-    assert result.compensate(case.R_WE, case.wrenches) == pytest.approx(
-        result.calibration.residuals, abs=1e-12
-    )
 
 
-def test_wrench_covariance_covers_at_orientations_that_were_not_posed():
+def test_the_joint_covariance_covers_at_orientations_that_were_not_posed():
     rng = np.random.default_rng(42)
     inside = []
     for _ in range(60):
         case = set_up(rng, mass=0.5)
         result = case.estimate()
         R_WE = Rotation.random(2, random_state=rng).as_matrix()
-        errors = result.compensate(R_WE, case.model.predict(R_WE @ case.R_SE.T))
-        covariances = result.wrench_covariance(R_WE)
-        assert covariances.shape == (2, 6, 6)
-        assert covariances[1] == pytest.approx(result.wrench_covariance(R_WE[1]), rel=1e-12)
+        read = case.model.predict(R_WE @ case.R_SE.T)
+        errors = result.calibration.model.compensate(R_WE @ result.R_SE.T, read)
+        covariances = wrench_covariance(result, R_WE)
         inside += [square_error(e, C) < chdtri(6, 0.05) for e, C in zip(errors, covariances, strict=True)]
     assert 0.88 < np.mean(inside) < 0.99
 
@@ -368,10 +382,10 @@ def test_the_weight_is_known_where_the_mount_is_not():
     rng = np.random.default_rng(43)
     case = set_up(rng, one_axis(rng), mass=2.0)
     result = case.estimate()
-    at_poses = result.wrench_covariance(case.R_WE)
+    at_poses = wrench_covariance(result, case.R_WE)
     assert result.rotation_sigma_deg > 100
     assert np.sqrt(at_poses[:, range(6), range(6)]).max() < 2 * case.noise.sigmas.max()
-    aside = result.wrench_covariance(TILTED_90 @ case.R_WE[0])
+    (aside,) = wrench_covariance(result, TILTED_90 @ case.R_WE[:1])
     assert np.sqrt(np.diag(aside)[:3].max()) > 1.0  # N
 
 
@@ -381,8 +395,7 @@ def test_contact_error_is_that_of_the_joint_covariance():
     result = case.estimate(task=task)
     S = contact_sensitivity(task.point, task.normal, task.forces)
     worst = 0.0
-    for R_SW in task.orientations:
-        C = result.wrench_covariance(R_SW.T @ result.R_SE)
+    for C in wrench_covariance(result, task.orientations.swapaxes(1, 2) @ result.R_SE):
         worst = max(worst, np.linalg.eigvalsh(S @ C @ S.transpose(0, 2, 1))[:, -1].max())
     assert result.calibration.contact_error == pytest.approx(np.sqrt(worst), rel=1e-9)
     assert result.calibration.task is task
@@ -412,7 +425,7 @@ def test_a_fair_rotation_is_usable_and_says_how_fair():
     result = case.estimate(limits=Limits(good_error=1.0, usable_error=1.0))
     assert 2 < result.rotation_sigma_deg < 10
     assert result.calibration.verdict.level is Level.USABLE
-    assert f"known to {result.rotation_sigma_deg:.1f}°" in result.reasons[0]
+    assert f"known to {result.rotation_sigma_deg:.1f}°" in reasons(result)[0]
     good = set_up(rng, case.R_WE, mass=2.0)
     good.wrenches = good.model.predict(good.R_WE @ good.R_SE.T)
     assert good.estimate().calibration.verdict.level is Level.GOOD
@@ -425,16 +438,8 @@ def test_wrong_input_is_named():
     case = set_up(np.random.default_rng(51), mass=1.0)
     with pytest.raises(PoseError, match="3 poses"):
         estimate_mount(case.poses[:3])
-    for sigma in (-1.0, np.nan, np.inf):
+    for sigma in (-1.0, 0.6, np.nan, np.inf):
         with pytest.raises(InputError, match="orientation_sigma"):
             case.estimate(orientation_sigma=sigma)
     with pytest.raises(InputError, match="down_W"):
         case.estimate(down_W=(0, 0, 0))
-    result = case.estimate()
-    for wrong in (np.eye(2), np.zeros((1, 2, 3, 3)), np.full((3, 3), np.nan), np.ones((3, 3))):
-        with pytest.raises(InputError, match="R_WE"):
-            result.wrench_covariance(wrong)
-        with pytest.raises(InputError, match="R_WE"):
-            result.compensate(wrong, np.zeros(6))
-    with pytest.raises(InputError, match="wrench"):
-        result.compensate(np.eye(3), np.zeros(5))

@@ -6,20 +6,18 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from calibration.streams import MODEL, WHITE, coloured, stream
+from calibration.streams import MODEL, WHITE, find_captures, stream
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contactbench.pipeline.calibration import PoseNoise, calibrate
 from contactbench.pipeline.calibration.poses import PoseError
 from contactbench.pipeline.calibration.stillness import (
-    LimitedBy,
     StillnessDetector,
     StillnessSettings,
     StillState,
-    averaging_time,
-    find_captures,
 )
+from contactbench.pipeline.calibration.stillness.noise import Noise
 from contactbench.pipeline.errors import InputError
 
 RATE = 200.0
@@ -270,7 +268,6 @@ def test_leaving_early_keeps_what_is_long_enough():
     detector, _ = live(t, w, settings=chosen)
     (capture,) = detector.captures
     assert capture.stop <= 5.0
-    assert capture.limited_by in {LimitedBy.MOTION, LimitedBy.FLICKER, LimitedBy.DRIFT}
     too_long = replace(chosen, min_duration=6.0)
     detector, _ = live(t, w, settings=too_long)
     assert not detector.captures
@@ -411,39 +408,20 @@ def test_to_pose():
 # ---- how long to average ---------------------------------------------------------------------------
 
 
-def test_white_noise_needs_what_the_square_root_says():
-    rng = np.random.default_rng(0)
-    samples = rng.standard_normal((60_000, 6)) * WHITE
-    chosen = StillnessSettings(target_force=0.002, target_torque=5.6e-5)
-    advice = averaging_time(samples, RATE, chosen)
-    assert advice.limited_by is LimitedBy.TARGET
-    alone = WHITE / np.sqrt(RATE * advice.duration_s)
-    # 1/f noise cannot be excluded altogether by five minutes.
-    assert (advice.standard_error < 1.4 * alone).all()
-    assert (advice.standard_error > 0.95 * alone).all()
-
-
-@pytest.mark.parametrize("corner", [0.1, 0.5, 2.0])
-def test_the_standard_error_is_that_of_the_means(corner):
-    squares = []
-    for seed in range(10):
-        samples = coloured(np.random.default_rng(seed), 24_000, RATE, WHITE, corner)
-        advice = averaging_time(samples, RATE, StillnessSettings(min_duration=2.0))
-        length = int(RATE * advice.duration_s)
-        means = samples[: len(samples) // length * length].reshape(-1, length, 6).mean(axis=1)
-        squares.append((means**2).mean(axis=0) / advice.standard_error**2)
-    assert np.sqrt(np.mean(squares)) == pytest.approx(1.0, abs=0.2)
-
-
-def test_flicker_and_drift_limit():
-    flicker = coloured(np.random.default_rng(0), 24_000, RATE, WHITE, 2.0)
-    wanted = StillnessSettings(target_force=1e-3, target_torque=3e-5)
-    assert averaging_time(flicker, RATE, wanted).limited_by is LimitedBy.FLICKER
-    t, w = still(60.0)
-    assert averaging_time(w, RATE, wanted).limited_by is LimitedBy.DURATION
-    advice = averaging_time(w + 0.02 * t[:, None] * [1, 0, 0, 0, 0, 0], RATE, wanted)
-    assert advice.limited_by is LimitedBy.DRIFT
-    assert advice.duration_s == wanted.min_duration
+@pytest.mark.parametrize(
+    ("flicker", "walk", "target", "duration"),
+    [
+        (0.0, 0.0, 0.02, 6.25),  # white noise alone: the square root of time
+        (0.0, 0.0, 1e-3, 10.0),  # the longest that is allowed
+        (0.01, 0.0, 1e-3, 1.0),  # 1/f noise hardly averages out
+        (0.0, 0.01, 1e-3, 1.0),  # drift makes a longer mean worse
+        (0.0, 2.5e-5, 1e-3, 5.1),  # until twice the time gains less than a tenth
+    ],
+)
+def test_averaging_lasts_until_the_target_or_while_it_helps(flicker, walk, target, duration):
+    each = np.ones(6)
+    noise = Noise(0.0025 * each, flicker * each, walk * each, 0 * each, 120.0)
+    assert noise.advise(target * each, 1.0, 10.0) == pytest.approx(duration, rel=0.04)
 
 
 # ---- wrong input -----------------------------------------------------------------------------------
@@ -485,7 +463,3 @@ def test_wrong_samples():
         StillnessDetector(0.0)
     with pytest.raises(InputError, match="are the times in s"):
         find_captures(1e3 * still(10.0)[0], still(10.0)[1])
-    with pytest.raises(InputError, match="rate"):
-        averaging_time(w, -1.0)
-    with pytest.raises(InputError, match=r"give 0\.7 s"):
-        averaging_time(w[:50], RATE)

@@ -16,7 +16,8 @@ from contactbench.pipeline.session import Session, SessionError
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.session.replay import Outcome, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe_shell import keep_regions, regions_on, shell_file_of
+from contactbench.pipeline.workbench.probe_shell import shell_file_of
+from contactbench.pipeline.workbench.regions_session import keep, regions_on
 
 USUAL = {"units": "mm", "facets": 300, "engine": "fast-simplification"}
 
@@ -53,7 +54,7 @@ def painted(session, share=0.4):
     height = start.vertices[start.faces].mean(axis=1)[:, 2]
     labels = (height > np.quantile(height, 1 - share)).astype(np.int32)
     regions = RegionSet((Region("Lens", "#009e73"),), labels)
-    keep_regions(session, regions, shell)
+    keep(session, regions, shell)
     return regions, shell
 
 
@@ -179,7 +180,7 @@ def test_desk_and_session_agree_on_the_surface(session):
     try:
         shell = shell_file_of(desk)
         regions = RegionSet((Region("Tip", "#d55e00"),), np.ones(len(shell.probe.faces), dtype=np.int32))
-        record = desk.do(lambda session: keep_regions(session, regions, shell)).result(30)
+        record = desk.do(lambda session: keep(session, regions, shell)).result(30)
         assert set(record.action.companions) == {"painted.ply", "painted.json"}
         assert regions_on(desk, shell)[0].regions == regions.regions
     finally:

@@ -33,8 +33,8 @@ def whole(tmp_path_factory):
     place = tmp_path_factory.mktemp("whole")
     with Session.create(place / "s", by="ada") as session:
         for turn in ("", "2"):
-            (place / f"p{turn}.csv").write_bytes(b"t,fx\n0,1\n" + turn.encode())
-            poses = session.add_input(place / f"p{turn}.csv", "poses", sensor="42").action.file.sha256
+            table = b"t,fx\n0,1\n" + turn.encode()
+            poses = session.add_input(table, "poses", name=f"p{turn}.csv", sensor="42").action.file.sha256
             session.add_result("calibration", f"c{turn}.json", {f"c{turn}.json": b"{}"}, {"poses": poses}, {})
             mesh = session.change_mesh(f"m{turn}.stl", (b"solid" + turn.encode(),)).action.file.sha256
             session.add_result(
@@ -354,10 +354,9 @@ def test_a_file_that_is_lost_makes_stale_what_rests_on_it(folder, tmp_path, wron
     assert not (done.out / ref.path).exists()
     assert ref.path in " ".join(done.found)
     assert "is missing" in check(done.out).problems[0]
-    (tmp_path / "p.csv").write_bytes(content)
     if kind == "raw":  # the original, added again, mends the copy
         with Session.open(done.out) as session:
-            session.add_input(tmp_path / "p.csv", "poses")
+            session.add_input(content, "poses", name="p.csv")
         assert check(done.out).sound
 
 

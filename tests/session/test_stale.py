@@ -15,9 +15,8 @@ def session(tmp_path):
         yield session
 
 
-def add(session, tmp_path, name, content, kind="poses", sensor="42"):
-    (tmp_path / name).write_bytes(content)
-    return session.add_input(tmp_path / name, kind, sensor=sensor).action.file.sha256
+def add(session, name, content, kind="poses", sensor="42"):
+    return session.add_input(content, kind, name=name, sensor=sensor).action.file.sha256
 
 
 def result(session, kind, content, parameters=None, **inputs):
@@ -26,10 +25,10 @@ def result(session, kind, content, parameters=None, **inputs):
 
 
 @pytest.fixture
-def bench(session, tmp_path):
+def bench(session):
     """Poses -> calibration, mesh -> probe, both -> report."""
-    poses = add(session, tmp_path, "poses.csv", b"1")
-    mesh = add(session, tmp_path, "m.stl", b"solid", kind="mesh")
+    poses = add(session, "poses.csv", b"1")
+    mesh = add(session, "m.stl", b"solid", kind="mesh")
     calibration = result(session, "calibration", b"c", {"noise_force": 0.1}, poses=poses)
     probe = result(session, "probe", b"p", mesh=mesh)
     result(session, "report", b"r", calibration=calibration, probe=probe)
@@ -44,17 +43,17 @@ def test_what_was_just_computed_holds(bench):
     assert stale(bench) == {}
 
 
-def test_another_mesh(bench, tmp_path):
-    add(bench, tmp_path, "other.stl", b"other", kind="mesh")
+def test_another_mesh(bench):
+    add(bench, "other.stl", b"other", kind="mesh")
     found = stale(bench)
     assert set(found) == {"probe", "report"}
     assert "The mesh that it was computed from was replaced by other.stl on 20" in found["probe"][0]
     assert found["report"][0].startswith("It was computed from the probe probe.out, which is stale: The mesh")
-    add(bench, tmp_path, "again.stl", b"solid", kind="mesh")
+    add(bench, "again.stl", b"solid", kind="mesh")
     assert stale(bench) == {}
 
 
-def test_a_re_zeroed_sensor(bench, tmp_path):
+def test_a_re_zeroed_sensor(bench):
     bench.rezeroed("other")
     assert stale(bench) == {}
     bench.rezeroed("42", "it was bumped")
@@ -62,15 +61,15 @@ def test_a_re_zeroed_sensor(bench, tmp_path):
     assert set(found) == {"calibration", "report"}
     assert "The sensor 42 was re-zeroed on" in found["calibration"][0]
     assert "(it was bumped), after the poses poses.csv was recorded." in found["calibration"][0]
-    poses = add(bench, tmp_path, "poses.csv", b"2")
+    poses = add(bench, "poses.csv", b"2")
     calibration = result(bench, "calibration", b"c2", {"noise_force": 0.1}, poses=poses)
     assert set(stale(bench)) == {"report"}
     result(bench, "report", b"r2", calibration=calibration)
     assert stale(bench) == {}
 
 
-def test_a_recording_of_an_unknown_sensor_may_be_of_this_one(session, tmp_path):
-    poses = add(session, tmp_path, "poses.csv", b"1", sensor=None)
+def test_a_recording_of_an_unknown_sensor_may_be_of_this_one(session):
+    poses = add(session, "poses.csv", b"1", sensor=None)
     result(session, "calibration", b"c", poses=poses)
     session.rezeroed("42")
     assert set(stale(session)) == {"calibration"}
@@ -102,7 +101,7 @@ def test_marks(bench):
     assert stale(bench) == {}
 
 
-def test_a_recording_stays_as_old_as_it_is(bench, tmp_path):
+def test_a_recording_stays_as_old_as_it_is(bench):
     bench.rezeroed("42")
     for name, kind, sensor in (
         ("poses.csv", "poses", "42"),
@@ -111,41 +110,41 @@ def test_a_recording_stays_as_old_as_it_is(bench, tmp_path):
         ("other.csv", "poses", "42"),
         ("copy.csv", "backup", "42"),
     ):
-        add(bench, tmp_path, name, b"1", kind, sensor)
+        add(bench, name, b"1", kind, sensor)
         assert set(stale(bench)) == {"calibration", "report"}, (name, kind, sensor)
 
 
-def test_a_sensor_that_is_named_later_counts(session, tmp_path):
-    poses = add(session, tmp_path, "poses.csv", b"1", sensor=None)
+def test_a_sensor_that_is_named_later_counts(session):
+    poses = add(session, "poses.csv", b"1", sensor=None)
     result(session, "calibration", b"c", poses=poses)
     session.rezeroed("42")
-    add(session, tmp_path, "poses.csv", b"1", sensor="43")
+    add(session, "poses.csv", b"1", sensor="43")
     assert stale(session) == {}
 
 
-def test_a_recording_that_was_made_before_a_rezero_and_added_after_it(session, tmp_path):
+def test_a_recording_that_was_made_before_a_rezero_and_added_after_it(session):
     session.rezeroed("42")
     for name, started, holds in (
         ("a", "2026-01-01T00:00:00+00:00", False),
         ("b", "2199-01-01T00:00:00Z", True),
     ):
-        (tmp_path / name).write_bytes(name.encode())
-        record = session.add_input(tmp_path / name, "recording", sensor="42", about={"started": started})
+        about = {"started": started}
+        record = session.add_input(name.encode(), "recording", name=name, sensor="42", about=about)
         result(session, name, b"c", recording=record.action.file.sha256)
         assert (name not in stale(session)) is holds
 
 
-def test_the_same_content_under_another_name_hides_no_replacement(bench, tmp_path):
-    add(bench, tmp_path, "copy.csv", b"1", "backup")
-    add(bench, tmp_path, "poses.csv", b"2")
+def test_the_same_content_under_another_name_hides_no_replacement(bench):
+    add(bench, "copy.csv", b"1", "backup")
+    add(bench, "poses.csv", b"2")
     assert "The poses poses.csv that it was computed from was replaced" in stale(bench)["calibration"][0]
 
 
-def test_a_replaced_backup_harms_nothing(session, tmp_path):
-    poses = add(session, tmp_path, "poses.csv", b"1")
-    add(session, tmp_path, "copy.csv", b"1", "backup")
+def test_a_replaced_backup_harms_nothing(session):
+    poses = add(session, "poses.csv", b"1")
+    add(session, "copy.csv", b"1", "backup")
     result(session, "calibration", b"c", poses=poses)
-    add(session, tmp_path, "copy.csv", b"2", "backup")
+    add(session, "copy.csv", b"2", "backup")
     assert stale(session) == {}
 
 
@@ -198,8 +197,8 @@ def test_results_that_follow_from_one_another_in_a_circle_end(session):
     assert set(stale(session)) == {"a", "b"}
 
 
-def test_a_long_chain_of_results_is_followed(session, tmp_path):
-    last = add(session, tmp_path, "poses.csv", b"1")
+def test_a_long_chain_of_results_is_followed(session):
+    last = add(session, "poses.csv", b"1")
     for n in range(300):
         record = session.add_result("test", f"r{n}", {f"r{n}": str(n).encode()}, {"before": last}, {})
         last = record.action.files[f"r{n}"].sha256

@@ -59,6 +59,28 @@ def test_what_was_added_is_there_after_reopening(folder, poses):
     assert check(folder).sound
 
 
+def test_bytes_are_an_input_as_their_file_is(folder, poses):
+    with Session.open(folder) as session:
+        session.add_input(poses, "poses", companions={"beside": poses})
+        session.add_input(
+            poses.read_bytes(), "poses", name=poses.name, companions={"beside": poses.read_bytes()}
+        )
+        first, second = session.state.inputs
+        assert (first.file, first.companions) == (second.file, second.companions)
+        with pytest.raises(SessionError, match="name"):
+            session.add_input(b"1", "poses")
+
+
+def test_the_newest_of_a_kind_is_a_result_or_what_was_brought_in_as_one(folder, poses):
+    with Session.open(folder) as session:
+        assert session.state.newest("calibration") is None
+        session.add_result("calibration", "a.json", {"a.json": b"1"}, {}, {})
+        session.add_input(poses, "calibration")
+        assert session.state.newest("calibration").slot == ("calibration", poses.name)
+        session.add_result("calibration", "a.json", {"a.json": b"2"}, {}, {})
+        assert session.state.newest("calibration") == session.state.results[-1]
+
+
 def test_times_are_in_no_results_hash(folder):
     with Session.open(folder) as session:
         for created in ("2026-01-01T00:00:00Z", "2027-01-01T00:00:00Z"):

@@ -6,6 +6,7 @@ from contactbench.pipeline.session.errors import SessionError
 from contactbench.pipeline.session.recompute import compute
 from contactbench.pipeline.session.unfinished import adopt_unfinished
 from contactbench.pipeline.workbench.gravity import GravityWork
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.gravity_poses import PoseState
 from contactbench.pipeline.workbench.gravity_results import (
     change,
@@ -16,7 +17,6 @@ from contactbench.pipeline.workbench.gravity_results import (
     outcome_of,
     take_up,
 )
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
 
 
 @pytest.fixture

@@ -6,10 +6,9 @@ from workbench.gravity_bench import batches, block
 from contactbench.pipeline.calibration import Level
 from contactbench.pipeline.calibration.stillness import StillState
 from contactbench.pipeline.session.state import State
-from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_check import GravityCheck
+from contactbench.pipeline.workbench.gravity import GravityCheck, GravityWork
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.gravity_poses import PoseState
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
 from contactbench.pipeline.workbench.live import Block
 
 PLAIN = gravity_settings(State())
@@ -120,6 +119,17 @@ def test_a_mount_that_is_no_quarter_turn_is_found_too(work):
     run.apply(gravity_settings(_state(dict(finding.settings))))
     run.wait()
     assert run.view().solved.calibration.verdict.level is not Level.REFUSE
+
+
+def test_a_mount_is_estimated_also_from_inverse_orientations(work):
+    turn = Rotation.from_euler("z", -90, degrees=True).as_matrix()
+    given = {"calibration.inverse": True, "calibration.estimate_mount": True}
+    run = work(gravity_settings(_state(given)))
+    for each in (block(batch, turn) for batch in batches()):
+        run.feed(Block(each.times, each.wrenches, each.R_WS.swapaxes(1, 2), each.saturated))
+    run.wait()
+    assert run.view().solved.calibration.verdict.level is not Level.REFUSE
+    assert run.view().solved.calibration.mass == pytest.approx(0.452, abs=0.02)
 
 
 def test_without_orientations_it_says_what_is_missing(work):

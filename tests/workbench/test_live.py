@@ -16,9 +16,7 @@ from contactbench.pipeline.devices.url import AddressError
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.kernel import Reason
-from contactbench.pipeline.workbench.live import Live, Tap
-from contactbench.pipeline.workbench.live_moment import Moment
-from contactbench.pipeline.workbench.live_ring import Ring
+from contactbench.pipeline.workbench.live import Live, Moment, Ring, Tap
 from contactbench.pipeline.workbench.live_trial import trial_of
 
 STEPWISE = "virtual://bench?probe=convex&sensor=paper&speed=step"

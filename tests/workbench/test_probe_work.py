@@ -16,7 +16,7 @@ from contactbench.pipeline.session import Session
 from contactbench.pipeline.session.recompute import compute, newest_inputs
 from contactbench.pipeline.session.replay import Outcome, replay
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork
+from contactbench.pipeline.workbench.probe import Plan, ProbeWork, commit
 from contactbench.pipeline.workbench.probe_alignment import (
     PointPair,
     back_to_mesh,
@@ -26,9 +26,9 @@ from contactbench.pipeline.workbench.probe_alignment import (
     by_points,
     numbers_of,
 )
-from contactbench.pipeline.workbench.probe_commit import before, bring_back, commit, files_of
 from contactbench.pipeline.workbench.probe_ladder import trade_of
-from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_of, used_probe
+from contactbench.pipeline.workbench.probe_shell import recipe_of, shell_file_of, used_probe
+from contactbench.pipeline.workbench.undoing import observed
 
 PLAN = Plan(alignment=from_angles([0, 0, 30], [0, 0, 0]), facets=300, engine="fast-simplification")
 
@@ -49,8 +49,8 @@ def work(desk):
 
 def used(work, mesh, plan=PLAN):
     preview = work.preview(mesh, plan)
-    work.desk.do(lambda session: commit(session, preview)).result(30)
-    return preview
+    _, change = work.desk.do(observed(lambda session: commit(session, preview))).result(30)
+    return preview, change
 
 
 def test_a_bad_file_is_told_in_a_sentence_and_changes_nothing(work, tmp_path):
@@ -90,7 +90,7 @@ def test_what_was_taken_does_not_change_with_the_file(work, tmp_path):
 
 def test_a_preview_is_what_the_session_computes(work, tmp_path):
     mesh = work.take(egg(tmp_path))
-    preview = used(work, mesh)
+    preview, _ = used(work, mesh)
     desk = work.desk
     result = desk.state.current_results["probe", "probe.ply"]
     assert set(result.action.inputs) == {"mesh", "alignment"}
@@ -105,7 +105,7 @@ def test_a_preview_is_what_the_session_computes(work, tmp_path):
     assert {name: ref.sha256 for name, ref in again.action.files.items()} == result.outcome
     probe = used_probe(desk)
     assert len(probe.faces) == 300
-    assert shell_of(desk).size == pytest.approx(0.07, rel=1e-2)
+    assert shell_file_of(desk).probe.size == pytest.approx(0.07, rel=1e-2)
     assert preview.deviation.shape == (len(preview.placed.probe.vertices),)
     assert 0 < preview.deviation.max() < 1e-3
 
@@ -121,23 +121,25 @@ def test_the_same_again_adds_only_a_result(work, tmp_path):
 
 def test_undoing_brings_back_the_probe_before(work, tmp_path):
     desk = work.desk
-    nothing = before(desk.state)
-    used(work, work.take(egg(tmp_path)))
-    first = before(desk.state)
+    _, nothing = used(work, work.take(egg(tmp_path)))
+    desk.do(lambda session: session.mark("probe", "probe.ply", "accepted", "it fits")).result(30)
+    first = desk.state
     other = replace(PLAN, alignment=from_angles([1, 2, 33], [0, 0, 90]))
-    used(work, work.take(egg(tmp_path, "b.stl", facets=2)), other)
-    second = before(desk.state)
-    assert second.result.content != first.result.content
-    desk.do(lambda session: bring_back(session, first)).result(30)
-    now = before(desk.state)
-    assert (now.mesh.content, now.alignment.content) == (first.mesh.content, first.alignment.content)
-    assert now.result.content == first.result.content
+    _, back = used(work, work.take(egg(tmp_path, "b.stl", facets=2)), other)
+    second = desk.state.newest("probe")
+    assert second.content != first.newest("probe").content
+    desk.do(back.undo).result(30)
+    for kind in ("mesh", "alignment", "probe"):
+        assert desk.state.newest(kind).content == first.newest(kind).content
+    mark = desk.state.newest("probe").mark
+    assert (mark.mark, mark.reason) == ("accepted", "it fits")
     assert desk.stale["probe", "probe.ply"] == ()
-    desk.do(lambda session: bring_back(session, nothing)).result(30)
+    desk.do(nothing.undo).result(30)
     assert recipe_of(desk.state).result is None
     assert used_probe(desk) is None
-    desk.do(lambda session: bring_back(session, second)).result(30)
-    assert before(desk.state).result.content == second.result.content
+    desk.do(nothing.redo).result(30)
+    desk.do(back.redo).result(30)
+    assert desk.state.newest("probe").content == second.content
     assert recipe_of(desk.state).result is not None
 
 
@@ -159,7 +161,8 @@ def test_reopening_finds_the_mesh_and_the_plan(work, tmp_path):
     assert mesh.file.name == "egg.stl"
     assert plan.parameters == PLAN.parameters
     assert np.allclose(plan.alignment.T_SP, PLAN.alignment.T_SP)
-    assert files_of(work.preview(mesh, plan)) == files_of(work.preview(mesh, plan))
+    again, once_more = (work.preview(mesh, plan).done.content.probe for _ in range(2))
+    assert again.vertices.tobytes() == once_more.vertices.tobytes()
 
 
 def test_the_copies_go_when_the_work_ends(desk, tmp_path):

@@ -18,25 +18,24 @@ from contactbench.pipeline.mesh.regions import Brush, RegionError
 from contactbench.pipeline.mesh.sidecar import load_probe_file, save_probe_file
 from contactbench.pipeline.session import Session
 from contactbench.pipeline.workbench.desk import Desk
-from contactbench.pipeline.workbench.regions import RegionsWork
-from contactbench.pipeline.workbench.regions_session import (
-    Standing,
-    apply,
-    keep,
-    open_work,
-    standing,
-    stored,
-    surface_key,
-)
-from contactbench.pipeline.workbench.regions_tools import (
+from contactbench.pipeline.workbench.regions import (
     Box,
     Clear,
     Flood,
     Grow,
     Mirror,
     Plane,
+    RegionsWork,
     Shrink,
     Smooth,
+)
+from contactbench.pipeline.workbench.regions_session import (
+    Standing,
+    apply,
+    keep,
+    open_work,
+    standing,
+    surface_key,
 )
 
 TOP = CENTRE + [0, 0, RADIUS]
@@ -361,7 +360,7 @@ def test_regions_of_another_surface_are_left_out_with_a_word(desk, tmp_path):  #
     work = open_work(desk)
     assert work.model.regions == ()
     assert "not shown" in work.notes[0]
-    assert stored(desk.state) is not None, "they stay in the session"
+    assert desk.state.newest("regions") is not None, "they stay in the session"
 
 
 def test_without_a_probe_there_is_nothing_to_paint_on(tmp_path):

@@ -29,8 +29,9 @@ def live():
     found.close()
 
 
-def start(desk, live, name="gravity-1.mcap", serial="SN 7"):
-    return Tape.start(desk, live, name, serial).result(PATIENCE)
+def start(desk, live, name="gravity-1.mcap"):
+    desk.do(lambda session: session.set_parameter("devices.serial", "SN 7"))
+    return Tape.start(desk, live, name).result(PATIENCE)
 
 
 def test_what_comes_while_it_runs_is_an_input_of_the_session(desk, live):

@@ -73,15 +73,10 @@ def test_a_mark_is_undone_and_done_again(session):
     assert session.state.current_results["captures", "poses.csv"].mark.reason == "well done"
 
 
-def test_an_input_goes_back_with_what_is_beside_it(session, tmp_path):
-    one, two, beside = tmp_path / "one.csv", tmp_path / "two.csv", tmp_path / "beside.json"
-    one.write_bytes(b"one")
-    two.write_bytes(b"two")
-    beside.write_bytes(b"{}")
-    session.add_input(
-        one, "markers", name="markers.csv", companions={"beside.json": beside}, about={"rows": 3}
-    )
-    _, change = observed(lambda s: s.add_input(two, "markers", name="markers.csv"))(session)
+def test_an_input_goes_back_with_what_is_beside_it(session):
+    beside, about = {"beside.json": b"{}"}, {"rows": 3}
+    session.add_input(b"one", "markers", name="markers.csv", companions=beside, about=about)
+    _, change = observed(lambda s: s.add_input(b"two", "markers", name="markers.csv"))(session)
     change.undo(session)
     back = session.state.current_inputs["markers", "markers.csv"]
     assert (session.folder / back.file.path).read_bytes() == b"one"
@@ -92,20 +87,16 @@ def test_an_input_goes_back_with_what_is_beside_it(session, tmp_path):
     assert not session.state.current_inputs["markers", "markers.csv"].companions
 
 
-def test_the_first_input_stays_and_the_journal_says_why(session, tmp_path):
-    file = tmp_path / "markers.csv"
-    file.write_bytes(b"x")
-    _, change = observed(lambda s: s.add_input(file, "markers"))(session)
+def test_the_first_input_stays_and_the_journal_says_why(session):
+    _, change = observed(lambda s: s.add_input(b"x", "markers", name="markers.csv"))(session)
     change.undo(session)
     assert ("markers", "markers.csv") in session.state.current_inputs
     assert "Undone" in session.state.notes[-1].text
 
 
-def test_a_mesh_goes_back(session, tmp_path):
-    for name in ("a.stl", "b.stl"):
-        (tmp_path / name).write_bytes(name.encode())
-    session.add_input(tmp_path / "a.stl", "mesh")
+def test_a_mesh_goes_back(session):
+    session.add_input(b"a", "mesh", name="a.stl")
     before = session.state
-    session.add_input(tmp_path / "b.stl", "mesh")
+    session.add_input(b"b", "mesh", name="b.stl")
     change_between(before, session.state).undo(session)
     assert session.state.mesh.name == "a.stl"

@@ -7,8 +7,7 @@ from verification.touch_cases import MODEL, NOISE, Push, markers, probe, stream
 from contactbench.pipeline.verification.protocol import ProtocolSettings, State
 from contactbench.pipeline.verification.verify import VerifySettings
 from contactbench.pipeline.workbench.live import Block
-from contactbench.pipeline.workbench.verify_settings import Turns
-from contactbench.pipeline.workbench.verify_touches import LiveTouches, live_noise
+from contactbench.pipeline.workbench.verify_touches import LiveTouches, Turns, live_noise
 
 
 def following(**protocol):

@@ -18,7 +18,7 @@ from contactbench.pipeline.calibration.files.pose_csv import (
 )
 from contactbench.pipeline.calibration.orientation import Convention, RowError, rotations
 from contactbench.pipeline.calibration.stillness import (
-    CaptureReport,
+    Capture,
     Rejected,
     StillnessDetector,
     StillnessSettings,
@@ -281,7 +281,8 @@ class Captured:
     """The still poses of a recording."""
 
     poses: tuple[PoseSample, ...]  # For `calibrate`; their names say when they were taken
-    report: CaptureReport  # With what was refused, and why
+    captures: tuple[Capture, ...]  # The same, as the detector found them
+    rejected: tuple[Rejected, ...]  # What was refused, and why, in order
     rows: int  # Of the recording
     warnings: tuple[str, ...] = ()  # What was noticed, in sentences
     delay: float | None = None  # That was asked for or estimated, s; see `capture_recording`
@@ -290,7 +291,7 @@ class Captured:
     def left_out(self) -> tuple[str, ...]:
         """The stretches that gave no pose, with the reasons: sentences."""
         return tuple(
-            f"left out, {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in self.report.rejected
+            f"left out, {each.start:.1f} to {each.stop:.1f} s: {each.reason}" for each in self.rejected
         )
 
 
@@ -392,14 +393,12 @@ class Capturing:
             for stop in self._stops
             if not any(start < stop[3] and end > stop[2] for start, end in told)
         ]
-        report = CaptureReport(
-            tuple(captures), tuple(sorted((*rejected, *unused), key=lambda each: each.start))
-        )
         poses = tuple(
             capture.to_pose(name=f"pose {number} at {capture.start:.1f} s")
             for number, capture in enumerate(captures, 1)
         )
-        return Captured(poses, report, self._rows, warnings, delay)
+        refused = tuple(sorted((*rejected, *unused), key=lambda each: each.start))
+        return Captured(poses, tuple(captures), refused, self._rows, warnings, delay)
 
     def _look(self, row: int, time: float, R_WS: NDArray[np.float64]) -> None:
         self._looked_at = time

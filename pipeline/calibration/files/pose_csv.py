@@ -100,7 +100,7 @@ def read_poses(
     if "t" in rows.columns and _sampled(rows.column("t")):
         raise reader.error(
             f"this is a recording, {len(rows.lines)} rows {_step_text(rows.column('t'))} apart, not a table of still"
-            " poses: find those in it with contactbench captures."
+            " poses: find those in it with contactbench calibrate captures."
         )
     _check_ranges(reader, rows)
     raw = np.column_stack([rows.column(name) for name in chosen.columns])

@@ -6,28 +6,19 @@ a sample cheap, and makes a recording give, bit for bit, the captures of the liv
 """
 
 from contactbench.pipeline.calibration.stillness.captures import (
-    AveragingAdvice,
     Capture,
-    CaptureReport,
-    LimitedBy,
     Rejected,
     Stillness,
     StillnessSettings,
     StillState,
 )
 from contactbench.pipeline.calibration.stillness.detector import StillnessDetector
-from contactbench.pipeline.calibration.stillness.recordings import averaging_time, find_captures
 
 __all__ = [
-    "AveragingAdvice",
     "Capture",
-    "CaptureReport",
-    "LimitedBy",
     "Rejected",
     "StillState",
     "Stillness",
     "StillnessDetector",
     "StillnessSettings",
-    "averaging_time",
-    "find_captures",
 ]

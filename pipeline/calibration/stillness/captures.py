@@ -32,16 +32,6 @@ class StillState(StrEnum):
     STALE = "stale"  # no samples come
 
 
-class LimitedBy(StrEnum):
-    """Why averaging for longer is not advised."""
-
-    TARGET = "target"  # the standard error is as small as was asked for
-    FLICKER = "flicker"  # 1/f noise does not average out
-    DRIFT = "drift"  # it would make the mean worse
-    DURATION = "duration"  # the longest that is allowed
-    MOTION = "motion"  # the robot moved on, or the recording ended
-
-
 @dataclass(frozen=True)
 class StillnessSettings:
     """What counts as still, and how long to average.
@@ -123,7 +113,6 @@ class Capture:
     # Samples averaged and excluded
     count: int
     spikes: int
-    limited_by: LimitedBy  # Why it was not averaged for longer
     R_WS: Floats | None = None  # (3, 3) orientation at the end, where one was given
 
     @property
@@ -173,14 +162,6 @@ class Rejected:
 
 
 @dataclass(frozen=True, eq=False)
-class CaptureReport:
-    """All captures of a recording, in order, and what was refused."""
-
-    captures: tuple[Capture, ...]
-    rejected: tuple[Rejected, ...]
-
-
-@dataclass(frozen=True, eq=False)
 class Stillness:
     """The state of a reading."""
 
@@ -197,15 +178,6 @@ class Stillness:
     sentence: str  # For the technician
     captured: Capture | None = None  # On the one update that completes a capture
     rejected: Rejected | None = None  # On the one update that drops a capture
-
-
-@dataclass(frozen=True, eq=False)
-class AveragingAdvice:
-    """How long to average."""
-
-    duration_s: float
-    standard_error: Floats  # (6,) of a mean over that time, N and N·m
-    limited_by: LimitedBy
 
 
 def both(force: float | None, torque: float | None) -> Floats:

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
 from contactbench.pipeline.calibration.stillness.blocks import Block, Held, Intake, Window
 from contactbench.pipeline.calibration.stillness.captures import (
-    AveragingAdvice,
     Capture,
-    LimitedBy,
     Rejected,
     Stillness,
     StillnessSettings,
@@ -36,7 +34,7 @@ from contactbench.pipeline.calibration.stillness.captures import (
     size,
     stale_words,
 )
-from contactbench.pipeline.calibration.stillness.quiet import Yardstick, advise
+from contactbench.pipeline.calibration.stillness.quiet import Yardstick
 
 _UNREST = 10.0  # times what is allowed: beyond, it moves; below, it settles
 _DECAY = 2.0  # s: what would take longer to decay is motion
@@ -104,7 +102,7 @@ class StillnessDetector:
         self._trims = 0
         self._touched: int | None = None  # which of the rejected goes on
         unknown = np.full(6, np.nan)
-        self._advice = AveragingAdvice(s.min_duration, unknown, LimitedBy.TARGET)
+        self._recommended = s.min_duration
         self._now = Stillness(
             StillState.SETTLING, None, unknown, unknown, unknown, 0.0, s.min_duration, "Waiting for samples."
         )
@@ -195,8 +193,7 @@ class StillnessDetector:
         averaged = self._duration(self._open[:-1] or self._open) if self._open else 0.0
         if self._done:
             averaged = self._done.duration
-        recommended = self._advice.duration_s
-        self._now = Stillness(state, seconds, sd, slope, sigma, averaged, recommended, sentence)
+        self._now = Stillness(state, seconds, sd, slope, sigma, averaged, self._recommended, sentence)
 
     def _reject(self, blocks: Sequence[Block], state: StillState, reason: str) -> None:
         first, last = blocks[0], blocks[-1]
@@ -391,8 +388,8 @@ class StillnessDetector:
         blocks = self._open[:-1]
         averaged = self._duration(blocks)
         if len(blocks) % 5 == 0 or len(self._open) == len(self._blocks) // 2:
-            self._advice = advise(self._rule.noise(blocks), self.settings, self._rule.floor)
-        recommended = self._advice.duration_s
+            self._recommended = self._rule.duration(blocks)
+        recommended = self._recommended
         if len(blocks) < 6 or averaged < recommended - 1e-6:
             words = f"Still: {averaged:.1f} s of {recommended:.1f} s averaged.{self._blind(blocks[-1])}"
             self._state(StillState.STILL, words, 0.0, window)
@@ -404,9 +401,9 @@ class StillnessDetector:
             self._state(StillState.STILL, words, 0.0, window)
             return
         self._open = []
-        self._complete(blocks, self._advice.limited_by, window)
+        self._complete(blocks, window)
 
-    def _complete(self, blocks: list[Block], limit: LimitedBy, window: Window | None) -> None:
+    def _complete(self, blocks: list[Block], window: Window | None) -> None:
         """Make a capture of `blocks`, or say why not; `window` is that of now if it is still."""
         whole = Window(blocks)
         refused = self._rule.refusal(whole)
@@ -420,7 +417,7 @@ class StillnessDetector:
         first, last, count = blocks[0], blocks[-1], int(whole.counts.sum())
         capture = Capture(
             first.first, last.last, first.start, last.stop, whole.counts @ whole.means / count,
-            np.sqrt(whole.variance), error, count, sum(block.spikes for block in blocks), limit, last.R_WS,
+            np.sqrt(whole.variance), error, count, sum(block.spikes for block in blocks), last.R_WS,
         )  # fmt: skip
         self.captures.append(capture)
         self._fresh = (capture, self._fresh[1])
@@ -443,7 +440,7 @@ class StillnessDetector:
             reason = f"{why} after {averaged:.1f} s of averaging; {needed:.1f} s are needed"
             self._reject(blocks, StillState.MOVING, reason)
         else:
-            self._complete(blocks, LimitedBy.MOTION, None)
+            self._complete(blocks, None)
 
     def _duration(self, blocks: Sequence[Block]) -> float:
         return blocks[-1].stop - blocks[0].start + 1 / self._intake.rate

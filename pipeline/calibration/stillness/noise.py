@@ -13,15 +13,14 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     Floats = NDArray[np.float64]
-from contactbench.pipeline.calibration.stillness.captures import LEAST, AveragingAdvice, LimitedBy
+from contactbench.pipeline.calibration.stillness.captures import LEAST
 
 # 1/f noise assumed until enough was seen: equal to the white noise at 0.5 Hz, rather much for a bridge amplifier.
 _CORNER = 0.5
 _PRIOR_TIME, _PRIOR_FREEDOM = 3.2, 3.0  # s, and how many readings at that scale it counts for
 _GAIN = 0.9  # on the standard error, by averaging for twice as long: less is not worth the technician's time
 _LEVELS = 8  # octaves of block means
-# Rounds of the fit: live, to some per cent of the standard error; and until nothing changes any more.
-_FITS, ALL_FITS = 40, 1000
+_FITS = 40  # rounds of the fit: to some per cent of the standard error
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,22 +45,17 @@ class Noise:
         total: Floats = self.white / tau + 0.5 * self.flicker * octaves + self.walk * tau + self.rounding
         return total
 
-    def advise(self, target: Floats, shortest: float, longest: float) -> AveragingAdvice:
-        """Return how long to average for standard errors `target` (6,)."""
+    def advise(self, target: Floats, shortest: float, longest: float) -> float:
+        """Return how long to average for standard errors `target` (6,), s.
+
+        The shortest time that reaches the target on every axis, or beyond which twice the time gains less than a
+        tenth on the axis that is furthest from it.
+        """
         T = np.geomspace(shortest, longest, 64)
         left = (self.variance(T) / target**2).max(axis=1)  # of the way to the target, on the worst axis
         later = (self.variance(2 * T) / target**2).max(axis=1)
         enough = (left <= 1) | (later > _GAIN**2 * left)
-        at = int(np.argmax(enough)) if enough.any() else -1
-        variance = self.variance(T[at])
-        worst = int(np.argmax(variance / target**2))
-        slow = self.flicker[worst] + self.rounding[worst]
-        limit = LimitedBy.DRIFT if self.walk[worst] * T[at] > slow else LimitedBy.FLICKER
-        if left[at] <= 1:
-            limit = LimitedBy.TARGET
-        elif not enough[at]:
-            limit = LimitedBy.DURATION
-        return AveragingAdvice(float(T[at]), np.sqrt(variance), limit)
+        return float(T[np.argmax(enough)] if enough.any() else T[-1])
 
 
 def _allan(means: Floats) -> tuple[Floats, Floats]:
@@ -104,7 +98,7 @@ class NoiseMemory:
             freedom = np.array([run[1][0] for run in runs])
             self.block_variance = freedom @ np.array([run[0][0] for run in runs]) / freedom.sum()
 
-    def fit(self, means: Floats, white: Floats, rounding: Floats, rounds: int = _FITS) -> Noise:
+    def fit(self, means: Floats, white: Floats, rounding: Floats) -> Noise:
         """Return the noise behind block means (n, 6), n >= 2, and all remembered ones.
 
         The estimates of Allan variances are gamma distributed; multiplying each coefficient by the ratio of
@@ -117,8 +111,6 @@ class NoiseMemory:
             What the samples within blocks say it is at least, by the variance of a mean over 1 s.
         rounding : (6,)
             Variance that averaging leaves.
-        rounds : int
-            Of the climb.
         """
         own, own_freedom = _allan(means)
         A, freedom = self._pooled(own, own_freedom)
@@ -130,7 +122,7 @@ class NoiseMemory:
         weight = np.append(freedom, _PRIOR_FREEDOM)[:, None]
         shapes = np.column_stack([1 / tau, np.ones_like(tau), tau])
         parts = np.vstack([A[0] * self._block, 0.1 * A[0], 0.01 * A[0]])
-        for _ in range(rounds):
+        for _ in range(_FITS):
             fitted = shapes @ parts
             parts *= (shapes.T @ (weight * A / fitted**2)) / (shapes.T @ (weight / fitted))
         fitted = (shapes @ parts)[: len(own)]

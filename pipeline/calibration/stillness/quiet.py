@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 from contactbench.pipeline.calibration.stillness.blocks import Block, Intake, Window, by_chance
 from contactbench.pipeline.calibration.stillness.captures import (
     LEAST,
-    AveragingAdvice,
     StillnessSettings,
     both,
     short,
@@ -170,6 +169,12 @@ class Yardstick:
         rounding = rounding_variance(part.variance, self._intake.step)
         return self.memory.fit(part.means, part.variance / self._intake.rate, rounding)
 
+    def duration(self, blocks: Sequence[Block]) -> float:
+        """Return how long to average by the noise in `blocks`, s: to the target given, or a fifth of the floor."""
+        given, s = both(self._s.target_force, self._s.target_torque), self._s
+        target = np.where(given > 0, given, 0.2 * self.floor)
+        return self.noise(blocks).advise(target, s.min_duration, s.max_duration)
+
     def tail(self, blocks: Sequence[Block]) -> int:
         """Return how many blocks to leave out at the start, because they had not settled yet."""
         head, length = len(blocks) // 3, self._intake.length
@@ -203,9 +208,3 @@ class Yardstick:
             return ""
         force, torque = np.linalg.norm(residual[:3]), np.linalg.norm(residual[3:])
         return f"{short(force)} N and {short(1e3 * torque)} mN·m more than the load explains"
-
-
-def advise(noise: Noise, s: StillnessSettings, floor: Floats) -> AveragingAdvice:
-    """Return how long to average for the settings' target, or a fifth of the floor (6,)."""
-    given = both(s.target_force, s.target_torque)
-    return noise.advise(np.where(given > 0, given, 0.2 * floor), s.min_duration, s.max_duration)

@@ -15,7 +15,7 @@ from contactbench.pipeline.mesh.shell.hull import outer_hull
 from contactbench.pipeline.mesh.shell.openings import Opening, describe
 from contactbench.pipeline.mesh.shell.patch import choose, make_patch
 from contactbench.pipeline.mesh.shell.sew import ROUNDING, distinct, holes, open_edges, sew
-from contactbench.pipeline.mesh.triangles import cross_products, join
+from contactbench.pipeline.mesh.triangles import cross_products, first_alike, join
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -187,7 +187,7 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
         sheets=len(np.unique(of[sheets])),
         holes=sewn.holes,
         small_holes=sewn.small_holes,
-        parted=len(hull.vertices) - len(np.unique(hull.vertices, axis=0)),
+        parted=int(np.count_nonzero(first_alike(hull.vertices) != np.arange(len(hull.vertices)))),
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from contactbench.pipeline.mesh.health import edge_table
-from contactbench.pipeline.mesh.triangles import cross_products
+from contactbench.pipeline.mesh.triangles import cross_products, first_alike
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -36,16 +36,14 @@ def distinct(vertices: NDArray[np.float64], faces: NDArray[np.int32], born: NDAr
     -------
     vertices, faces, born
     """
-    _, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
-    faces = first[number.reshape(-1)][faces].astype(np.int32)
+    faces = first_alike(vertices)[faces].astype(np.int32)
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
     vertices, faces = vertices[used], (np.cumsum(used) - 1)[faces].astype(np.int32)
     area = np.linalg.norm(cross_products(vertices, faces), axis=1)
     apart = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
     faces, born = faces[apart & (area > 0)], born[apart & (area > 0)]
-    _, once = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
-    once.sort()
+    once = first_alike(np.sort(faces, axis=1)) == np.arange(len(faces))
     return vertices, faces[once], born[once]
 
 

@@ -12,7 +12,7 @@ from contactbench.pipeline.kernel import SurfaceIndex, crossings
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError, MeshWarning
 from contactbench.pipeline.mesh.health import label_parts
-from contactbench.pipeline.mesh.probe import Probe
+from contactbench.pipeline.mesh.probe import Probe, degenerate_facets
 from contactbench.pipeline.mesh.regions import RegionSet, transfer
 from contactbench.pipeline.mesh.shell.exposure import exposure
 from contactbench.pipeline.mesh.shell.fit import measure_fit
@@ -252,8 +252,15 @@ class _Exact:
             for opening, closing, usual in zip(found, wanted, auto, strict=True)
         ]
 
-    def _shell(self, done: Outside, openings: tuple[ClosedOpening, ...]) -> Shell:
+    def _shell(self, done: Outside, openings: tuple[ClosedOpening, ...]) -> Shell | None:
+        """Make the shell; None where cutting left facets without area that cannot be joined."""
         probe = self._probe
+        flat = np.flatnonzero(degenerate_facets(done.vertices, done.faces))
+        if len(flat):
+            faces, of = without_slivers(done.vertices, done.faces, flat, _WIDTHS[-1] * SEAM * probe.size)
+            if degenerate_facets(done.vertices, faces).any():
+                return None
+            done = replace(done, faces=faces, born=done.born[of])
         own = done.born >= 0
         as_it_was = probe.vertices[probe.faces]
         alike = own.all() and not done.parted and np.array_equal(done.vertices[done.faces], as_it_was)

@@ -9,6 +9,7 @@ import numpy as np
 
 from contactbench.pipeline.mesh.clean import merge_vertices
 from contactbench.pipeline.mesh.deviation import doubled_areas
+from contactbench.pipeline.mesh.triangles import first_alike
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -80,8 +81,7 @@ def make_canonical(probe: Probe) -> Canonical:
     if not probe.health.watertight or probe.health.duplicate_facets:
         vertices, faces = merge_vertices(vertices, faces, _MERGE)
         faces = faces[doubled_areas(vertices, faces) > 0]
-        _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
-        faces = faces[np.sort(first)]
+        faces = faces[first_alike(np.sort(faces, axis=1)) == np.arange(len(faces))]
     return Canonical(vertices, faces, centre, unit)
 
 

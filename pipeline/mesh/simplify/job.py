@@ -13,7 +13,7 @@ from contactbench.pipeline.kernel import collapse_edges
 from contactbench.pipeline.mesh.engines import Cancelled
 from contactbench.pipeline.mesh.errors import MeshError
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.simplify.canonical import make_canonical
+from contactbench.pipeline.mesh.simplify.canonical import Canonical, make_canonical
 from contactbench.pipeline.mesh.simplify.faults import find_faults
 from contactbench.pipeline.mesh.soundness import Soundness, check_soundness
 
@@ -30,6 +30,9 @@ _STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)
 # Of the size: what is further off is another shape. Where no more edges can be collapsed without folding, the collapse
 # goes on wherever it still can, and takes whole walls away (test_a_shape_that_cannot_be_kept_is_not_given).
 _ANOTHER_SHAPE = 0.1
+
+# Above so many times so many facets a search collapses the mesh to that number once, and not at every try.
+_MANY, _HALFWAY = 100_000, 4
 
 ENGINE, UNCHANGED = "edge collapse", "none"
 
@@ -176,8 +179,10 @@ class Job:
         return replace(attempt, soundness=found)
 
     def _collapsed(self, count: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]:
-        mesh = self._mesh
         chosen = self._chosen
+        mesh = self._mesh if chosen.any() or _HALFWAY * count > _MANY else self._halfway
+        if mesh is not self._mesh:
+            chosen = np.zeros(len(mesh.faces), dtype=np.bool_)
         inside = min(inside_count(count, self._ratio, self._region_share), int(np.count_nonzero(chosen)))
         # What the regions do not use goes to the rest, and the other way round.
         outside = min(count - inside, int(np.count_nonzero(~chosen)))
@@ -188,6 +193,16 @@ class Job:
         if self._cancelled is not None and self._cancelled():
             raise Cancelled("the simplification was cancelled: nothing was changed.")
         self._progress(fraction)
+
+    @cached_property
+    def _halfway(self) -> Canonical:
+        """The mesh with fewer facets, from which it is not far to the counts that are tried; itself if it has few."""
+        mesh = self._mesh
+        if len(mesh.faces) <= _HALFWAY * _MANY:
+            return mesh
+        nowhere = np.zeros(len(mesh.faces), dtype=np.bool_)
+        vertices, faces = collapse_edges(mesh.vertices, mesh.faces, (_MANY, 0), nowhere, self._go_on)
+        return replace(mesh, vertices=vertices, faces=faces)
 
     @cached_property
     def _chosen(self) -> npt.NDArray[np.bool_]:

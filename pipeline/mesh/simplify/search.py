@@ -19,6 +19,9 @@ _FIRST_GUESS = 500
 # The next count down may do as well by chance as this one.
 _CLOSE = 1.05
 
+# An error that falls by less than this while the facets grow eightfold is not the facets' doing.
+_ROUGH_FACTOR, _ROUGH_FALL = 8.0, 0.6
+
 # Where a count fails, one nearby is likely to fail too.
 _AFTER_FAILURE = 2.0
 
@@ -47,12 +50,13 @@ def fewest_facets(
     progress : callable
         Takes the fraction done, 0 to 1, before every attempt.
     enough : int
-        Fewer are not looked for.
+        Fewer are not looked for; and where more hardly help, these will do.
 
     Returns
     -------
     Attempt or None
-        None when none of those tried keeps the limit, but the original does.
+        None when none of those tried keeps the limit, but the original does. One that does not keep it where more
+        facets hardly help.
 
     Raises
     ------
@@ -63,6 +67,7 @@ def fewest_facets(
     """
     low, high = enough - 1, len(job.probe.faces)
     best: Attempt | None = None
+    fewest: Attempt | None = None
     met: list[tuple[float, float]] = []
     failed = False
     for number in range(MOST_ATTEMPTS):
@@ -79,6 +84,10 @@ def fewest_facets(
         failed = not math.isfinite(value)  # says nothing of how far the limit is
         if value > 0 and not failed:
             met.append((math.log(count), math.log(value / limit)))
+            if len(met) == 1:
+                fewest = attempt
+            elif enough > FEWEST and best is None and value > limit and _is_rough(met):
+                return fewest
         if value <= limit:
             best, high = attempt, count
         else:
@@ -86,6 +95,12 @@ def fewest_facets(
     if best is None:
         _check_original(job, error, limit)
     return best
+
+
+def _is_rough(met: list[tuple[float, float]]) -> bool:
+    """Tell whether more facets hardly help: a scan's own roughness moves contacts between any two of its meshes."""
+    (fewer, more), (few, many) = met[0], met[-1]
+    return few - fewer >= math.log(_ROUGH_FACTOR) and many - more > math.log(_ROUGH_FALL)
 
 
 def _after_failure(low: int, high: int) -> int:

@@ -26,6 +26,9 @@ _COARSE = {"uniform": 3_000, "most": 2_500}
 _THOROUGH = {"uniform": 20_000, "most": 200_000}
 
 
+_ROUGH = "which miss the limit, but more facets hardly help: the surface itself is rough"
+
+
 @dataclass(frozen=True, eq=False)
 class Simplified:
     """
@@ -154,7 +157,8 @@ def _reach(job: Job, target: Target, tell: _Told) -> tuple[Attempt, str]:
             return job.unchanged(), ""
         found = fewest_facets(job, partial(_error, target), target.limit, tell.attempts, target.enough)
     if found is not None:
-        return found, ""
+        rough = isinstance(target, MaxError) and _error(target, found) > target.limit
+        return found, _ROUGH if rough else ""
     job.steps.append("No fewer facets keep the limit: the surface is left as it is.")
     return job.unchanged(), "as many as before, because no smaller number that was tried keeps the limit"
 

@@ -140,7 +140,7 @@ def _mount(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.ra
     believed, estimated = calibrate(poses), estimate_mount(poses)
     return Read(
         believed.model.compensate(used, readings),
-        estimated.compensate(used, readings),
+        estimated.calibration.model.compensate(used @ estimated.R_SE.T, readings),
         (R_SE.T, np.eye(3), estimated.R_SE.T),
     )
 

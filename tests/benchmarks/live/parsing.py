@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.soak_frames import SUBJECTS
+from benchmarks.soak import SUBJECTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from benchmarks.soak_frames import Subject
+    from benchmarks.soak import Subject
 
 _PIECE = 4096  # what a line hands over at most
 _ROUNDS = 3
@@ -30,43 +30,16 @@ PROTOCOLS = tuple(_LAYOUTS)
 
 @dataclass(frozen=True)
 class Speed:
-    """
-    One protocol's speeds on the same bytes.
-
-    Attributes
-    ----------
-    protocol : str
-    parser : float
-        From bytes to samples, bytes/s.
-    unpacking : float
-        From bytes to an array of float64, bytes/s.
-    frame_bytes : int
-    """
+    """One protocol's speeds on the same bytes."""
 
     protocol: str
-    parser: float
-    unpacking: float
+    parser: float  # From bytes to samples, bytes/s
+    unpacking: float  # From bytes to an array of float64, bytes/s
     frame_bytes: int
 
 
 def parse_speed(protocol: str, frames: int, seed: int = 0) -> Speed:
-    """
-    Measure one parser on intact frames; the fastest of three rounds.
-
-    Parameters
-    ----------
-    protocol : str
-        One of `PROTOCOLS`.
-    frames : int
-        Above 0.
-    seed : int
-        Of the readings.
-
-    Raises
-    ------
-    RuntimeError
-        The parser did not give one sample for each frame: its speed means nothing.
-    """
+    """Measure one parser on intact frames; the fastest of three rounds."""
     subject = SUBJECTS[protocol]
     made = _frames(subject, frames, seed)
     data = b"".join(made)

@@ -30,40 +30,22 @@ _EARLY = 0.1  # the share of the run after which everything that is kept should 
 
 @dataclass(frozen=True)
 class Cost:
-    """
-    What reading took.
+    """What reading took."""
 
-    Attributes
-    ----------
-    seconds : float
-        How long all sensors were read.
-    processor : float
-        Time of the processor that the whole process used in these seconds, s.
-    ended : float
-        When the streams began to be stopped, seconds of the monotonic clock.
-    resident_early, resident_end : int or None
-        Memory of the process after a tenth of the time and at its end, bytes; None where the system does not say.
-    findings : tuple of str
-        What the streams found wrong, in sentences, each once.
-    """
-
-    seconds: float
-    processor: float
-    ended: float
+    seconds: float  # How long all sensors were read
+    processor: float  # Time of the processor that the whole process used in these seconds, s
+    ended: float  # When the streams began to be stopped, seconds of the monotonic clock
+    # Memory of the process after a tenth of the time and at its end, bytes; None where the system does not
+    # say
     resident_early: int | None
+    # Memory of the process after a tenth of the time and at its end, bytes; None where the system does not
+    # say
     resident_end: int | None
-    findings: tuple[str, ...]
+    findings: tuple[str, ...]  # What the streams found wrong, in sentences, each once
 
 
 class Notes:
-    """
-    One sensor's samples as they are given, with the time.
-
-    Parameters
-    ----------
-    file : binary file
-        Gets a `records.GIVEN` for each sample.
-    """
+    """One sensor's samples as they are given, with the time."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
@@ -78,21 +60,7 @@ class Notes:
 
 
 def read(folder: Path, seconds: float, urls: Sequence[str]) -> Cost:
-    """
-    Read sensors for a time, and write what they gave to ``given-0.bin`` and so on.
-
-    Parameters
-    ----------
-    folder : Path
-    seconds : float
-        Counted from the first sample of the last sensor.
-    urls : sequence of str
-
-    Raises
-    ------
-    TimeoutError
-        A sensor gives nothing.
-    """
+    """Read sensors for a time, and write what they gave to ``given-0.bin`` and so on."""
     with ExitStack() as stack:
         files = [stack.enter_context((folder / f"given-{i}.bin").open("wb")) for i in range(len(urls))]
         notes = [Notes(file) for file in files]

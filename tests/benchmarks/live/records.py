@@ -26,19 +26,7 @@ GIVEN_TYPE = np.dtype([("at", "<f8"), ("sequence", "<i8"), ("values", "<f8", 6)]
 
 
 def read_back(path: Path, kind: np.dtype[np.void]) -> NDArray[np.void]:
-    """
-    Return the records of a file.
-
-    Parameters
-    ----------
-    path : Path
-    kind : SENT_TYPE or GIVEN_TYPE
-
-    Raises
-    ------
-    InputError
-        It does not hold whole records: the process that wrote it was ended.
-    """
+    """Return the records of a file."""
     data = path.read_bytes()
     if len(data) % kind.itemsize:
         raise InputError(

@@ -41,28 +41,6 @@ def run(
 ) -> Report:
     """
     Read emulated SRI sensors on pseudo-terminals, each in a process of its own, in one process, all at once.
-
-    Parameters
-    ----------
-    seconds : float
-        Of one run, `SHORTEST_S` to `LONGEST_S`. 100 kB a second for each sensor are written to temporary files.
-    sensors : int
-        1 to `MOST_SENSORS`.
-    rate : float
-        Of each sensor, whole Hz from 10 to 2500.
-    busy : bool
-        A second run as long, with one core kept busy by another process.
-    frames : int
-        That each parser is timed on; 0: none is.
-    seed : int
-        Of what the parsers are timed on.
-    progress : callable, optional
-        Told what is being done.
-
-    Raises
-    ------
-    InputError
-        A number is out of its range, the system has no pseudo-terminals, or a process failed.
     """
     _check(seconds, sensors, rate, frames)
     figures: list[Figure] = []

@@ -27,16 +27,7 @@ _BAUD = 921_600  # what carries 1 kHz
 
 
 class NotedLine:
-    """
-    A line that notes every frame on its way out.
-
-    Parameters
-    ----------
-    line : DeviceLine
-        What carries it.
-    notes : binary file
-        Gets a `records.SENT` for every frame, also for one that nobody took.
-    """
+    """A line that notes every frame on its way out."""
 
     datagrams = False
 
@@ -74,16 +65,7 @@ class NotedLine:
 
 
 def main(notes: Path, rate: float) -> None:
-    """
-    Be a sensor until standard input ends.
-
-    Parameters
-    ----------
-    notes : Path
-        What was sent is written there.
-    rate : float
-        To ask for in the address, Hz.
-    """
+    """Be a sensor until standard input ends."""
     with notes.open("wb") as file:
         line = NotedLine(PtyLine("sri"), file)
         query = f"?baud={_BAUD}&rate={rate:g}"

@@ -30,71 +30,31 @@ _SPIN = "import sys, time\nend = time.monotonic() + float(sys.argv[1])\nwhile ti
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """
-    One sensor's frames beside the samples that came of them.
+    """One sensor's frames beside the samples that came of them."""
 
-    Attributes
-    ----------
-    sent, given : int
-        Frames up to just before the end; samples.
-    lost : int
-        Frames of them that came to nothing.
-    changed : int
-        Samples that are no frame: other values, a number that was not sent, or one that came before.
-    latency : (n,) float64
-        From the frame's first byte given to the line to the sample given to its reader, s.
-    pace : float
-        Frames a second that the sensor sent, Hz.
-    jitter : float
-        95th percentile of how far an interval between samples is from the median one, s.
-    """
-
-    sent: int
-    given: int
-    lost: int
+    sent: int  # Frames up to just before the end; samples
+    given: int  # Frames up to just before the end; samples
+    lost: int  # Frames of them that came to nothing
+    # Samples that are no frame: other values, a number that was not sent, or one that came before
     changed: int
+    # (n,) float64. From the frame's first byte given to the line to the sample given to its reader, s.
     latency: NDArray[np.float64]
-    pace: float
-    jitter: float
+    pace: float  # Frames a second that the sensor sent, Hz
+    jitter: float  # 95th percentile of how far an interval between samples is from the median one, s
 
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """
-    What one run showed.
+    """What one run showed."""
 
-    Attributes
-    ----------
-    cost : Cost
-        Of the process that reads.
-    sensors : tuple of Comparison
-    machine_late : float
-        99th percentile of how much later than it asked for an idle process was woken in the same time, s.
-    """
-
-    cost: Cost
+    cost: Cost  # Of the process that reads
     sensors: tuple[Comparison, ...]
+    # 99th percentile of how much later than it asked for an idle process was woken in the same time, s
     machine_late: float
 
 
 def run_trial(seconds: float, sensors: int, rate: float, *, busy: bool) -> Trial:
-    """
-    Read emulated sensors for a time.
-
-    Parameters
-    ----------
-    seconds : float
-    sensors : int
-    rate : float
-        Of each, Hz.
-    busy : bool
-        One more process uses all that it gets of the processor meanwhile.
-
-    Raises
-    ------
-    InputError
-        A process failed; its own words are above on standard error.
-    """
+    """Read emulated sensors for a time."""
     with TemporaryDirectory(prefix="contactbench-") as name:
         folder = Path(name)
         with ExitStack() as stack:
@@ -117,22 +77,7 @@ def run_trial(seconds: float, sensors: int, rate: float, *, busy: bool) -> Trial
 
 
 def compare(sent: NDArray[np.void], given: NDArray[np.void], until: float) -> Comparison:
-    """
-    Hold what was given against what was sent.
-
-    Parameters
-    ----------
-    sent : (n,) `records.SENT_TYPE`
-        From the device's first frame on: the sequence of a frame is its place.
-    given : (m,) `records.GIVEN_TYPE`
-    until : float
-        Frames sent later may be missing; on the clock of both.
-
-    Raises
-    ------
-    InputError
-        Nothing was sent, or nothing given.
-    """
+    """Hold what was given against what was sent."""
     if len(sent) < 2 or len(given) < 2:
         raise InputError(f"{len(sent)} frames sent, {len(given)} samples given: let the run last longer.")
     number = given["sequence"]

@@ -36,38 +36,15 @@ _LARGE_SHARE = 0.02
 
 @dataclass(frozen=True)
 class FuzzCase:
-    """
-    One hostile file.
+    """One hostile file."""
 
-    Attributes
-    ----------
-    suffix : str
-        What its name ends in.
-    kind : str
-        What was done to it.
-    data : bytes
-    """
-
-    suffix: str
-    kind: str
+    suffix: str  # What its name ends in
+    kind: str  # What was done to it
     data: bytes
 
 
 def make_case(seed: int, number: int) -> FuzzCase:
-    """
-    Make one hostile file.
-
-    Parameters
-    ----------
-    seed : int
-        Of the series.
-    number : int
-        In the series; the result depends on nothing else.
-
-    Returns
-    -------
-    FuzzCase
-    """
+    """Make one hostile file."""
     chance = random.Random(f"{seed}:{number}")  # noqa: S311 - no secret
     files = sound_files()
     name = chance.choice(sorted(files))

@@ -11,10 +11,11 @@ import subprocess
 import sys
 import threading
 from collections import Counter
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import IO, TYPE_CHECKING, Any
 
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,123 +37,68 @@ _WORKER = (sys.executable, "-m", "benchmarks.mesh_fuzz.worker")
 _LISTED = 20
 
 
-@dataclass(frozen=True)
-class Failure:
-    """A file that broke something: which, what was done to it, and what happened."""
-
-    number: int
-    suffix: str
-    kind: str
-    why: str
-
-
 @dataclass
-class FuzzReport:
-    """
-    What came of the files.
-
-    Attributes
-    ----------
-    count, seed : int
-        The series.
-    refused, valid : dict of int
-        Typed errors and valid meshes per suffix.
-    failures : list of Failure
-        Crashes, hangs, other errors, invalid meshes, and bounds that were broken.
-    worst_seconds_per_mb : float
-        Of the files over 100 kB.
-    worst_seconds : float
-        Of all files.
-    worst_memory_ratio : float
-        Memory held at most over the file's bytes, of the files over 100 kB that are not packed.
-    worst_memory : float
-        Bytes, of all files.
-    worst_file : str
-        What took the most memory for its size.
-    """
+class Tally:
+    """What came of the files so far."""
 
     count: int
     seed: int
-    refused: Counter[str] = field(default_factory=Counter)
+    refused: Counter[str] = field(default_factory=Counter)  # per suffix
     valid: Counter[str] = field(default_factory=Counter)
-    failures: list[Failure] = field(default_factory=list)
-    worst_seconds_per_mb: float = 0.0
+    failures: list[str] = field(
+        default_factory=list
+    )  # crashes, hangs, other errors, invalid meshes, broken bounds
+    worst_seconds_per_mb: float = 0.0  # of the files over 100 kB
     worst_seconds: float = 0.0
-    worst_memory_ratio: float = 0.0
-    worst_memory: float = 0.0
-    worst_file: str = ""
+    worst_memory_ratio: float = 0.0  # of the files over 100 kB that are not packed, over the file's bytes
+    worst_memory: float = 0.0  # bytes
+    worst_file: str = "none"  # what took the most memory for its size
 
-    @property
-    def passed(self) -> bool:
-        """Whether every file gave a typed error or a valid mesh within the bounds."""
-        return not self.failures and self.refused.total() + self.valid.total() == self.count
-
-    @property
-    def sentences(self) -> tuple[str, ...]:
-        """What came of it, in sentences."""
-        files = (
-            f"{self.count:,} hostile files: {self.refused.total():,} refused with an error that names the file,"
-            f" {self.valid.total():,} read as a valid mesh, {len(self.failures):,} failures."
-        )
-        time = (
-            f"The slowest took {self.worst_seconds:.2f} s; of files over 100 kB the slowest took"
-            f" {self.worst_seconds_per_mb:.2f} s per MB (allowed: {SECONDS:g} s and {SECONDS_PER_MB:g} s per MB,"
-            f" {MOST_SECONDS:g} s at most)."
-        )
-        memory = (
-            f"The most memory was {self.worst_memory / 1e6:.0f} MB; of files over 100 kB the most was"
-            f" {self.worst_memory_ratio:.0f} times the file (allowed: {BYTES / 1e6:.0f} MB and"
-            f" {BYTES_PER_BYTE} times, {MOST_BYTES / 1e9:g} GB at most). It was: {self.worst_file or 'none'}."
-        )
-        said = [files, time, memory]
-        said += [f"Case {f.number} ({f.suffix}, {f.kind}): {f.why}." for f in self.failures[:_LISTED]]
+    def report(self) -> Report:
+        """Judge it."""
+        judged = self.refused.total() + self.valid.total()
+        figures = [
+            Figure("all", "files that gave a mesh or a typed error", float(judged), least=float(self.count)),
+            Figure("all", "failures", float(len(self.failures)), most=0.0),
+            # A file passes within a time and a time per megabyte together, so each alone is only shown.
+            Figure(
+                "all",
+                f"slowest file (allowed {SECONDS:g} s + {SECONDS_PER_MB:g} s/MB)",
+                self.worst_seconds,
+                "s",
+            ),
+            Figure("over 100 kB", "slowest per megabyte", self.worst_seconds_per_mb, "s/MB"),
+            Figure(
+                "all",
+                f"most memory (allowed {BYTES / 1e6:.0f} MB + {BYTES_PER_BYTE} times the file)",
+                self.worst_memory / 1e6,
+                "MB",
+            ),
+            Figure("over 100 kB", "most memory over the file", self.worst_memory_ratio),
+        ]
+        for suffix in sorted({*self.refused, *self.valid}):
+            refused, valid = float(self.refused[suffix]), float(self.valid[suffix])
+            figures.append(Figure(suffix, "refused with an error that names the file", refused))
+            figures.append(Figure(suffix, "read as a valid mesh", valid))
+        notes = [f"The most memory for its size took: {self.worst_file}.", *self.failures[:_LISTED]]
         if len(self.failures) > _LISTED:
-            said.append(f"And {len(self.failures) - _LISTED} more failures.")
-        return tuple(said)
-
-    def to_json(self) -> dict[str, Any]:
-        """Give everything as plain data."""
-        return {
-            **asdict(self),
-            "refused": dict(self.refused),
-            "valid": dict(self.valid),
-            "passed": self.passed,
-            "sentences": list(self.sentences),
-        }
+            notes.append(f"And {len(self.failures) - _LISTED} more failures.")
+        settings = {"files": f"{self.count:,}", "seed": self.seed}
+        return Report("Hostile mesh files", settings, tuple(figures), tuple(notes))
 
 
-def run(count: int = 10_000, seed: int = 0, progress: Callable[[int, int], None] | None = None) -> FuzzReport:
-    """
-    Read hostile files in child processes.
-
-    Parameters
-    ----------
-    count : int
-        How many; 10,000 take about two minutes.
-    seed : int
-        Of the series; the same gives the same files.
-    progress : callable, optional
-        Told how many are done, and how many there are.
-
-    Returns
-    -------
-    FuzzReport
-
-    Raises
-    ------
-    InputError
-        `count` is under 1.
-    """
+def run(count: int = 10_000, seed: int = 0, progress: Callable[[int, int], None] | None = None) -> Report:
+    """Read hostile mesh files in child processes: each must give a valid mesh or a typed error, soon."""
     if count < 1:
         raise InputError(f"count: {count} files are none; give at least 1")
-    report = FuzzReport(count, seed)
+    report = Tally(count, seed)
     number = 0
     while number < count:
         number = _batch(report, number, min(number + _BATCH, count), progress or (lambda *_: None))
-    return report
+    return report.report()
 
 
-def _batch(report: FuzzReport, first: int, last: int, progress: Callable[[int, int], None]) -> int:
+def _batch(report: Tally, first: int, last: int, progress: Callable[[int, int], None]) -> int:
     """Run one child; give the number to go on with."""
     command = [*_WORKER, *map(str, (report.seed, first, last))]
     child = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -181,7 +127,7 @@ def _batch(report: FuzzReport, first: int, last: int, progress: Callable[[int, i
     why = f"it hangs: not read in {_HANGS_S:g} s" if hung.is_set() else f"the process died, exit code {code}"
     case = case or {"begins": done, "suffix": "none", "kind": "before the file was read"}
     end = "".join(errors)[-300:].strip()
-    report.failures.append(Failure(done, case["suffix"], case["kind"], f"{why}. {end}".strip()))
+    report.failures.append(f"Case {done} ({case['suffix']}, {case['kind']}): {why}. {end}".strip())
     return done + 1
 
 
@@ -204,7 +150,7 @@ def _keep_end(stream: IO[str], kept: list[str]) -> None:
             kept[:] = [*kept[-20:], line]
 
 
-def _count(report: FuzzReport, case: dict[str, Any], said: dict[str, Any]) -> None:
+def _count(report: Tally, case: dict[str, Any], said: dict[str, Any]) -> None:
     suffix, size = case["suffix"], case["bytes"]
     unpacked = size if suffix != ".3mf" else _UNPACKED * size + 2**20
     why = said["why"] if said["outcome"] == "wrong" else ""
@@ -213,7 +159,7 @@ def _count(report: FuzzReport, case: dict[str, Any], said: dict[str, Any]) -> No
     if said["peak"] > min(MOST_BYTES, BYTES + BYTES_PER_BYTE * unpacked):
         why = f"it took {said['peak'] / 1e6:.0f} MB of memory for {size} bytes"
     if why:
-        report.failures.append(Failure(case["begins"], suffix, case["kind"], why))
+        report.failures.append(f"Case {case['begins']} ({suffix}, {case['kind']}): {why}.")
     elif said["outcome"] == "valid":
         report.valid[suffix] += 1
     else:

@@ -21,23 +21,7 @@ _CORE = b'<model xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/0
 
 
 def swollen(name: str, chance: random.Random) -> tuple[str, bytes]:
-    """
-    Make a large file of a format.
-
-    Parameters
-    ----------
-    name : str
-        A key of `cases.sound_files`.
-    chance : random.Random
-        What to draw from.
-
-    Returns
-    -------
-    kind : str
-        What it is.
-    data : bytes
-        Up to 2 MB.
-    """
+    """Make a large file of a format."""
     size = chance.randrange(_USUAL // 5, _USUAL if chance.random() < 0.9 else _RARE)
     match name:
         case "binary.stl":

@@ -32,16 +32,7 @@ _ADDRESS_SPACE = 4 * 2**30
 
 
 def main(seed: int, first: int, last: int) -> None:
-    """
-    Read the cases from first to last, not included, and write one line for each to standard output.
-
-    Parameters
-    ----------
-    seed : int
-        Of the series.
-    first, last : int
-        Numbers in the series.
-    """
+    """Read the cases from first to last, not included, and write one line for each to standard output."""
     _limit_memory()
     warnings.simplefilter("error")
     warnings.simplefilter("ignore", MeshWarning)
@@ -54,23 +45,7 @@ def main(seed: int, first: int, last: int) -> None:
 
 
 def try_case(case: FuzzCase, folder: Path, units: Units | str) -> dict[str, Any]:
-    """
-    Read one file and judge what comes of it.
-
-    Parameters
-    ----------
-    case : FuzzCase
-    folder : Path
-        For the file.
-    units : str
-        Passed to `load_probe`.
-
-    Returns
-    -------
-    dict
-        `outcome`: "refused" with a typed error that names the file, "valid", or "wrong" and `why`. `seconds` to
-        read it, and `peak`, the bytes that were held at most while it was read a second time.
-    """
+    """Read one file and judge what comes of it."""
     path = folder / f"case{case.suffix}"
     path.write_bytes(case.data)
     # Of the processor: a busy machine is not the file's fault.

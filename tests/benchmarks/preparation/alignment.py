@@ -46,21 +46,12 @@ _FLAT: dict[str, Any] = {"angle": (0.0, 1.0), "above": 0.1499, "facing": 0.9999,
 class Setup:
     """
     A probe that is mounted a little differently than it is believed to be, and touches of marked points.
-
-    Attributes
-    ----------
-    probe_P : Probe
-        The mesh in its own frame.
-    touches : MarkerTouches
-        Markers in P, and the noisy wrenches in S.
-    T_true, T_before : (4, 4)
-        T_SP as it is, and as it is believed to be.
     """
 
-    probe_P: Probe
-    touches: MarkerTouches
-    T_true: Floats
-    T_before: Floats
+    probe_P: Probe  # The mesh in its own frame
+    touches: MarkerTouches  # Markers in P, and the noisy wrenches in S
+    T_true: Floats  # (4, 4). T_SP as it is, and as it is believed to be.
+    T_before: Floats  # (4, 4). T_SP as it is, and as it is believed to be.
 
     def fit(self) -> MountFit:
         """Fit the mount to the touches, without the judgement."""
@@ -79,22 +70,6 @@ def run(
 ) -> Report:
     """
     Measure every figure: 15 touches of 8 to 10 N, 0.05 N and 2 mN·m of noise, markers hit within 0.3 mm.
-
-    Parameters
-    ----------
-    setups : int
-        Random set-ups on each probe, with mounts off by 2 mm and 1.5 degrees.
-    adoptions : int
-        Random set-ups for each of the mounts whose advice is counted, and for the flat face.
-    seed : int
-        Of chance.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
     """
     if setups < 5 or adoptions < 1:
         raise InputError(f"{setups} set-ups, {adoptions} for the advice: give at least 5 and 1")
@@ -118,19 +93,7 @@ def run(
 def draw_setup(
     name: str, rng: np.random.Generator, shift: float = _SHIFT, turn_deg: float = _TURN_DEG, **how: Any
 ) -> Setup:
-    """
-    Draw a set-up.
-
-    Parameters
-    ----------
-    name : str
-        A bundled probe.
-    rng : numpy.random.Generator
-    shift, turn_deg : float
-        How far the believed mount is off, m and degrees, in random directions.
-    **how
-        Passed to `draw_touches`.
-    """
+    """Draw a set-up."""
     surface = assets.surface(name)
     true = draw_touches(surface, _TOUCHES, rng, **{"above": _ABOVE, **how})
     T_true = _random_rigid(rng, 0.05, 40.0)

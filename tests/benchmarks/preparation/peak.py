@@ -29,39 +29,15 @@ _SHAPE = "t-shape"
 
 @dataclass(frozen=True)
 class Peak:
-    """
-    What a simplification took.
+    """What a simplification took."""
 
-    Attributes
-    ----------
-    facets : int
-        Of the mesh given.
-    memory : float
-        Largest resident memory of the process, bytes.
-    seconds : float
-    """
-
-    facets: int
-    memory: float
+    facets: int  # Of the mesh given
+    memory: float  # Largest resident memory of the process, bytes
     seconds: float
 
 
 def measure_peak(facets: int, count: int, folder: Path) -> Peak:
-    """
-    Simplify a bundled probe in a fresh process and take its peak.
-
-    Parameters
-    ----------
-    facets, count : int
-        Before and after.
-    folder : Path
-        For the mesh's file.
-
-    Raises
-    ------
-    InputError
-        This system does not tell a process's peak, or the processes failed.
-    """
+    """Simplify a bundled probe in a fresh process and take its peak."""
     file = str(folder / "large.npz")
     _in_a_process("make", str(facets), file)
     return Peak(**_in_a_process("measure", str(count), file))

@@ -1,4 +1,4 @@
-"""Is painting regions as fast and as exact as it says? Strokes beside two rivals, distances beside exact ones."""
+"""Painting regions: strokes beside other ways to measure distances on a surface, undo, and exactness."""
 
 from __future__ import annotations
 
@@ -7,24 +7,76 @@ import time
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.preparation import shapes
 from benchmarks.preparation.shapes import bundled
-from benchmarks.preparation.surface_distance import distance_errors
 
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.kernel import Geodesic
 from contactbench.pipeline.mesh.regions import Brush, FacetGraph, RegionModel, RegionSet
 from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+    Distance = Callable[[Floats, Floats], Floats]
+    from collections.abc import Callable
+
     from scipy.sparse import csr_array
     from scipy.spatial import cKDTree
 
     from contactbench.pipeline.mesh import Probe
 
-    Floats = npt.NDArray[np.float64]
+# Nearer than this many edge lengths the surface is not yet resolved.
+_EDGES = 5
+_SOURCES = 10
+
+
+def distance_errors(rng: np.random.Generator, facets: int = 8_000) -> Iterator[tuple[str, Floats]]:
+    """Compare geodesic distances with exact ones, at least five edge lengths away."""
+    yield "plane, random", _errors(*shapes.plane(facets, rng), _straight, 0.5, rng)
+    yield "sphere, even", _errors(*shapes.sphere(facets), _great_circle, 2.0, rng)
+    yield "sphere, random", _errors(*shapes.sphere(facets, rng), _great_circle, 2.0, rng)
+    # Far from the open ends, where no shortest way leads around the edge of the mesh.
+    yield "cylinder, random", _errors(*shapes.cylinder(facets, rng), _helix, 1.2, rng)
+
+
+def _errors(
+    vertices: Floats, faces: npt.NDArray[np.int32], exact: Distance, limit: float, rng: np.random.Generator
+) -> Floats:
+    geodesic = Geodesic(np.ascontiguousarray(vertices), np.ascontiguousarray(faces))
+    edge = float(np.mean(np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2)))
+    centres = vertices[faces].mean(axis=1)
+    middle = np.flatnonzero((np.abs(centres) < [1.1, 1.1, 0.7]).all(axis=1))
+    if np.ptp(vertices[:, 2]) == 0:
+        middle = middle[(np.abs(centres[middle]) < 0.4).all(axis=1)]
+    found = []
+    for face in rng.choice(middle, _SOURCES, replace=False).tolist():
+        there, distance = geodesic.around(face, np.ascontiguousarray(centres[face]), limit)
+        true = exact(centres[face], vertices[there])
+        far = true >= _EDGES * edge
+        found.append(np.abs(distance[far] / true[far] - 1))
+    return np.concatenate(found)
+
+
+def _straight(source: Floats, points: Floats) -> Floats:
+    return np.asarray(np.linalg.norm(points - source, axis=1))
+
+
+def _great_circle(source: Floats, points: Floats) -> Floats:
+    pole = source / np.linalg.norm(source)
+    sine = np.linalg.norm(np.cross(points, pole), axis=1)
+    return np.asarray(np.arctan2(sine, points @ pole))
+
+
+def _helix(source: Floats, points: Floats) -> Floats:
+    turn = np.arctan2(points[:, 1], points[:, 0]) - np.arctan2(source[1], source[0])
+    around = np.abs((turn + np.pi) % (2 * np.pi) - np.pi)
+    return np.asarray(np.hypot(around, points[:, 2] - source[2]))
+
 
 _RADIUS, _STEP, _EVENTS = 0.005, 0.005, 20
 _LONGEST_MS, _BUILD_S = 10.0, 0.5
@@ -39,27 +91,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Measure every figure.
-
-    Parameters
-    ----------
-    facets : int
-        Of each bundled probe.
-    strokes : int
-        Timed strokes of each kind on each probe: 20 mouse events, 5 mm apart, with a brush of 5 mm.
-    undone : int
-        Strokes undone and done again.
-    seed : int
-        Of where the strokes go.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range.
-    """
+    """Measure every figure."""
     if strokes < 2 or undone < 1:
         raise InputError(f"{strokes} strokes, {undone} undone: give at least 2, and at least 1 to undo")
     figures: list[Figure] = []
@@ -86,13 +118,7 @@ def run(
 
 
 class Rivals:
-    """
-    What scipy offers for the same question: Dijkstra on the edges, and a k-d tree of centroids.
-
-    Parameters
-    ----------
-    probe : Probe
-    """
+    """What scipy offers for the same question: Dijkstra on the edges, and a k-d tree of centroids."""
 
     def __init__(self, probe: Probe) -> None:
         from scipy.spatial import cKDTree
@@ -171,15 +197,7 @@ def _stroke_figures(of: str, name: str, wall: list[float], cpu: list[float]) -> 
 
 
 def wander(graph: FacetGraph, rng: np.random.Generator) -> tuple[npt.NDArray[np.int32], Floats]:
-    """
-    Draw the picks of a stroke that wanders smoothly over the surface.
-
-    Returns
-    -------
-    faces : (20,) int32
-    points : (20, 3) float64
-        On these facets, 5 mm apart at most.
-    """
+    """Draw the picks of a stroke that wanders smoothly over the surface."""
     where = graph.centroids[int(rng.integers(graph.facet_count))]
     heading = rng.standard_normal(3)
     faces, points = [], []

@@ -41,39 +41,15 @@ RIVALS = LIBRARIES[:2]  # those that are measured wherever probes are prepared
 
 @dataclass(frozen=True, eq=False)
 class BareResult:
-    """
-    What a library made, and how long it took.
+    """What a library made, and how long it took."""
 
-    Attributes
-    ----------
-    vertices : (n, 3) float64
-        In the unit of what was given.
-    faces : (m, 3) int32
-    seconds : float
-        Of the library's own calls.
-    """
-
-    vertices: npt.NDArray[np.float64]
-    faces: npt.NDArray[np.int32]
-    seconds: float
+    vertices: npt.NDArray[np.float64]  # (n, 3) float64. In the unit of what was given.
+    faces: npt.NDArray[np.int32]  # (m, 3) int32
+    seconds: float  # Of the library's own calls
 
 
 class Rival:
-    """
-    A library's own process; a context manager.
-
-    Parameters
-    ----------
-    library : str
-        One of `LIBRARIES`.
-    folder : Path
-        Where meshes are passed as files.
-
-    Raises
-    ------
-    InputError
-        The library is not installed.
-    """
+    """A library's own process; a context manager."""
 
     def __init__(self, library: str, folder: Path) -> None:
         self.library = library
@@ -103,22 +79,7 @@ class Rival:
     def simplify(
         self, vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], count: int
     ) -> BareResult:
-        """
-        Let the library simplify with its defaults.
-
-        Parameters
-        ----------
-        vertices : (n, 3) float64
-            In the unit that the library is to see.
-        faces : (m, 3) int32
-        count : int
-            Facets to reach.
-
-        Raises
-        ------
-        InputError
-            The library failed on this mesh.
-        """
+        """Let the library simplify with its defaults."""
         given, made = self._folder / f"{self.library}-in.npz", self._folder / f"{self.library}-out.npz"
         np.savez(given, vertices=vertices, faces=faces)
         call = json.dumps({"given": str(given), "made": str(made), "count": count})

@@ -20,21 +20,7 @@ BUMPY = "bumpy sphere"
 
 
 def bundled(name: str, facets: int) -> Probe:
-    """
-    Mesh a bundled probe.
-
-    Parameters
-    ----------
-    name : str
-        One of `assets.PROBE_NAMES`.
-    facets : int
-        Wanted number; met within 5 %.
-
-    Raises
-    ------
-    InputError
-        There is no such probe, or too few facets to close it.
-    """
+    """Mesh a bundled probe."""
     if name not in assets.PROBE_NAMES:
         raise InputError(f"there is no bundled probe {name!r}; choose one of {', '.join(assets.PROBE_NAMES)}")
     if facets < 300:
@@ -51,22 +37,7 @@ def bumpy_sphere(facets: int) -> Probe:
 
 
 def sphere(facets: int, rng: np.random.Generator | None = None) -> tuple[Floats, Ints]:
-    """
-    Mesh the unit sphere.
-
-    Parameters
-    ----------
-    facets : int
-        Wanted number.
-    rng : numpy.random.Generator, optional
-        For vertices at random places, which makes slender and obtuse facets; evenly spread without it.
-
-    Returns
-    -------
-    vertices : (n, 3) float64
-    faces : (m, 3) int32
-        Counter-clockwise seen from outside.
-    """
+    """Mesh the unit sphere."""
     from scipy.spatial import ConvexHull
 
     count = facets // 2 + 2

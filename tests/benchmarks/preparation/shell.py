@@ -1,4 +1,4 @@
-"""Is the outer shell as good as it says? Real files, or bundled probes hollowed out, whose outside is known."""
+"""The outer shell of hollow bodies: sound, on the true outside, its openings closed."""
 
 from __future__ import annotations
 
@@ -8,22 +8,59 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from benchmarks.preparation.housing import housing
+from benchmarks.preparation.shapes import bundled
 
 from contactbench import assets
 from contactbench.pipeline.kernel import SurfaceIndex
-from contactbench.pipeline.mesh import load_probe
+from contactbench.pipeline.mesh import Probe, load_probe
 from contactbench.pipeline.mesh.shell import Closing, make_shell
 from contactbench.pipeline.mesh.shell.fit import sample_surface
 from contactbench.pipeline.mesh.soundness import check_soundness
+from contactbench.pipeline.mesh.triangles import cross_products, twins
 from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Mesh = tuple[npt.NDArray[np.float64], npt.NDArray[np.int32]]
     import os
     from collections.abc import Callable, Iterator, Sequence
 
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.mesh.shell import Shell
+
+WALL = 0.002
+# The flange's end is level, at z = 0.
+_LEVEL, _DOWN = 0.0005, -0.99
+
+
+def housing(name: str, facets: int) -> tuple[Probe, Probe]:
+    """Hollow out a bundled probe."""
+    solid = bundled(name, facets)
+    low = (solid.vertices[solid.faces, 2] < _LEVEL).all(axis=1)
+    outer = np.ascontiguousarray(solid.faces[~(low & (solid.normals[:, 2] < _DOWN))])
+    inner = solid.vertices - WALL * _vertex_normals(solid)
+    count = len(solid.vertices)
+    a, b = _rim(outer).T
+    lip = np.concatenate((np.column_stack((b, a, a + count)), np.column_stack((b, a + count, b + count))))
+    faces = np.concatenate((outer, outer[:, ::-1] + count, lip)).astype(np.int32)
+    hollow = Probe.from_arrays(np.concatenate((solid.vertices, inner)), faces, name=name)
+    return hollow, Probe.from_arrays(solid.vertices, outer, name=name)
+
+
+def _rim(faces: npt.NDArray[np.int32]) -> npt.NDArray[np.int32]:
+    """Half-edges (k, 2) without a facet on their other side."""
+    edges = np.stack((faces, np.roll(faces, -1, axis=1)), axis=2).reshape(-1, 2)
+    return np.asarray(edges[twins(faces) < 0])
+
+
+def _vertex_normals(probe: Probe) -> npt.NDArray[np.float64]:
+    summed = np.zeros_like(probe.vertices)
+    cross = cross_products(probe.vertices, probe.faces)
+    for corner in range(3):
+        np.add.at(summed, probe.faces[:, corner], cross)
+    return np.asarray(summed / np.linalg.norm(summed, axis=1, keepdims=True))
+
 
 _NEAR_MM = 0.3
 _SAMPLES = 60_000
@@ -31,23 +68,12 @@ _SAMPLES = 60_000
 
 @dataclass(frozen=True, eq=False)
 class Case:
-    """
-    A mesh to make a shell of.
-
-    Attributes
-    ----------
-    name : str
-    probe : Probe
-    outside : Probe or None
-        The true outer surface, where it is known.
-    openings : int or None
-        How many openings it has, where that is known.
-    """
+    """A mesh to make a shell of."""
 
     name: str
     probe: Probe
-    outside: Probe | None = None
-    openings: int | None = None
+    outside: Probe | None = None  # The true outer surface, where it is known
+    openings: int | None = None  # How many openings it has, where that is known
 
 
 def run(
@@ -58,27 +84,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Make a shell of every mesh and measure it.
-
-    Parameters
-    ----------
-    files : sequence of path
-        Mesh files in any unit that can be told from them; the bundled probes as hollow housings when there are none.
-    facets : int
-        Of each bundled probe.
-    quick : bool
-        Only one housing.
-    seed : int
-        Of the points that are measured.
-    progress : callable
-        Told what is being done.
-
-    Raises
-    ------
-    InputError
-        A file cannot be read or made a shell of, or pymeshlab or libigl is not installed.
-    """
+    """Make a shell of every mesh and measure it."""
     figures: list[Figure] = []
     for case in _cases(files, facets, quick):
         progress(f"{case.name}: {len(case.probe.faces):,} facets")
@@ -96,20 +102,7 @@ def run(
 
 
 def judge(case: Case, rng: np.random.Generator) -> list[Figure]:
-    """
-    Make a shell and measure it.
-
-    Parameters
-    ----------
-    case : Case
-    rng : numpy.random.Generator
-        Of the points that are measured.
-
-    Raises
-    ------
-    MeshError, EngineError
-        See `make_shell`.
-    """
+    """Make a shell and measure it."""
     began = time.perf_counter()
     shell = make_shell(case.probe)
     seconds = time.perf_counter() - began

@@ -50,29 +50,7 @@ def run(
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Report:
-    """
-    Measure every figure.
-
-    Parameters
-    ----------
-    facets_in, facets_out : int
-        Before and after.
-    shapes : sequence of str
-        Of `SHAPES`.
-    rounds : int
-        Timed calls of each, in turn.
-    memory : bool
-        Also simplify a million facets and take the process's peak: half a minute.
-    seed : int
-        Of where the regions are painted.
-    progress : callable
-        Told what is being measured.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or a library is not installed.
-    """
+    """Measure every figure."""
     _check(facets_in, facets_out, shapes, rounds)
     figures: list[Figure] = []
     with ExitStack() as stack:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from itertools import product
 from typing import TYPE_CHECKING, Any
@@ -16,30 +15,31 @@ from benchmarks.reproduce.dynamic_cells import (
     VERTICAL,
     Cell,
     Outcome,
+    run_cells,
 )
-from benchmarks.reproduce.dynamic_paper import DIFFERENCES
-from benchmarks.reproduce.dynamic_plot import draw_course, draw_methods
-from benchmarks.reproduce.dynamic_runs import run_cells
-from benchmarks.reproduce.dynamic_store import Store
-from benchmarks.reproduce.dynamic_tables import order_notes, runs, table_one, table_two
+from benchmarks.reproduce.dynamic_tables import (
+    DIFFERENCES,
+    draw_course,
+    draw_methods,
+    order_notes,
+    runs,
+    table_one,
+    table_two,
+)
 
 from contactbench import assets
 from contactbench.pipeline.control.bounds import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.settings import ControlSettings, Variant
-from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of
 from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import write_bytes, write_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from pathlib import Path
 
     from contactbench.pipeline.control.trace import Trace
     from contactbench.pipeline.study.control_rig import SceneName
-    from contactbench.pipeline.study.sheets import Sheet
 
 OURS = "contactbench"
 MOST_DEGREES = {10.0: 0.8, 5.0: 1.8, 2.0: 4.0}
@@ -50,120 +50,16 @@ _MOST_SEEDS = 100
 
 @dataclass(frozen=True, eq=False)
 class DynamicResult:
-    """
-    All that was measured.
-
-    Attributes
-    ----------
-    settings : dict
-    outcomes : tuple of Outcome
-    traces : dict of Cell to Trace
-        Of the first seed and our method.
-    bound : (out of plane, in plane)
-        Standard deviation of the tilt that one period of readings leaves, degrees.
-    """
+    """All that was measured."""
 
     settings: dict[str, Any]
     outcomes: tuple[Outcome, ...]
-    traces: dict[Cell, Trace]
+    traces: dict[Cell, Trace]  # Of the first seed and our method
+    # (out of plane, in plane). Standard deviation of the tilt that one period of readings leaves, degrees.
     bound: tuple[float, float]
 
-    differences = DIFFERENCES
 
-    @property
-    def sheets(self) -> tuple[Sheet, ...]:
-        """Table I, Table II, and every run."""
-        return (*self.summaries, runs(self.outcomes))
-
-    @property
-    def summaries(self) -> tuple[Sheet, ...]:
-        """What fits a terminal."""
-        return (table_one(self.outcomes), table_two(self.outcomes))
-
-    @property
-    def report(self) -> Report:
-        """What is judged: our method, aware of the motion - or plain, if only that was run."""
-        variant = Variant.AWARE if self._of(Variant.AWARE) else Variant.PLAIN
-        figures = [
-            figure
-            for period in sorted({each.cell.period for each in self.outcomes}, reverse=True)
-            for motion in MOTIONS
-            if (mine := [o for o in self._of(variant) if (o.cell.motion, o.cell.period) == (motion, period)])
-            for figure in _judged(motion, period, mine)
-        ]
-        mine = self._of(variant)
-        figures.append(Figure.of("all", "largest force before the motion", [o.first for o in mine], "N",
-                                 most=_FIRST_N, judged="worst"))  # fmt: skip
-        figures.append(Figure.of("all", "times that the phantom was lost", [o.lost for o in mine], most=0,
-                                 judged="worst"))  # fmt: skip
-        figures.append(Figure.of("all", "largest share of a joint's speed limit", [100 * o.speed for o in mine],
-                                 "%", most=100.0, judged="worst"))  # fmt: skip
-        for axis, value in zip(("out of plane", "in plane"), self.bound, strict=True):
-            figures.append(
-                Figure("bound", f"tilt that one period of readings leaves unknown, {axis}", value, "deg")
-            )
-        notes = [f"Judged: {OURS}, {variant}.", *self._missed(figures), *order_notes(self.outcomes)]
-        return Report("reproduce dynamic", self.settings, tuple(figures), tuple(notes))
-
-    def markdown(self) -> str:
-        """Write everything but the runs, which are in their CSV file."""
-        differs = "\n".join(f"- {sentence}" for sentence in DIFFERENCES)
-        parts = [self.report.markdown(), *(sheet.markdown() for sheet in self.summaries)]
-        head = [
-            "# The paper's dynamic experiments",
-            "",
-            "![course](course.png)",
-            "",
-            "![methods](methods.png)",
-            "",
-        ]
-        return "\n".join([*head, *parts, "## What differs", "", differs, ""])
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        tables = {sheet.name: sheet.to_json() for sheet in self.sheets}
-        return {**self.report.to_json(), **tables, "differences": list(DIFFERENCES)}
-
-    def write(self, out: Path) -> None:
-        """
-        Write dynamic.md, course.png, methods.png, a CSV file per table, and one per course in ``traces``.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
-        """
-        make_folder(out / "traces")
-        for sheet in self.sheets:
-            write_text(out / f"{sheet.name}.csv", sheet.csv())
-        write_text(out / "dynamic.md", self.markdown())
-        write_bytes(out / "course.png", draw_course(self.traces))
-        write_bytes(out / "methods.png", draw_methods(self.outcomes))
-        for cell, trace in self.traces.items():
-            name = f"{cell.variant}-{cell.motion.replace(' ', '-')}-{cell.period:g}s.csv"
-            write_text(out / "traces" / name, trace.csv())
-
-    def _of(self, variant: Variant) -> list[Outcome]:
-        return [o for o in self.outcomes if (o.cell.method, o.cell.variant) == (OURS, variant)]
-
-    def _missed(self, figures: Sequence[Figure]) -> list[str]:
-        """Say what stands behind targets that are missed."""
-        missed = [each for each in figures if not each.passed]
-        if not missed:
-            return []
-        out, within = self.bound
-        fastest = max(o.speed for o in self.outcomes)
-        names = ", ".join(f"{each.subject}: {each.name}" for each in missed)
-        bound = (
-            f"Missed: {names}. What bounds them: with 0.05 N and 1.4 N·mm a reading and friction, one period"
-            f" of readings leaves the tilt unknown by {out:.1f} degrees out of plane, {within:.1f} in plane;"
-            " readings are 10 ms old on average when they are acted on, and the set-point holds for 20 ms."
-            f" The joints were asked for at most {100 * fastest:.0f} % of their speed."
-        )
-        return [bound]
-
-
-def run(
+def measure(
     probe: str = "convex",
     *,
     scene: str = "platform",
@@ -175,42 +71,9 @@ def run(
     quick: bool = False,
     workers: int | None = None,
     settings: ControlSettings | None = None,
-    kept: Path | None = None,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> DynamicResult:
-    """
-    Track a moving phantom with every method, the same gains and seeds for all.
-
-    Parameters
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    scene : {"platform", "arm"}
-    variants : sequence of Variant
-    methods : sequence of str
-        Among `METHODS`.
-    periods : sequence of float
-        s.
-    seeds : int
-        1 to 100.
-    friction : float
-        Of the phantom.
-    quick : bool
-        One period each, coarser physics.
-    workers : int, optional
-        Processes; left out, one for each core.
-    settings : ControlSettings, optional
-        Gains; left out, those for the probe.
-    kept : Path, optional
-        Folder where each run is kept as it ends, and found again when the same is asked for later.
-    progress : callable, optional
-        Told how many of how many runs are done.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or MuJoCo or Embree is missing.
-    """
+    """Track a moving phantom with every method, the same gains and seeds for all."""
     variants = [Variant(each) for each in variants]
     chosen = _checked(probe, scene, variants, methods, periods, seeds, friction)
     cells = [
@@ -219,14 +82,12 @@ def run(
             variants, periods, MOTIONS, methods, range(seeds)
         )
     ]
-    count = min(workers or os.cpu_count() or 1, len(cells))
     outcomes, traces = run_cells(
         cells,
         lambda cell: cell.seed == 0 and cell.method == methods[0],
-        workers=count,
+        workers=workers,
         progress=progress,
         settings=settings,
-        store=None if kept is None else Store(kept, settings),
     )
     base = settings or ControlSettings.for_probe(foundation_of(probe), desired_force=FORCE_N)
     about_x, about_y = np.degrees(tilt_bound(base, foundation_of(probe), USUAL_MODULUS)).tolist()
@@ -275,3 +136,88 @@ def _judged(motion: str, period: float, mine: list[Outcome]) -> list[Figure]:
         Figure.of(subject, "largest force", [o.force[2] for o in mine], "N", most=high, judged="worst")
     )
     return found
+
+
+def run(
+    probe: str = "convex",
+    *,
+    scene: str = "platform",
+    variants: Sequence[Variant] = tuple(Variant),
+    methods: Sequence[str] = METHODS,
+    periods: Sequence[float] = PERIODS_S,
+    seeds: int = 5,
+    friction: float = 0.1,
+    quick: bool = False,
+    workers: int | None = None,
+    settings: ControlSettings | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+) -> Report:
+    """Track a moving phantom with every method, and judge ours."""
+    return report_of(
+        measure(
+            probe,
+            scene=scene,
+            variants=variants,
+            methods=methods,
+            periods=periods,
+            seeds=seeds,
+            friction=friction,
+            quick=quick,
+            workers=workers,
+            settings=settings,
+            progress=progress,
+        )
+    )
+
+
+def report_of(result: DynamicResult) -> Report:
+    """What is judged: our method, aware of the motion - or plain, if only that was run."""
+    variant = Variant.AWARE if _of(result, Variant.AWARE) else Variant.PLAIN
+    figures = [
+        figure
+        for period in sorted({each.cell.period for each in result.outcomes}, reverse=True)
+        for motion in MOTIONS
+        if (mine := [o for o in _of(result, variant) if (o.cell.motion, o.cell.period) == (motion, period)])
+        for figure in _judged(motion, period, mine)
+    ]
+    mine = _of(result, variant)
+    figures.append(Figure.of("all", "largest force before the motion", [o.first for o in mine], "N",
+                             most=_FIRST_N, judged="worst"))  # fmt: skip
+    figures.append(Figure.of("all", "times that the phantom was lost", [o.lost for o in mine], most=0,
+                             judged="worst"))  # fmt: skip
+    figures.append(Figure.of("all", "largest share of a joint's speed limit", [100 * o.speed for o in mine],
+                             "%", most=100.0, judged="worst"))  # fmt: skip
+    for axis, value in zip(("out of plane", "in plane"), result.bound, strict=True):
+        figures.append(
+            Figure("bound", f"tilt that one period of readings leaves unknown, {axis}", value, "deg")
+        )
+    notes = [f"Judged: {OURS}, {variant}.", *_missed(result, figures), *order_notes(result.outcomes)]
+    files = {"course.png": draw_course(result.traces), "methods.png": draw_methods(result.outcomes)}
+    for cell, trace in result.traces.items():
+        name = f"traces/{cell.variant}-{cell.motion.replace(' ', '-')}-{cell.period:g}s.csv"
+        files[name] = trace.csv().encode()
+    sheets = (table_one(result.outcomes), table_two(result.outcomes), runs(result.outcomes))
+    return Report(
+        "reproduce dynamic", result.settings, tuple(figures), tuple(notes), sheets, files, DIFFERENCES
+    )
+
+
+def _of(result: DynamicResult, variant: Variant) -> list[Outcome]:
+    return [o for o in result.outcomes if (o.cell.method, o.cell.variant) == (OURS, variant)]
+
+
+def _missed(result: DynamicResult, figures: Sequence[Figure]) -> list[str]:
+    """Say what stands behind targets that are missed."""
+    missed = [each for each in figures if not each.passed]
+    if not missed:
+        return []
+    out, within = result.bound
+    fastest = max(o.speed for o in result.outcomes)
+    names = ", ".join(f"{each.subject}: {each.name}" for each in missed)
+    bound = (
+        f"Missed: {names}. What bounds them: with 0.05 N and 1.4 N·mm a reading and friction, one period"
+        f" of readings leaves the tilt unknown by {out:.1f} degrees out of plane, {within:.1f} in plane;"
+        " readings are 10 ms old on average when they are acted on, and the set-point holds for 20 ms."
+        f" The joints were asked for at most {100 * fastest:.0f} % of their speed."
+    )
+    return [bound]

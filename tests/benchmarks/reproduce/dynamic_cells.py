@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from benchmarks.trials import in_processes, rms
 
 from contactbench.pipeline.control.loop import arm_of, run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
@@ -14,7 +16,7 @@ from contactbench.pipeline.simulation.scenes import PlatformMotion, Tissue
 from contactbench.pipeline.study.control_rig import SceneName, foundation_of, make_rig
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable, Sequence
 
     from contactbench.pipeline.control.trace import Trace
     from contactbench.pipeline.simulation.scenes import MovedScene
@@ -31,34 +33,17 @@ _MOVING_S = 10.0
 
 @dataclass(frozen=True)
 class Cell:
-    """
-    One run.
+    """One run."""
 
-    Attributes
-    ----------
-    scene : {"platform", "arm"}
-    probe, method : str
-    variant : Variant
-    motion : str
-        A key of `MOTIONS`.
-    period : float
-        Of the motion, s.
-    seed : int
-        Of load, biases, calibration and noise.
-    friction : float
-    quick : bool
-        One period only, with coarser physics.
-    """
-
-    scene: SceneName
+    scene: SceneName  # {"platform", "arm"}
     probe: str
     method: str
     variant: Variant
-    motion: str
-    period: float
-    seed: int
+    motion: str  # A key of `MOTIONS`
+    period: float  # Of the motion, s
+    seed: int  # Of load, biases, calibration and noise
     friction: float = 0.1
-    quick: bool = False
+    quick: bool = False  # One period only, with coarser physics
 
     @property
     def seconds(self) -> float:
@@ -69,71 +54,32 @@ class Cell:
 
 @dataclass(frozen=True)
 class Outcome:
-    """
-    What is measured while the platform moves, from its first moment on.
-
-    Attributes
-    ----------
-    cell : Cell
-    followed : float
-        Share of the time in which it tracked.
-    force : (least, mean, largest)
-        True, along the probe's axis, N.
-    angle, other : (mean, SD)
-        Of the absolute angle error in the plane of the motion - for a vertical one in plane - and in the other one,
-        degrees.
-    whole : float
-        Mean whole angle between axis and normal, degrees.
-    first : float
-        Largest force before the platform moves, N.
-    lost : int
-        How often the probe left the phantom after its first touch, until the end.
-    place : float
-        Root mean square distance from sensed to true contact, mm.
-    torsion : (float, float)
-        Root mean square of the true contact's torque about its own normal, N·mm, and of how far that moves the
-        wrench's axis from the contact, mm.
-    speed : float
-        Largest share of a joint's speed limit that a set-point asked for.
-    held : float
-        Share of the time in which the arm's limits cut what was wanted.
-    step_ms : (median, 99th percentile)
-        Of the controller, ms.
-    ended : str
-        What happened before the end, if it did not follow.
-    """
+    """What is measured while the platform moves, from its first moment on."""
 
     cell: Cell
-    followed: float
-    force: tuple[float, float, float]
+    followed: float  # Share of the time in which it tracked
+    force: tuple[float, float, float]  # (least, mean, largest). True, along the probe's axis, N.
+    # (mean, SD). Of the absolute angle error in the plane of the motion - for a vertical one in plane - and
+    # in the other one, degrees.
     angle: tuple[float, float]
+    # (mean, SD). Of the absolute angle error in the plane of the motion - for a vertical one in plane - and
+    # in the other one, degrees.
     other: tuple[float, float]
-    whole: float
-    first: float
-    lost: int
-    place: float
+    whole: float  # Mean whole angle between axis and normal, degrees
+    first: float  # Largest force before the platform moves, N
+    lost: int  # How often the probe left the phantom after its first touch, until the end
+    place: float  # Root mean square distance from sensed to true contact, mm
+    # Root mean square of the true contact's torque about its own normal, N·mm, and of how far that moves
+    # the wrench's axis from the contact, mm
     torsion: tuple[float, float]
-    speed: float
-    held: float
-    step_ms: tuple[float, float]
-    ended: str
+    speed: float  # Largest share of a joint's speed limit that a set-point asked for
+    held: float  # Share of the time in which the arm's limits cut what was wanted
+    step_ms: tuple[float, float]  # (median, 99th percentile). Of the controller, ms.
+    ended: str  # What happened before the end, if it did not follow
 
 
 def run_cell(cell: Cell, settings: ControlSettings | None = None) -> tuple[Outcome, Trace]:
-    """
-    Run one.
-
-    Parameters
-    ----------
-    cell : Cell
-    settings : ControlSettings, optional
-        Left out, those for the probe.
-
-    Raises
-    ------
-    InputError
-        Something needed is missing, such as MuJoCo or Embree.
-    """
+    """Run one."""
     axis, size = MOTIONS[cell.motion]
     base = settings or ControlSettings.for_probe(foundation_of(cell.probe), desired_force=FORCE_N)
     rig = make_rig(
@@ -190,12 +136,32 @@ def _moving(cell: Cell, moving: Trace) -> dict[str, Any]:
         "angle": (float(errors[:, mine].mean()), float(errors[:, mine].std())),
         "other": (float(errors[:, 1 - mine].mean()), float(errors[:, 1 - mine].std())),
         "whole": float(np.degrees(moving.tilt).mean()),
-        "place": _rms(1e3 * np.linalg.norm(off, axis=1)),
-        "torsion": (_rms(1e3 * moving.torsion), _rms(1e3 * moving.shift)),
+        "place": rms(1e3 * np.linalg.norm(off, axis=1)),
+        "torsion": (rms(1e3 * moving.torsion), rms(1e3 * moving.shift)),
         "held": float((moving.share < 0.999).mean()),
     }
 
 
-def _rms(values: NDArray[np.float64]) -> float:
-    known = values[np.isfinite(values)]
-    return float(np.sqrt((known**2).mean())) if len(known) else float("nan")
+def run_cells(
+    cells: Sequence[Cell],
+    traced: Callable[[Cell], bool],
+    *,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+    settings: ControlSettings | None = None,
+) -> tuple[list[Outcome], dict[Cell, Trace]]:
+    """Run many: the results do not depend on how many processes share them."""
+    outcomes: dict[Cell, Outcome] = {}
+    traces: dict[Cell, Trace] = {}
+    for outcome, trace in in_processes(partial(_run, settings), [(c, traced(c)) for c in cells], workers):
+        outcomes[outcome.cell] = outcome
+        if trace is not None:
+            traces[outcome.cell] = trace
+        progress(len(outcomes), len(cells))
+    return [outcomes[cell] for cell in cells], traces
+
+
+def _run(settings: ControlSettings | None, job: tuple[Cell, bool]) -> tuple[Outcome, Trace | None]:
+    cell, traced = job
+    outcome, trace = run_cell(cell, settings)
+    return outcome, trace if traced else None

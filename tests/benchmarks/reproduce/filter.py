@@ -6,24 +6,117 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from benchmarks.reproduce.filter_plot import draw
-from benchmarks.reproduce.sliding import FORCE_N, Slide, slide
+from benchmarks.reproduce.located import OURS
+from benchmarks.reproduce.spectrum import spectrum, suggest_cutoff
+from benchmarks.trials import canvas, png, rms
 
 from contactbench import assets
-from contactbench.pipeline.durable import make_folder
+from contactbench.pipeline.calibration.contact_error import contact_sensitivity
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.filtering import KalmanFilter, LowPass, spectrum, suggest_cutoff
-from contactbench.pipeline.study.paper_setup import RATE_HZ
+from contactbench.pipeline.filtering import KalmanFilter, LowPass
+from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
+from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.study.marker_touches import model_of, truth_of
+from contactbench.pipeline.study.paper_setup import RATE_HZ, WARM_S, draw_bench
 from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import Sheet, write_bytes, write_text
+from contactbench.pipeline.study.sheets import Sheet
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
+    from benchmarks.reproduce.spectrum import CutoffSuggestion, Spectrum
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.filtering import CutoffSuggestion, Spectrum
+    from contactbench.pipeline.kernel import Batch
+    from contactbench.pipeline.simulation.scenes import Motion, Truth
+
+FORCE_N = 7.0  # mean, as the paper presses
+_ROUNDS = 5  # depth and heave depend on each other
+_BEGIN_S = 1.0  # until the phantom has come to its motion
+
+
+@dataclass(frozen=True, eq=False)
+class Slide:
+    """A recording, n samples at 200 Hz."""
+
+    true_mm: NDArray[np.float64]  # (n, 2). Contact centroid projected on the probe, x and y of S.
+    quiet_mm: NDArray[np.float64]  # (n, 2). Located from the true wrench.
+    # (n, 2). Located from the compensated reading; NaN without an accepted answer.
+    raw_mm: NDArray[np.float64]
+    kalman_mm: NDArray[np.float64]  # (n, 2). The same after the paper's Kalman filter of wrenches.
+    # Predicted standard deviation of the noise in `raw_mm`, root mean square over the recording: the
+    # sensor's noise alone, at any torsion. What the answers' covariances add for model and mesh is no
+    # noise.
+    sigma_mm: NDArray[np.float64]
+    force: NDArray[np.float64]  # (n,). True, N.
+    depth: float  # How deep the hand presses on average, m
+
+
+def slide(name: str, facets: int, seconds: float, seed: int, progress: Callable[[int, int], None]) -> Slide:
+    """Press, read and locate; a sample per reading of the sensor."""
+    bench = draw_bench(seed)
+    motion = _hand(truth_of(name), seed)
+    contacts, points = _pressed(name, round(seconds * RATE_HZ), motion, progress)
+    count = len(contacts)
+    R_WS = np.broadcast_to(np.eye(3), (count, 3, 3))  # the phantom moves, the probe stands
+    times = WARM_S + np.arange(count) / RATE_HZ
+    weight = bench.truth.predict(R_WS) - bench.settings.bias
+    model = SensorModel(bench.settings, np.random.default_rng([seed, 4]))
+    net = bench.calibration.model.compensate(R_WS, model.read(times, weight + contacts).wrenches)
+    sigma = np.sqrt(bench.settings.noise**2 + bench.settings.resolution**2 / 12)
+    # Noise alone: what the calibration leaves is an offset, not part of the spectrum's floor.
+    noise = WrenchNoise(sigma[:3], sigma[3:])
+    method = make(OURS, model_of(name, facets), noise)
+    quiet = method.locate_batch(contacts)
+    return Slide(
+        1e3 * points[:, :2],
+        _sure(quiet),
+        _sure(method.locate_batch(net)),
+        _sure(method.locate_batch(KalmanFilter(RATE_HZ).filter(net))),
+        1e3 * _sigma(quiet, contacts, noise),
+        np.linalg.norm(contacts[:, :3], axis=1),
+        float(-motion.offset[2]),
+    )
+
+
+def _hand(truth: Truth, seed: int) -> Motion:
+    """Draw a motion that pushes with the wanted mean force, and heaves by half its depth: no probe is lifted off."""
+    depth = depth_for(truth, FORCE_N)
+    for _ in range(_ROUNDS):
+        heave = depth / 2
+        depth = depth_for(truth, FORCE_N, motion=hand_motion(seed, heave=heave))
+    return hand_motion(seed, depth=depth, heave=heave)
+
+
+def _pressed(
+    name: str, count: int, motion: Motion, progress: Callable[[int, int], None]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return true wrenches (n, 6) and contacts (n, 3)."""
+    scene = PressScene(truth_of(name), motion=motion)
+    scene.advance(_BEGIN_S)
+    contacts, points = np.empty((count, 6)), np.empty((count, 3))
+    for number in range(count):
+        scene.advance(1 / RATE_HZ)
+        moment = scene.moment()
+        contacts[number], points[number] = moment.contact, moment.point_S
+        if number % 100 == 0:
+            progress(number, count)
+    return contacts, points
+
+
+def _sigma(quiet: Batch, contacts: NDArray[np.float64], noise: WrenchNoise) -> NDArray[np.float64]:
+    rows = np.flatnonzero(quiet.accepted)
+    along = [
+        contact_sensitivity(quiet.points[i], quiet.normals[i], contacts[i, None, :3])[0][:2] for i in rows
+    ]
+    return np.asarray(np.sqrt(np.mean([np.diag(J @ noise.covariance @ J.T) for J in along], axis=0)))
+
+
+def _sure(batch: Batch) -> NDArray[np.float64]:
+    return np.where(batch.accepted[:, None], 1e3 * batch.points[:, :2], np.nan)
+
 
 PAPER_HZ = 10.0
 FACETS = 1_000
@@ -59,182 +152,38 @@ DIFFERENCES = (
 
 @dataclass(frozen=True)
 class Filtered:
-    """
-    One way to filter, against what the true wrench gives; mm and s.
-
-    Attributes
-    ----------
-    name : str
-    rms, largest : float
-        Distance to it, noise and lag together.
-    noise : float
-        Root mean square distance with the lag taken out.
-    lag, predicted_lag : float
-        Measured, and by theory.
-    to_truth : float
-        Root mean square distance to the true contact.
-    """
+    """One way to filter, against what the true wrench gives; mm and s."""
 
     name: str
-    rms: float
-    largest: float
-    noise: float
-    lag: float
-    predicted_lag: float
-    to_truth: float
+    rms: float  # Distance to it, noise and lag together
+    largest: float  # Distance to it, noise and lag together
+    noise: float  # Root mean square distance with the lag taken out
+    lag: float  # Measured, and by theory
+    predicted_lag: float  # Measured, and by theory
+    to_truth: float  # Root mean square distance to the true contact
 
 
 @dataclass(frozen=True, eq=False)
 class FilterResult:
-    """
-    All that was measured.
-
-    Attributes
-    ----------
-    settings : dict
-    slide : Slide
-    spectra : dict of str to Spectrum
-        Of x and y, mm²/Hz, located from readings ("located") and from the true wrench ("no noise").
-    suggestion : CutoffSuggestion
-    filtered : tuple of Filtered
-    shown : dict of str to (n, 2)
-        Filtered contacts for the plot, mm.
-    """
+    """All that was measured."""
 
     settings: dict[str, Any]
     slide: Slide
+    # Of x and y, mm²/Hz, located from readings ("located") and from the true wrench ("no noise")
     spectra: dict[str, Spectrum]
     suggestion: CutoffSuggestion
     filtered: tuple[Filtered, ...]
-    shown: dict[str, NDArray[np.float64]]
-
-    differences = DIFFERENCES
-
-    @property
-    def sheets(self) -> tuple[Sheet, ...]:
-        """The filters, and the spectrum."""
-        return (self._filters(), self._spectrum())
-
-    @property
-    def summaries(self) -> tuple[Sheet, ...]:
-        """What fits a terminal."""
-        return (self._filters(),)
-
-    @property
-    def report(self) -> Report:
-        """What is judged."""
-        floor, notes = self._floor(), [self.suggestion.explanation]
-        left = LowPass(PAPER_HZ, RATE_HZ).noise_left
-        raw, low, kalman = self.filtered[:3]
-        cutoff = self.suggestion.cutoff_hz
-        probe = str(self.settings["probe"])
-        # First what matters to who uses it: noise and lag together. Less scatter alone may be a worse answer.
-        figures = [
-            Figure(probe, "error before, RMS", raw.rms, "mm"),
-            Figure(probe, "error after a low-pass at 10 Hz, lag included", low.rms, "mm"),
-            Figure(probe, "after over before, lag included", low.rms / raw.rms),
-            Figure(probe, "after over before, lag included, Kalman filter", kalman.rms / raw.rms),
-            Figure(probe, "after over before, lag taken out", low.noise / raw.noise),
-            Figure(
-                probe,
-                f"mean force; wanted {FORCE_N:g} N",
-                float(self.slide.force.mean()),
-                "N",
-                *_MEAN_FORCE_N,
-            ),
-        ]
-        figures += [
-            Figure(probe, f"{axis}: noise above 50 Hz over predicted", value, "", *_FLOOR)
-            for axis, value in zip("xy", floor, strict=True)
-        ]
-        sure = 100 * float(np.isfinite(self.slide.raw_mm[:, 0]).mean())
-        figures.append(Figure(probe, "located without doubt", sure, "%"))
-        if cutoff is not None:
-            figures.append(Figure(probe, f"suggested cut-off; the paper's is {PAPER_HZ:g} Hz", cutoff, "Hz"))
-        notes.append(
-            f"A low-pass at {PAPER_HZ:g} Hz leaves {100 * left:.0f} % of white noise, and takes tremor too. It is"
-            f" {1e3 * low.lag:.0f} ms late, in which the contact moves on: {_verdict(low.rms / raw.rms)}"
-        )
-        return Report("reproduce filter", self.settings, tuple(figures), tuple(notes))
-
-    def markdown(self) -> str:
-        """Write everything but the spectrum, which is in its CSV file."""
-        differs = "\n".join(f"- {sentence}" for sentence in DIFFERENCES)
-        parts = [self.report.markdown(), *(sheet.markdown() for sheet in self.summaries)]
-        return "\n".join(["# The paper's filters", "", *parts, "## What differs", "", differs, ""])
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain data for ``--json``."""
-        tables = {sheet.name: sheet.to_json() for sheet in self.sheets}
-        return {**self.report.to_json(), **tables, "differences": list(DIFFERENCES)}
-
-    def write(self, out: Path) -> None:
-        """
-        Write filter.md, filter.png and a CSV file per table in a folder.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
-        """
-        make_folder(out)
-        for sheet in self.sheets:
-            write_text(out / f"{sheet.name}.csv", sheet.csv())
-        write_text(out / "filter.md", self.markdown())
-        write_bytes(out / "filter.png", draw(self))
-
-    def _floor(self) -> tuple[float, float]:
-        """Return the noise seen above 50 Hz over the predicted one, for x and y."""
-        found = self.spectra["located"]
-        high = found.frequencies >= _NOISE_HZ
-        sigma = np.sqrt(found.density[high].mean(axis=0) * RATE_HZ / 2)
-        x, y = (sigma / self.slide.sigma_mm).tolist()
-        return x, y
-
-    def _filters(self) -> Sheet:
-        rows = tuple(
-            (f.name, f.rms, f.largest, f.noise, 1e3 * f.lag, 1e3 * f.predicted_lag, f.to_truth)
-            for f in self.filtered
-        )
-        columns = ("filter", "RMS mm", "largest mm", "RMS without lag mm", "lag ms", "by theory ms")
-        title = "Filtered contacts, against those of the true wrench"
-        return Sheet("filters", title, (*columns, "RMS to true contact mm"), rows)
-
-    def _spectrum(self) -> Sheet:
-        found = self.spectra["located"]
-        noise = (2 * self.slide.sigma_mm**2 / RATE_HZ).tolist()
-        columns = [found.frequencies, *found.density.T, *self.spectra["no noise"].density.T]
-        rows = tuple((*values, *noise) for values in np.column_stack(columns).tolist())
-        heads = ("Hz", "located x mm²/Hz", "located y", "no noise x", "no noise y", "noise x predicted")
-        return Sheet("spectrum", "Spectra of the contact", (*heads, "noise y predicted"), rows)
+    shown: dict[str, NDArray[np.float64]]  # dict of str to (n, 2). Filtered contacts for the plot, mm.
 
 
-def run(
+def measure(
     probe: str = "t-shape",
     *,
     seconds: float = 20.0,
     seed: int = 0,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> FilterResult:
-    """
-    Press as a hand, locate every reading, and filter the contacts.
-
-    Parameters
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    seconds : float
-        From 6 to 120.
-    seed : int
-        Of motion, load and noise.
-    progress : callable, optional
-        Told how many samples of how many are simulated.
-
-    Raises
-    ------
-    InputError
-        An argument is out of its range, or MuJoCo is missing.
-    """
+    """Press as a hand, locate every reading, and filter the contacts."""
     if probe not in assets.PROBE_NAMES:
         raise InputError(f"there is no probe {probe!r}: choose one of {', '.join(assets.PROBE_NAMES)}.")
     if not _SHORTEST_S <= seconds <= _LONGEST_S:
@@ -284,9 +233,9 @@ def _judge(name: str, points: NDArray[np.float64], delay: float, made: Slide) ->
     off = np.linalg.norm(points - made.quiet_mm, axis=1)[skip:]
     truth = np.linalg.norm(points - made.true_mm, axis=1)[skip:]
     lags = np.arange(0.0, _LARGEST_LAG_S, 0.001)
-    left = [_rms(np.linalg.norm(points - _late(made.quiet_mm, times, lag), axis=1)[skip:]) for lag in lags]
+    left = [rms(np.linalg.norm(points - _late(made.quiet_mm, times, lag), axis=1)[skip:]) for lag in lags]
     best = int(np.argmin(left))
-    return Filtered(name, _rms(off), float(np.nanmax(off)), left[best], float(lags[best]), delay, _rms(truth))
+    return Filtered(name, rms(off), float(np.nanmax(off)), left[best], float(lags[best]), delay, rms(truth))
 
 
 def _late(points: NDArray[np.float64], times: NDArray[np.float64], lag: float) -> NDArray[np.float64]:
@@ -308,5 +257,112 @@ def _verdict(ratio: float) -> str:
     return f"the error as a whole grows to {ratio:.2f} times what it was."
 
 
-def _rms(values: NDArray[np.float64]) -> float:
-    return float(np.sqrt(np.nanmean(values**2)))
+_SHOWN_S = (2.0, 5.0)
+_FAINT, _BLUE, _RED, _GREEN = "#b0b0b0", "#0072b2", "#d55e00", "#009e73"
+
+
+def draw(result: FilterResult) -> bytes:
+    """Draw spectra on the left, contacts over time on the right, x above y, as a PNG image."""
+    figure = canvas(14, 8)
+    panels = figure.subplots(2, 2)
+    located, quiet = result.spectra["located"], result.spectra["no noise"]
+    times = np.arange(len(result.slide.raw_mm)) / RATE_HZ
+    seen = (times >= _SHOWN_S[0]) & (times < _SHOWN_S[1])
+    colours = {"none": _FAINT, "low-pass 10 Hz": _BLUE, "Kalman filter of wrenches": _RED}
+    for k, axis in enumerate("xy"):
+        left, right = panels[k]
+        left.loglog(located.frequencies[1:], located.density[1:, k], color=_FAINT, label="located")
+        left.loglog(quiet.frequencies[1:], quiet.density[1:, k], color=_GREEN, label="without noise")
+        floor = 2 * result.slide.sigma_mm[k] ** 2 / RATE_HZ
+        left.axhline(floor, color="black", ls=":", label="noise predicted")
+        left.axvline(10.0, color=_BLUE, ls="--", label="the paper's 10 Hz")
+        if result.suggestion.cutoff_hz is not None:
+            left.axvline(result.suggestion.cutoff_hz, color=_RED, ls="--", label="suggested")
+        left.set(title=f"{axis} of the contact", xlabel="Hz", ylabel="mm²/Hz", ylim=(floor / 100, None))
+        left.legend(fontsize=8)
+        for name, colour in colours.items():
+            right.plot(times[seen], result.shown[name][seen, k], color=colour, label=name, lw=1)
+        right.plot(times[seen], result.slide.quiet_mm[seen, k], color=_GREEN, label="without noise", lw=1)
+        right.set(title=f"{axis} of the contact", xlabel="s", ylabel="mm")
+        right.legend(fontsize=8)
+    return png(figure)
+
+
+def run(
+    probe: str = "t-shape",
+    *,
+    seconds: float = 20.0,
+    seed: int = 0,
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+) -> Report:
+    """Press as a hand, locate every reading, filter the contacts, and compare."""
+    return report_of(measure(probe, seconds=seconds, seed=seed, progress=progress))
+
+
+def report_of(result: FilterResult) -> Report:
+    """What is judged."""
+    floor, notes = _floor(result), [result.suggestion.explanation]
+    left = LowPass(PAPER_HZ, RATE_HZ).noise_left
+    raw, low, kalman = result.filtered[:3]
+    cutoff = result.suggestion.cutoff_hz
+    probe = str(result.settings["probe"])
+    # First what matters to who uses it: noise and lag together. Less scatter alone may be a worse answer.
+    figures = [
+        Figure(probe, "error before, RMS", raw.rms, "mm"),
+        Figure(probe, "error after a low-pass at 10 Hz, lag included", low.rms, "mm"),
+        Figure(probe, "after over before, lag included", low.rms / raw.rms),
+        Figure(probe, "after over before, lag included, Kalman filter", kalman.rms / raw.rms),
+        Figure(probe, "after over before, lag taken out", low.noise / raw.noise),
+        Figure(
+            probe,
+            f"mean force; wanted {FORCE_N:g} N",
+            float(result.slide.force.mean()),
+            "N",
+            *_MEAN_FORCE_N,
+        ),
+    ]
+    figures += [
+        Figure(probe, f"{axis}: noise above 50 Hz over predicted", value, "", *_FLOOR)
+        for axis, value in zip("xy", floor, strict=True)
+    ]
+    sure = 100 * float(np.isfinite(result.slide.raw_mm[:, 0]).mean())
+    figures.append(Figure(probe, "located without doubt", sure, "%"))
+    if cutoff is not None:
+        figures.append(Figure(probe, f"suggested cut-off; the paper's is {PAPER_HZ:g} Hz", cutoff, "Hz"))
+    notes.append(
+        f"A low-pass at {PAPER_HZ:g} Hz leaves {100 * left:.0f} % of white noise, and takes tremor too. It is"
+        f" {1e3 * low.lag:.0f} ms late, in which the contact moves on: {_verdict(low.rms / raw.rms)}"
+    )
+    sheets = (_filters_sheet(result), _spectrum_sheet(result))
+    pictures = {"filter.png": draw(result)}
+    return Report(
+        "reproduce filter", result.settings, tuple(figures), tuple(notes), sheets, pictures, DIFFERENCES
+    )
+
+
+def _floor(result: FilterResult) -> tuple[float, float]:
+    """Return the noise seen above 50 Hz over the predicted one, for x and y."""
+    found = result.spectra["located"]
+    high = found.frequencies >= _NOISE_HZ
+    sigma = np.sqrt(found.density[high].mean(axis=0) * RATE_HZ / 2)
+    x, y = (sigma / result.slide.sigma_mm).tolist()
+    return x, y
+
+
+def _filters_sheet(result: FilterResult) -> Sheet:
+    rows = tuple(
+        (f.name, f.rms, f.largest, f.noise, 1e3 * f.lag, 1e3 * f.predicted_lag, f.to_truth)
+        for f in result.filtered
+    )
+    columns = ("filter", "RMS mm", "largest mm", "RMS without lag mm", "lag ms", "by theory ms")
+    title = "Filtered contacts, against those of the true wrench"
+    return Sheet("filters", title, (*columns, "RMS to true contact mm"), rows)
+
+
+def _spectrum_sheet(result: FilterResult) -> Sheet:
+    found = result.spectra["located"]
+    noise = (2 * result.slide.sigma_mm**2 / RATE_HZ).tolist()
+    columns = [found.frequencies, *found.density.T, *result.spectra["no noise"].density.T]
+    rows = tuple((*values, *noise) for values in np.column_stack(columns).tolist())
+    heads = ("Hz", "located x mm²/Hz", "located y", "no noise x", "no noise y", "noise x predicted")
+    return Sheet("spectrum", "Spectra of the contact", (*heads, "noise y predicted"), rows, shown=False)

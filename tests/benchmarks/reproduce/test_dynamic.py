@@ -5,8 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from benchmarks.reproduce import dynamic_runs
-from benchmarks.reproduce.dynamic import run
+from benchmarks.reproduce.dynamic import measure, report_of
 from benchmarks.reproduce.dynamic_cells import (
     IN_PLANE,
     OUT_OF_PLANE,
@@ -16,8 +15,6 @@ from benchmarks.reproduce.dynamic_cells import (
     outcome_of,
     run_cell,
 )
-from benchmarks.reproduce.dynamic_paper import TABLE_1, TABLE_2
-from benchmarks.reproduce.dynamic_store import Store
 from benchmarks.reproduce.dynamic_tables import order_notes
 
 from contactbench.pipeline.control.settings import ControlSettings, Variant
@@ -27,7 +24,7 @@ from contactbench.pipeline.study.control_rig import make_rig
 
 @pytest.fixture(scope="module")
 def result():
-    return run("t-shape", periods=(2.0,), methods=("contactbench",), seeds=1, quick=True, workers=1)
+    return measure("t-shape", periods=(2.0,), methods=("contactbench",), seeds=1, quick=True, workers=1)
 
 
 def outcome(result, variant, motion, method="contactbench"):
@@ -77,38 +74,14 @@ def test_the_arm_follows_the_quickest_turns_within_its_limits():
     assert 0.3 < one.speed < 1.0
 
 
-def test_figures_are_those_of_the_course(result):
-    cell, trace = next((c, t) for c, t in result.traces.items() if c.motion == IN_PLANE)
-    one = outcome(result, cell.variant, IN_PLANE)
-    moving = trace.between(START_S)
-    assert one.angle[0] == pytest.approx(np.degrees(np.abs(moving.angles[:, 0])).mean())
-    assert one.force[0] == moving.force.min()
-    assert moving.time[-1] - START_S == pytest.approx(2.0, abs=0.021)
-
-
-def test_the_papers_figures_stand_beside_ours(result):
-    one, two = result.summaries
-    assert one.rows[-3][1:] == ("not followed", "not followed")  # T = 2 s
-    assert TABLE_1["proposed method"][OUT_OF_PLANE, 5.0] == 4.65
-    assert TABLE_2["wrench_axis", OUT_OF_PLANE, 5.0] is None
-    assert len(two.rows) == len(result.outcomes)
-
-
 def test_all_is_written_and_is_json(result, tmp_path):
-    result.write(tmp_path)
+    report = report_of(result)
+    report.write(tmp_path)
     names = {each.name for each in tmp_path.iterdir()}
-    assert {
-        "dynamic.md",
-        "course.png",
-        "methods.png",
-        "table-1.csv",
-        "table-2.csv",
-        "runs.csv",
-        "traces",
-    } == names
+    tables = {"table-1.csv", "table-2.csv", "runs.csv"}
+    assert names == {"report.md", "course.png", "methods.png", "traces", *tables}
     assert len(list((tmp_path / "traces").iterdir())) == 6
-    assert "What differs" in (tmp_path / "dynamic.md").read_text(encoding="utf-8")
-    json.dumps(result.to_json(), allow_nan=False)
+    json.dumps(report.to_json(), allow_nan=False)
 
 
 def of_methods(result, errors):
@@ -145,41 +118,6 @@ def test_a_run_that_gave_up_did_not_follow(result):
     assert np.isnan(never.angle[0])
 
 
-def test_runs_that_are_kept_are_not_done_again(result, tmp_path, monkeypatch):
-    cell, trace = next(iter(result.traces.items()))
-    one = next(o for o in result.outcomes if o.cell == cell)
-    Store(tmp_path).keep(replace(one, place=float("nan")), trace)
-    monkeypatch.setattr(dynamic_runs, "run_cell", None)
-    told = []
-    outcomes, traces = dynamic_runs.run_cells(
-        [cell], lambda _: True, workers=1, store=Store(tmp_path), progress=lambda *done: told.append(done)
-    )
-    assert replace(outcomes[0], place=one.place) == one
-    assert np.isnan(outcomes[0].place)
-    assert traces[cell].csv() == trace.csv()
-    assert traces[cell].changes == trace.changes
-    assert told == [(1, 1)]
-
-
-def test_what_is_kept_is_for_the_same_run_only(result, tmp_path):
-    cell, trace = next(iter(result.traces.items()))
-    one = next(o for o in result.outcomes if o.cell == cell)
-    store = Store(tmp_path)
-    store.keep(one, None)
-    assert store.take(cell, traced=False) == (one, None)
-    assert store.take(cell, traced=True) is None, "without its trace it is not whole"
-    assert store.take(replace(cell, seed=9), traced=False) is None
-    other_gains = Store(tmp_path, replace(ControlSettings(), force_gain=3.0))
-    assert other_gains.take(cell, traced=False) is None
-    file = next(tmp_path.glob("*.json"))
-    file.write_bytes(file.read_bytes()[:100])
-    assert store.take(cell, traced=False) is None
-    store.keep(one, trace)
-    (file,) = tmp_path.glob("*.npz")
-    file.write_bytes(b"nothing")
-    assert store.take(cell, traced=True) is None
-
-
 @pytest.mark.parametrize(
     "wrong",
     [
@@ -194,4 +132,4 @@ def test_what_is_kept_is_for_the_same_run_only(result, tmp_path):
 )
 def test_impossible_arguments_are_refused(wrong):
     with pytest.raises(InputError):
-        run(**{"quick": True, "workers": 1, **wrong})
+        measure(**{"quick": True, "workers": 1, **wrong})

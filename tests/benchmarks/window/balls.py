@@ -39,23 +39,7 @@ def ball(facets: int, radius: float = 0.04) -> Probe:
 
 
 def measure(facets: int = 100_000, times: int = 15) -> dict[str, float]:
-    """
-    Measure a scene of its own.
-
-    Parameters
-    ----------
-    facets : int
-    times : int
-        Frames per figure; each figure is their median.
-
-    Returns
-    -------
-    dict
-        Milliseconds: `show_probe_ms` and `first_frame_ms`, `turn_ms` (a frame from another side),
-        `drag_ms` (the same while the user turns it),
-        `paint_ms` (500 facets, to the frame on screen), `add_again_ms` (the same by showing the mesh anew),
-        `live_ms` (force and contact), `pick_ms`; `paint_share`, the ratio of the two ways to paint.
-    """
+    """Measure a scene of its own."""
     probe = ball(facets)
     scene = Scene()
     scene.resize(900, 640)

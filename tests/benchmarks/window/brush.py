@@ -32,16 +32,7 @@ _BETWEEN_S = 1 / _EVENTS_HZ
 def run(
     facets: int = 100_000, events: int = 200, *, progress: Callable[[str], None] = lambda _: None
 ) -> Report:
-    """
-    Paint in the 3D view of the real window with mouse events, 60 a second, as a mouse gives them.
-
-    Parameters
-    ----------
-    facets : int
-    events : int
-    progress : callable, optional
-        Told what is being done.
-    """
+    """Paint in the 3D view of the real window with mouse events, 60 a second, as a mouse gives them."""
     before = load()
     with own_home() as home, shown_window() as window:
         progress(f"making a session with a probe of {facets} facets")
@@ -89,18 +80,7 @@ def make_session(folder: Path, facets: int) -> None:
 
 
 def _stroke(window: MainWindow, events: int) -> tuple[list[float], list[float], float]:
-    """
-    Paint a spiral, and measure; all in ms.
-
-    Returns
-    -------
-    list of float
-        From each event to the end of the next frame.
-    list of float
-        How long frames took.
-    float
-        For how long the GUI thread worked for a frame, whatever else the processors did.
-    """
+    """Paint a spiral, and measure; all in ms."""
     scene = window.scene
     assert scene is not None
     view = scene.view

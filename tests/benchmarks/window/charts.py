@@ -29,12 +29,6 @@ _WARM = 0.25  # the share of the time in which buffers fill
 def run(seconds: float = 60.0, *, progress: Callable[[str], None] = lambda _: None) -> Report:
     """
     Let the charts of the real window show a sensor of 1 kHz, and count what they draw and what it takes.
-
-    Parameters
-    ----------
-    seconds : float
-    progress : callable, optional
-        Told what is being done.
     """
     before = load()
     with own_home() as home, ExitStack() as stack:

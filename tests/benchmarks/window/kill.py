@@ -31,15 +31,7 @@ _POSES = 6
 
 
 def run(steps: Sequence[Step] = tuple(Step), *, progress: Callable[[str], None] = lambda _: None) -> Report:
-    """
-    Start the application, do something at a page, end it with SIGKILL, start it again, and compare.
-
-    Parameters
-    ----------
-    steps : sequence of Step
-    progress : callable, optional
-        Told what is being done.
-    """
+    """Start the application, do something at a page, end it with SIGKILL, start it again, and compare."""
     from contactbench.pipeline.calibration.files.calibration_file import save_calibration
     from contactbench.pipeline.session import Session
 

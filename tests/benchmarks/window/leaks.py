@@ -29,37 +29,19 @@ _FEW = 8  # times of which none is left out
 
 @dataclass(frozen=True)
 class Census:
-    """
-    What there is in this process.
-
-    Attributes
-    ----------
-    windows, widgets, threads, processes, files : int
-    vtk : Counter
-        Objects of VTK that Python knows, by class.
-    memory : float
-        MB.
-    """
+    """What there is in this process."""
 
     windows: int
     widgets: int
     threads: int
     processes: int
     files: int
-    vtk: Counter[str]
-    memory: float
+    vtk: Counter[str]  # Objects of VTK that Python knows, by class
+    memory: float  # MB
 
 
 def run(times: int = 50, *, progress: Callable[[str], None] = lambda _: None) -> Report:
-    """
-    Open a window with a virtual bench, show all pages, and close it.
-
-    Parameters
-    ----------
-    times : int
-    progress : callable, optional
-        Told what is being done.
-    """
+    """Open a window with a virtual bench, show all pages, and close it."""
     before = load()
     with own_home() as home:
         session = home / "session"

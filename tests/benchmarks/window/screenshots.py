@@ -46,27 +46,6 @@ def run(
 ) -> int:
     """
     Drive the real window on a virtual bench and write a PNG of each page, ``PAGE.png`` or ``PAGE-dark.png``.
-
-    Parameters
-    ----------
-    out : path
-        Folder; made if it is missing.
-    themes : sequence of "light" and "dark"
-    size : (int, int)
-        Of the window, px.
-    pages : sequence of str
-        Of `PAGES`.
-    language : str
-
-    Returns
-    -------
-    int
-        Exit code.
-
-    Raises
-    ------
-    InputError
-        There is no such page or theme, or the window does not fit on the screen.
     """
     _check(themes, pages)
     application = prepared()

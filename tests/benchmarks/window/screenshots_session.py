@@ -15,12 +15,11 @@ from contactbench.pipeline.verification.known import TOUCH, WEIGHT
 from contactbench.pipeline.workbench import gravity_results
 from contactbench.pipeline.workbench.desk import Desk
 from contactbench.pipeline.workbench.gravity import GravityWork
-from contactbench.pipeline.workbench.gravity_settings import gravity_settings
+from contactbench.pipeline.workbench.gravity_fit import gravity_settings
 from contactbench.pipeline.workbench.known_checks import KnownChecks, PressReading, StillReading
 from contactbench.pipeline.workbench.live import Live
 from contactbench.pipeline.workbench.markers import keep, spread
-from contactbench.pipeline.workbench.probe import Plan, ProbeWork
-from contactbench.pipeline.workbench.probe_commit import commit
+from contactbench.pipeline.workbench.probe import Plan, ProbeWork, commit
 from contactbench.pipeline.workbench.regions_session import apply, open_work
 from contactbench.pipeline.workbench.regions_session import keep as keep_regions
 from contactbench.pipeline.workbench.tape import Tape
@@ -97,7 +96,7 @@ def touch_all(live: Live, touches: LiveTouches, most: int = _MOST) -> None:
 
 def _weigh(desk: Desk, live: Live) -> None:
     work = GravityWork(gravity_settings(desk.state), live_R_ES=live.R_ES)
-    tape = Tape.start(desk, live, gravity_results.next_name(desk.state, desk.folder), "VB-0001").result()
+    tape = Tape.start(desk, live, gravity_results.next_name(desk.state, desk.folder)).result()
     end = live.follow(work.feed)
     try:
         for _ in range(_MOST):

@@ -16,7 +16,7 @@ from PySide6.QtCore import QObject, QTimer
 from contactbench.pipeline.devices.sensor import SensorStream
 from contactbench.pipeline.preparation.alignment import from_angles
 from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.workbench.live_ring import Ring
+from contactbench.pipeline.workbench.live import Ring
 from contactbench.pipeline.workbench.steps import Step
 from contactbench.widgets.scene.views import turned
 
@@ -46,14 +46,6 @@ def run(
 
     Three emulated SRI sensors stream at 1 kHz, one of them into charts and pages, while on the Probe page a mesh is
     given an outer surface, measured and simplified again and again, and somebody turns the scene.
-
-    Parameters
-    ----------
-    seconds : float
-    facets : int
-        Of the mesh.
-    progress : callable, optional
-        Told what is being done.
     """
     before = machine_load()
     figures: tuple[Figure, ...] = ()

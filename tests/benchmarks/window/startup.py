@@ -63,16 +63,7 @@ contactbench.app.cli.main()
 
 
 def run(repeats: int = 7, *, progress: Callable[[str], None] = lambda _: None) -> Report:
-    """
-    Start both as processes of their own, in turns, and compare pair by pair.
-
-    Parameters
-    ----------
-    repeats : int
-        Pairs that count; one before them fills the disk's cache.
-    progress : callable, optional
-        Told what is being done.
-    """
+    """Start both as processes of their own, in turns, and compare pair by pair."""
     before = load()
     views: list[float] = []
     windows: list[float] = []

@@ -141,7 +141,7 @@ def test_no_pose_is_carried_over_a_gap(taken: Recording, tmp_path: Path) -> None
     dwell = taken.dwells[2]
     gap = (dwell.start - 0.2, dwell.stop + 0.2)
     found = capture_recording(write(tmp_path / "gap.mcap", taken, gap=gap), R_ES=MOUNT)
-    for capture in found.report.captures:
+    for capture in found.captures:
         assert capture.stop < gap[0] + 0.3 or capture.start > gap[1] - 0.3
     assert "no pose within 0.25 s" in " ".join(found.warnings)
 

@@ -345,6 +345,36 @@ def test_a_probe_of_few_facets_is_left_as_it_is() -> None:
     assert simplify(probe, MaxError(lambda _: 0.001, 0.01, enough=len(probe.faces) - 12)).count < made.count
 
 
+def test_facets_that_hardly_help_are_not_kept() -> None:
+    """As with the scan of a rough surface: the contacts on any two of its meshes differ."""
+    probe = _bumpy(5)
+    made = simplify(probe, MaxError(lambda made: 0.03 - 1e-7 * len(made.faces), 0.01, enough=500))
+    assert made.count == 500
+    assert "more facets hardly help" in made.sentences[0]
+    assert len(made.steps) < 8
+    falls = simplify(probe, MaxError(lambda made: 10 / len(made.faces), 0.001, enough=500))
+    assert 10_000 <= falls.count < 12_000
+    assert falls.short == ""
+
+
+def test_a_large_mesh_is_collapsed_in_two_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    probe = _bumpy(5)
+    direct = simplify(probe, Count(400))
+    monkeypatch.setattr(job_module, "_MANY", 2_000)
+    counts = []
+    collapse = job_module.collapse_edges
+    monkeypatch.setattr(
+        job_module,
+        "collapse_edges",
+        lambda *given: counts.append((len(given[1]), given[2])) or collapse(*given),
+    )
+    made = simplify(probe, Count(400))
+    assert counts == [(len(probe.faces), (2_000, 0)), (2_000, (400, 0))]
+    assert made.deviation.rms < 1.1 * direct.deviation.rms
+    assert made.soundness is not None
+    assert made.soundness.sound
+
+
 def test_a_small_part_does_not_vanish_though_the_measure_does_not_see_it() -> None:
     probe = _bumpy(5)
     free = simplify(probe, MaxError(lambda _: 0.001, 0.01))

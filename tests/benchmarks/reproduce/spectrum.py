@@ -52,13 +52,10 @@ class CutoffSuggestion:
 
     # Above it the spectrum of no channel can be told from noise, Hz; None: filter nothing
     cutoff_hz: float | None
-    channel_cutoffs_hz: tuple[float | None, ...]  # The same for each channel
     # Whether anything was found above the noise; if not, `cutoff_hz` is the lowest that can be resolved
     has_signal: bool
     lines_hz: tuple[float, ...]  # Isolated lines of mains hum, Hz, which were left out of account
     noise_sigma: tuple[float, ...]  # Standard deviation of the noise of each channel, given or estimated
-    noise_removed: float  # Share of the standard deviation of white noise that the filter takes away, 0 to 1
-    lag: float  # Delay of the filter for slow motion, s
     explanation: str  # All this in plain sentences
 
 
@@ -162,7 +159,7 @@ def suggest_cutoff(
     known = [hz for hz in cutoffs if hz is not None]
     cutoff = max(known) if len(known) == len(cutoffs) else None
     return _suggestion(
-        rate, cutoff, cutoffs, bool(above.any()), tuple(sorted(lines)), np.sqrt(floor * rate / 2), doubts
+        rate, cutoff, bool(above.any()), tuple(sorted(lines)), np.sqrt(floor * rate / 2), doubts
     )
 
 
@@ -246,26 +243,24 @@ def _doubts_of_prediction(ratio: Floats) -> str:
 def _suggestion(
     rate: float,
     cutoff: float | None,
-    cutoffs: tuple[float | None, ...],
     has_signal: bool,
     lines: tuple[float, ...],
     sigma: Floats,
     doubts: str,
 ) -> CutoffSuggestion:
-    removed, lag = 0.0, 0.0
     if cutoff is None:
         sentences = ["The spectrum stays above the noise up to half the rate: no filter is suggested."]
     else:
         low_pass = LowPass(cutoff, rate)
-        removed, lag = 1 - low_pass.noise_left, low_pass.delay
         finding = f"Above {cutoff:.3g} Hz the spectrum cannot be told from noise."
         if not has_signal:
             finding = (
                 f"Nothing stands out of the noise; a cut-off of {cutoff:.3g} Hz is the lowest resolved here."
             )
-        effect = f"takes away {100 * removed:.0f} % of the noise and lags by {1e3 * lag:.3g} ms"
+        removed, lag = 100 * (1 - low_pass.noise_left), 1e3 * low_pass.delay
+        effect = f"takes away {removed:.0f} % of the noise and lags by {lag:.3g} ms"
         sentences = [finding, f"A low-pass of order 2 there {effect}."]
     if lines:
         sentences.append(f"Mains hum is not counted: {', '.join(f'{hz:g} Hz' for hz in lines)}.")
     text = " ".join([*sentences, doubts]).strip()
-    return CutoffSuggestion(cutoff, cutoffs, has_signal, lines, tuple(map(float, sigma)), removed, lag, text)
+    return CutoffSuggestion(cutoff, has_signal, lines, tuple(map(float, sigma)), text)

@@ -1,4 +1,4 @@
-"""What the poses so far amount to: a calibration, what to take next, and what is wrong, in sentences."""
+"""How a session calibrates gravity, and what poses amount to: a calibration, what to take next, what is wrong."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from contactbench.pipeline.calibration.orientation import Convention
 from contactbench.pipeline.calibration.reachable import by_hand, describe
 from contactbench.pipeline.calibration.suggest import Plan, plan_poses, suggest_pose
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.workbench.gravity_settings import INVERSE, MOUNT
+from contactbench.pipeline.session.make_calibration import CalibrationParameters
+from contactbench.pipeline.session.making import read_parameters
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,75 +26,110 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration.diagnosis.diagnose import Diagnosis
-    from contactbench.pipeline.calibration.mount import MountCalibration
     from contactbench.pipeline.calibration.reachable import Reachable
-    from contactbench.pipeline.workbench.gravity_settings import GravitySettings
+    from contactbench.pipeline.session import State
 
+MOUNT, INVERSE, TILT = "devices.mount", "calibration.inverse", "devices.max_tilt"
+DOWN, ORIENTATION_NOISE = "calibration.down", "calibration.orientation_noise"
+CALIBRATION_FILE, POSES_FILE = "calibration.json", "poses.csv"
+_KIND = "calibration."
 PLANNED = 6
 FEWEST = 3  # poses of which there is a calibration
 _CHECKABLE = 5  # poses from which on conventions can be told from noise
 _MOUNTABLE = 6
+_MOUNT_NEEDS = 4
 _CANDIDATES = 300
 
 
 @dataclass(frozen=True)
-class Finding:
-    """
-    Something that the poses say, and what would mend it.
+class GravitySettings:
+    """How poses are read and calibrated."""
 
-    Attributes
-    ----------
-    key : str
-    sentence : str
-        What, and what to do.
-    settings : tuple of (str, JSON value)
-        Parameters of the session that mend it, once the technician confirms; empty: there are none.
-    leave_out : tuple of int
-        Or: indices of poses that are better left out.
-    remedy : str
-        What confirming does, in a few words; empty where nothing can be confirmed.
+    # Those with which the session will compute its calibration; `mount` is R_ES as angles in degrees
+    parameters: CalibrationParameters
+    # Largest angle between the sensor's z axis and straight down that can be reached, degrees
+    max_tilt: float = 180.0
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """What differs from the usual, as the session is told: JSON values, without the name."""
+        given: dict[str, Any] = self.parameters.model_dump(
+            mode="json", exclude={"name"}, exclude_defaults=True
+        )
+        return given
+
+    @property
+    def R_ES(self) -> NDArray[np.float64]:
+        """(3, 3) orientation of the sensor on the flange."""
+        R = self.parameters.R_ES
+        return np.eye(3) if R is None else R
+
+    @property
+    def down_W(self) -> tuple[float, float, float]:
+        """Where gravity points in W."""
+        return self.parameters.down
+
+    def sensor_orientations(self, R_WE: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return R_WS (n, 3, 3) of the flange's orientations as the source of poses gives them."""
+        read = R_WE.swapaxes(-1, -2) if self.parameters.inverse else R_WE
+        R: NDArray[np.float64] = read @ self.R_ES
+        return R
+
+
+def gravity_settings(state: State) -> GravitySettings:
     """
+    Return what a session's parameters say.
+
+    Raises
+    ------
+    InputError
+        One of them makes no sense.
+    """
+    given = {
+        key.removeprefix(_KIND): setting.value
+        for key, setting in state.settings.items()
+        if key.startswith(_KIND)
+    }
+    mount, own = state.settings.get(MOUNT), state.settings.get(f"{_KIND}mount")
+    if mount is not None and (own is None or own.number < mount.number):  # the newest word counts
+        given["mount"] = mount.value if mount.value and any(mount.value) else None
+    if given.get("estimate_mount"):
+        given.pop("mount", None)
+    parameters = read_parameters(CalibrationParameters, {**given, "name": CALIBRATION_FILE})
+    tilt = state.settings.get(TILT)
+    degrees = 180.0 if tilt is None else tilt.value
+    if not isinstance(degrees, int | float) or not 0 < degrees <= 180:
+        raise InputError(f"{TILT}: {degrees!r} is no angle from above 0 to 180 degrees: set it again.")
+    return GravitySettings(parameters, float(degrees))
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that the poses say, and what would mend it."""
 
     key: str
-    sentence: str
+    sentence: str  # What, and what to do
+    # (str, JSON value); Parameters of the session that mend it, once the technician confirms; empty:
+    # there are none
     settings: tuple[tuple[str, Any], ...] = ()
-    leave_out: tuple[int, ...] = ()
-    remedy: str = ""
+    leave_out: tuple[int, ...] = ()  # Or: indices of poses that are better left out
+    remedy: str = ""  # What confirming does, in a few words; empty where nothing can be confirmed
 
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
-    """
-    A pose to take next.
+    """A pose to take next."""
 
-    Attributes
-    ----------
-    R_WS : (3, 3)
-    sentence : str
-        How to hold the sensor, and what it gains.
-    error_after : float
-        Predicted share of the calibration in the contact error with it, m.
-    """
-
-    R_WS: NDArray[np.float64]
-    sentence: str
-    error_after: float
+    R_WS: NDArray[np.float64]  # (3, 3)
+    sentence: str  # How to hold the sensor, and what it gains
+    error_after: float  # Predicted share of the calibration in the contact error with it, m
 
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """
-    What the taken poses amount to.
+    """What the taken poses amount to."""
 
-    Attributes
-    ----------
-    calibration : Calibration or None
-        None: there are fewer than three.
-    proposal : Proposal or None
-    findings : tuple of Finding
-    """
-
-    calibration: Calibration | None
+    calibration: Calibration | None  # None: there are fewer than three
     proposal: Proposal | None
     findings: tuple[Finding, ...]
 
@@ -106,7 +142,7 @@ class Solved:
 def plan(settings: GravitySettings) -> Plan:
     """Return the poses to begin with."""
     reach = _reach(settings, None)
-    return plan_poses(PLANNED, reach, task=settings.task)
+    return plan_poses(PLANNED, reach, task=settings.parameters.task)
 
 
 def solve(
@@ -131,7 +167,11 @@ def solve(
     read = read_poses(poses, settings)
     if len(read) < FEWEST:
         return Solved(None, _planned(read, planned, settings), ())
-    calibration = _calibrated(poses, read, settings)
+    given = settings.parameters
+    if given.estimate_mount and len(poses) >= _MOUNT_NEEDS:
+        calibration = estimate_mount(read, **given.assumed).calibration
+    else:
+        calibration = calibrate(read, **given.assumed)
     try:
         suggestion = suggest_pose(calibration, _reach(settings, R_WS_now))
     except InputError:
@@ -145,30 +185,6 @@ def solve(
 def read_poses(poses: Sequence[PoseSample], settings: GravitySettings) -> tuple[PoseSample, ...]:
     """Return poses of the flange as poses of the sensor."""
     return tuple(replace(pose, R_WS=settings.sensor_orientations(pose.R_WS)) for pose in poses)
-
-
-def _calibrated(
-    poses: Sequence[PoseSample], read: tuple[PoseSample, ...], settings: GravitySettings
-) -> Calibration:
-    if settings.parameters.estimate_mount and len(poses) >= 4:
-        return _mount(poses, settings).calibration
-    return calibrate(
-        read,
-        settings.noise,
-        orientation_sigma=settings.orientation_sigma,
-        down_W=settings.down_W,
-        task=settings.task,
-    )
-
-
-def _mount(poses: Sequence[PoseSample], settings: GravitySettings) -> MountCalibration:
-    return estimate_mount(
-        poses,
-        settings.noise,
-        orientation_sigma=settings.orientation_sigma,
-        down_W=settings.down_W,
-        task=settings.task,
-    )
 
 
 def _reach(settings: GravitySettings, R_WS_now: NDArray[np.float64] | None) -> Reachable:
@@ -231,7 +247,9 @@ def _convention(
     convention = Convention(inverse=settings.parameters.inverse)
     quaternions = Rotation.from_matrix(np.array([pose.R_WS for pose in poses])).as_quat()
     raw = RawOrientations(np.roll(quaternions, 1, axis=1), convention)
-    found = diagnose(calibration.poses, settings.noise, prior=Prior(down_W=settings.down_W), raw=raw)
+    found = diagnose(
+        calibration.poses, settings.parameters.noise, prior=Prior(down_W=settings.down_W), raw=raw
+    )
     if found.consistent:
         return None
     if found.none_known or found.best.hypothesis == "as_declared":
@@ -284,8 +302,8 @@ def _mounted(
     read = tuple(
         replace(pose, R_WS=pose.R_WS.T if settings.parameters.inverse else pose.R_WS) for pose in poses
     )
-    mounted = _mount(read, settings)
-    if mounted.refused:
+    mounted = estimate_mount(read, **settings.parameters.assumed)
+    if mounted.calibration.verdict.level is Level.REFUSE:
         return None
     off = np.degrees(Rotation.from_matrix(mounted.R_SE @ settings.R_ES).magnitude())
     sentence = (

@@ -1,26 +1,30 @@
-"""The solver, and the long double that judges it, against exact rational numbers."""
+"""The solver, and the long double that judges it, against exact rational numbers and itself in other units."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.solver.bits import Row, Where, Workshop, bit_rows, count, differing, kernel_rows
 
-from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.contact import ContactSolver, Gates, TouchModel, WrenchNoise
+from contactbench.pipeline.contact.touch_model import DEFAULT_FORCE_N, DEFAULT_TORQUE_NM
+from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.stability import OPEN, QUIET
-
-from . import theory
-from .theory import Row, count
+from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.stability import DOUBLE, OPEN, QUIET, ROUNDOFF, answers_on, touch
 
 if TYPE_CHECKING:
     from contactbench.pipeline.contact import Contact
     from contactbench.pipeline.study.hard_meshes import Body, Drawn, Float
 
     Vector = tuple[Fraction, Fraction, Fraction]
+    from benchmarks.solver.bits import Rows
 
 PART = "exact"
 ERROR = "error against exact arithmetic, times the cosine of the friction angle"
@@ -28,23 +32,36 @@ OTHERWISE = "facets accepted or refused otherwise than in exact arithmetic"
 DEPTH = "how far from the edge the exact point was then, times that cosine"
 NONE = "wrenches without an answer, though a facet has one in exact arithmetic"
 SPREAD = "answers of one wrench on a convex body, apart"
-DOUBLE, LONG = "double", "long double"
+LONG = "long double"
 # Stated: rounding decides only within this of an edge, mm; an answer is as near to the exact one.
 MOST_MM = 1e-12
 # Long double finds what exact arithmetic need not look at: it is itself right to far less than this share of a facet.
 _SURE = 1e-9
 
 
-def run(samples: int, seed: int) -> list[Row]:
-    """
-    Compare on facets, edges, vertices and in the gaps between facets.
+def run(samples: int = 1000, seed: int = 0) -> Report:
+    """Compare the solver with exact arithmetic, in other units, and bit for bit with its other builds."""
+    if samples < 1 or seed < 0:
+        raise InputError(f"{samples} samples, seed {seed}: give at least 1 sample and a seed of at least 0")
+    with Workshop() as workshop:
+        rows = [*exact_rows(samples, seed), *unit_rows(samples, seed), *bit_rows(samples, seed, workshop)]
+    figures = tuple(
+        Figure(
+            f"{row.part}: {row.case}, {row.by}" + (f", {row.x:g}" if row.x is not None else ""),
+            row.figure,
+            row.median,
+            row.unit,
+            most=row.most,
+            worst=row.worst,
+            judged="worst",
+        )
+        for row in rows
+    )
+    return Report("Solver", {"samples": samples, "seed": seed}, figures)
 
-    Parameters
-    ----------
-    samples : int
-        FacetTouches of each case.
-    seed : int
-    """
+
+def exact_rows(samples: int, seed: int) -> list[Row]:
+    """Compare on facets, edges, vertices and in the gaps between facets."""
     round_body, bent = hm.ellipsoid(), hm.bundled("t-shape", 1000)
     rng = np.random.default_rng(seed)
     rows: list[Row] = []
@@ -84,7 +101,7 @@ def _compared(case: str, body: Body, drawn: Drawn) -> list[Row]:
             # Where no facet holds a touch there is none: a corner explains a wrench only as a point of its facet.
             truth = _facet_point(body, face, F, M)
             off.append(cosine * _distance(_vector(point), truth))
-            long = theory.answers_on(body, np.array([face]), wrench[None])[0]
+            long = answers_on(body, np.array([face]), wrench[None])[0]
             long_off.append(cosine * _distance(_long_vector(long), truth))
         held = False
         for face in facets | _possible(body, wrench):
@@ -130,7 +147,7 @@ def _cosine(degrees: float) -> float:
 def _possible(body: Body, wrench: Float) -> set[int]:
     """Return facets that may accept a wrench (6,), as far as long double tells."""
     every = np.arange(len(body.faces))
-    hit = theory.answers_on(body, every, np.tile(wrench, (len(every), 1)))
+    hit = answers_on(body, every, np.tile(wrench, (len(every), 1)))
     facing = -(body.normals @ wrench[:3].astype(np.longdouble))
     least = hm.areal(body, every, hit).min(axis=1)
     edge_on = np.abs(facing) < _SURE * np.linalg.norm(wrench[:3])
@@ -200,3 +217,104 @@ def _length(a: Vector) -> float:
 
 def _distance(a: Vector, b: Vector) -> float:
     return _length(_minus(a, b))
+
+
+UNITS = "units"
+DIFFER, ROUNDING = "answers that differ in any bit", "point, unscaled, off by, of the probe's size"
+REASON, FORGOTTEN = "another reason", "another reason when the gates stay in metres and newtons"
+LENGTH, FORCE = "numbers of length, of those in metres", "numbers of force, of those in newtons"
+NAMED = {"µm": 1e6, "mm": 1e3, "m": 1.0, "km": 1e-3}
+# Stated: unscaling is a matter of roundoffs.
+MOST_ROUNDOFFS = 100 * ROUNDOFF
+# As delivered, on a mesh that is a little off; and without lengths of its own, for units in which 1 mm is more than a
+# model allows.
+USUAL, AXIS = TouchModel(mesh_deviation=1e-4), TouchModel(torsion_arm=0.0)
+_MOST_LENGTH = 1e6
+
+
+def unit_rows(samples: int, seed: int) -> list[Row]:
+    """Scale lengths and forces by powers of ten and of two."""
+    body, rng = hm.bundled("t-shape", 1000), np.random.default_rng(seed)
+    wrenches = touch(body, samples, rng, angle=(0.0, 70.0)).wrenches
+    scene, axis = (_Scene(body, wrenches, model) for model in (USUAL, AXIS))
+    rows: list[Row] = []
+    for factor in (*NAMED.values(), 1e-6, 1e-9, 1e-12):
+        rows += scene.scaled("lengths in another unit", factor, 1.0, {"x": factor, "axis": LENGTH})
+    rows += axis.scaled("lengths in another unit, wrench axis", 1e9, 1.0, {"x": 1e9, "axis": LENGTH})
+    for factor in (1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9):
+        rows += scene.scaled("forces in another unit", 1.0, factor, {"x": factor, "axis": FORCE})
+    for power in (-40, -20, -1, 1, 20, 30):
+        small = 2.0**power <= _MOST_LENGTH
+        said = "lengths times a power of two" if small else "lengths times a power of two, wrench axis"
+        rows += (scene if small else axis).scaled(
+            said, 2.0**power, 1.0, {"x": 2.0**power, "axis": LENGTH}, exact=True
+        )
+        rows += scene.scaled(
+            "forces times a power of two", 1.0, 2.0**power, {"x": 2.0**power, "axis": FORCE}, exact=True
+        )
+    for power in (-30, -60, -90, -120, -150):
+        rows += scene.scaled("lengths far out", 10.0**power, 1.0, {"x": 10.0**power, "axis": LENGTH})
+    return rows + [scene.forgotten(name, factor) for name, factor in NAMED.items()]
+
+
+class _Scene:
+    """One probe and its wrenches, to be scaled."""
+
+    def __init__(self, body: Body, wrenches: Float, model: TouchModel) -> None:
+        self.body, self.wrenches, self.model = body, wrenches, model
+        # What lies in front has odds of its own from 3 mm on, whatever the unit: without these, every limit scales.
+        self.gates = Gates(first_odds=1.0)
+        self.base = self._answers(1.0, 1.0, self.gates)
+
+    def _answers(self, length: float, force: float, gates: Gates) -> Rows:
+        probe = Probe.from_arrays(self.body.vertices * length, self.body.faces, check_size=False)
+        noise = WrenchNoise(0.05 * force, 0.002 * force * length)
+        model = replace(
+            self.model,
+            torsion_arm=self.model.torsion_arm * length,
+            model_error=WrenchNoise(DEFAULT_FORCE_N * force, DEFAULT_TORQUE_NM * force * length),
+            mesh_deviation=self.model.mesh_deviation * length,
+        )
+        solver = ContactSolver(probe, noise, gates, model)
+        wrenches = self.wrenches * np.repeat([force, force * length], 3)
+        return kernel_rows(solver.locate_batch(wrenches))
+
+    def _gates(self, length: float, force: float) -> Gates:
+        return replace(
+            self.gates,
+            min_force=self.gates.min_force * force,
+            ambiguity_distance=self.gates.ambiguity_distance * length,
+            follow_distance=self.gates.follow_distance * length,
+        )
+
+    def scaled(
+        self, case: str, length: float, force: float, more: Where, *, exact: bool = False
+    ) -> list[Row]:
+        """Scale probe, wrenches, noise, model and gates, solve, and unscale."""
+        found = self._answers(length, force, self._gates(length, force))
+        for name, factor in (("point", length), ("torque", force * length), ("covariance", length**2)):
+            found[name] /= factor
+        reasons = 100.0 * float(np.mean(found["reason"] != self.base["reason"]))
+        rows = [Row(UNITS, case, DOUBLE, REASON, "%", len(found), reasons, reasons, most=0.0, **more)]
+        if exact:
+            bits = int(differing(found, self.base).sum())
+            return [*rows, count(UNITS, case, DOUBLE, DIFFER, bits, len(found), most=0.0, **more)]
+        off = np.linalg.norm(found["point"] - self.base["point"], axis=1) / self.body.size
+        return [*rows, Row.of(UNITS, case, DOUBLE, ROUNDING, "", off, most=MOST_ROUNDOFFS, **more)]
+
+    def forgotten(self, unit: str, length: float) -> Row:
+        """Scale all but the gates: the limits that have a unit decide otherwise then."""
+        found = self._answers(length, 1.0, self.gates)
+        share = 100.0 * float(np.mean(found["reason"] != self.base["reason"]))
+        more: Where = {"x": length, "axis": LENGTH}
+        return Row(
+            UNITS,
+            f"lengths in {unit}, gates in metres",
+            DOUBLE,
+            FORGOTTEN,
+            "%",
+            len(found),
+            share,
+            share,
+            **more,
+        )

@@ -1,7 +1,6 @@
 // Solves the wrenches of a file with the kernel's own headers and writes every answer: solve_rows IN OUT
 //
-// Built by builds.py with one compiler and set of options after another, so that the bits can be compared.
-// With -DCONTACTBENCH_SINGLE every double of the solver is a float: its own sources in single precision.
+// Built by bits.py with one compiler and set of options after another, so that the bits can be compared.
 //
 // IN   int64 vertices, facets, wrenches; double covariance[36], min_force, cos_friction,
 //      implausible_misfit, rival_cost, ambiguity_distance, behind_cost, behind_distance, follow_cost, follow_distance,
@@ -30,11 +29,6 @@
 
 using Wide = double;  // what files hold, whatever the solver computes with
 
-#ifdef CONTACTBENCH_SINGLE
-#define double float
-#undef HUGE_VAL
-#define HUGE_VAL __builtin_huge_valf()
-#endif
 #include "contactbench/solver.hpp"
 
 namespace {

@@ -1,11 +1,13 @@
-"""The solver's headers, built by one compiler and set of options after another, to compare the bits of answers."""
+"""The solver's bits: the same from run to run, thread to thread, process to process, and whatever compiled it."""
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -13,10 +15,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from contactbench import assets
 from contactbench.pipeline import kernel
-from contactbench.pipeline.contact import ContactSolver
+from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
+from contactbench.pipeline.simulation import add_noise, draw_slide
+from contactbench.pipeline.study import hard_meshes as hm
+from contactbench.pipeline.study.stability import StabilityRow as Row
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -27,7 +33,10 @@ if TYPE_CHECKING:
     from contactbench.pipeline.contact import Batch, Gates
 
     Rows = NDArray[np.void]
+    from contactbench.pipeline.study.hard_meshes import Float
 
+# Where on an axis a figure belongs: `x`, `axis`, and `most`.
+Where = dict[str, Any]
 ROW = np.dtype(
     [
         ("reason", "<i4"),
@@ -49,33 +58,12 @@ _COMPILE_SECONDS, _RUN_SECONDS = 300, 600
 
 @dataclass(frozen=True)
 class Build:
-    """
-    One way to compile the solver.
+    """One way to compile the solver."""
 
-    Attributes
-    ----------
-    name : str
-        For people.
-    compiler : str
-        Command.
-    options : tuple of str
-        Beside those of the kernel's own build, which come first.
-    same_bits : bool
-        Whether it must give the kernel's bits.
-    """
-
-    name: str
-    compiler: str
-    options: tuple[str, ...]
-    same_bits: bool = True
-
-
-SINGLE = Build(
-    "single",
-    "g++",
-    ("-O1", "-DCONTACTBENCH_SINGLE", "-fsingle-precision-constant", "-Wno-narrowing"),
-    same_bits=False,
-)
+    name: str  # For people
+    compiler: str  # Command
+    options: tuple[str, ...]  # Beside those of the kernel's own build, which come first
+    same_bits: bool = True  # Whether it must give the kernel's bits
 
 
 def available(*, quick: bool = False) -> list[Build]:
@@ -99,14 +87,7 @@ def available(*, quick: bool = False) -> list[Build]:
 
 
 class Workshop:
-    """
-    A folder for programs and their files; use it in a ``with`` statement. Each build is compiled once.
-
-    Raises
-    ------
-    InputError
-        A compiler fails, or a program does.
-    """
+    """A folder for programs and their files; use it in a ``with`` statement. Each build is compiled once."""
 
     def __init__(self) -> None:
         self._programs: dict[Build, Path] = {}
@@ -125,14 +106,7 @@ class Workshop:
             self._folder.cleanup()
 
     def solve(self, build: Build, solver: ContactSolver, wrenches: NDArray[np.float64]) -> tuple[Rows, Rows]:
-        """
-        Answer wrenches (n, 6), N and N·m in S, by a build with a solver's probe, noise and gates.
-
-        Returns
-        -------
-        located, tracked : (n,) of :data:`ROW`
-            Each on its own, and as one stream.
-        """
+        """Answer wrenches (n, 6), N and N·m in S, by a build with a solver's probe, noise and gates."""
         program = self._program(build)
         given, taken = (Path(self._folder.name) / name for name in ("in", "out"))
         given.write_bytes(_packed(solver, wrenches))
@@ -155,6 +129,11 @@ class Workshop:
             _run(command, _COMPILE_SECONDS, build)
             self._programs[build] = program
         return self._programs[build]
+
+
+def count(part: str, case: str, by: str, figure: str, found: int, tries: int, **more: Any) -> Row:
+    """Give a count."""
+    return Row(part, case, by, figure, "", tries, float(found), float(found), **more)
 
 
 def kernel_rows(batch: Batch) -> Rows:
@@ -252,6 +231,109 @@ def main(given: str, out: str) -> None:
         wrenches = task["wrenches"]
     located = kernel_rows(solver.locate_batch(wrenches))
     Path(out).write_bytes(located.tobytes() + tracked(solver, wrenches).tobytes())
+
+
+PART = "repeatability"
+DIFFER, APART, REASON = "answers that differ in any bit", "points, apart", "answers with another reason"
+THREADS, WORKERS = (2, 4, 8), (1, 2, 3)
+LOCATED, TRACKED = "each on its own", "tracked as one stream"
+_SECONDS = 600
+
+
+def hard_wrenches(samples: int, seed: int) -> tuple[ContactSolver, Float]:
+    """
+    Return a solver and wrenches (n, 6), N and N·m in S: a noisy slide, borders, grazes, large torques, any numbers.
+    """
+    body, rng = hm.bundled("t-shape", 1000), np.random.default_rng(seed)
+    slide = add_noise(draw_slide(assets.surface("t-shape"), samples, rng).wrenches, WrenchNoise(), rng)
+    drawn = [
+        hm.press(*hm.places(body, samples, rng, "edge"), rng),
+        hm.press(*hm.places(body, samples, rng, "vertex"), rng, arm=0.0),
+        hm.press(*hm.places(body, samples, rng), rng, angle=(70.0, 89.9)),
+        hm.press(*hm.places(body, samples, rng), rng, pitch=10.0 ** rng.uniform(-4, 2, samples)),
+    ]
+    wild = rng.standard_normal((samples, 6)) * 10.0 ** rng.uniform(-3, 3, (samples, 1))
+    return ContactSolver(body.probe()), np.vstack([slide, *(d.wrenches for d in drawn), wild])
+
+
+def bit_rows(samples: int, seed: int, workshop: Workshop | None, *, quick: bool = False) -> list[Row]:
+    """Compare answers bit for bit."""
+    solver, wrenches = hard_wrenches(samples, seed)
+    base = kernel_rows(solver.locate_batch(wrenches))
+    stream = tracked(solver, wrenches)
+    rows = [
+        _row("again in the same process", base, kernel_rows(solver.locate_batch(wrenches))),
+        _row("again in the same process", stream, tracked(solver, wrenches), TRACKED),
+        _row("wrenches in reverse order", base, kernel_rows(solver.locate_batch(wrenches[::-1]))[::-1]),
+    ]
+    rows += [
+        _row(f"{threads} threads", base, _threaded(solver, wrenches, threads))
+        for threads in (THREADS[:1] if quick else THREADS)
+    ]
+    for workers in WORKERS[1:2] if quick else WORKERS:
+        located, _ = _in_processes(solver, wrenches, workers)
+        rows.append(_row(f"{workers} new process{'es' if workers > 1 else ''}", base, located))
+    for variant in _other_variants():
+        located, followed = _in_processes(solver, wrenches, 1, variant)
+        name = f"kernel {variant} beside {kernel.variant}"
+        rows += [_row(name, base, located), _row(name, stream, followed, TRACKED)]
+    if workshop is not None:
+        for build in available(quick=quick):
+            located, followed = workshop.solve(build, solver, wrenches)
+            rows += _build_rows(build, base, located, LOCATED)
+            rows += _build_rows(build, stream, followed, TRACKED)
+    return rows
+
+
+def _threaded(solver: ContactSolver, wrenches: Float, threads: int) -> Rows:
+    with ThreadPoolExecutor(threads) as pool:
+        # More parts than threads, so that they take turns.
+        parts = pool.map(solver.locate_batch, np.array_split(wrenches, 5 * threads))
+        return np.concatenate([kernel_rows(part) for part in parts])
+
+
+def _in_processes(
+    solver: ContactSolver, wrenches: Float, workers: int, variant: str = ""
+) -> tuple[Rows, Rows]:
+    """Share the wrenches out among new processes that run at once; each tracks its share as one stream."""
+    environment = os.environ | ({"CONTACTBENCH_KERNEL": variant} if variant else {})
+    with tempfile.TemporaryDirectory(prefix="contactbench-repeat-") as folder:
+        running, files = [], [Path(folder) / f"{i}.out" for i in range(workers)]
+        for file, share in zip(files, np.array_split(wrenches, workers), strict=True):
+            task = file.with_suffix(".npz")
+            write_task(task, solver, share)
+            command = [sys.executable, __file__, str(task), str(file)]
+            running.append(subprocess.Popen(command, env=environment))
+        try:
+            codes = [child.wait(_SECONDS) for child in running]
+            if any(codes):
+                raise InputError("repeatability: a process failed: see its message above.")
+        finally:
+            for child in running:
+                child.kill()
+                child.wait()
+        found = [np.split(np.fromfile(file, ROW), 2) for file in files]
+    return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
+
+
+def _other_variants() -> list[str]:
+    """Return the kernels that any machine can run beside the one that is loaded."""
+    return ["base"] if kernel.variant != "base" else []
+
+
+def _build_rows(build: Build, base: Rows, found: Rows, case: str) -> list[Row]:
+    rows = [_row(build.name, base, found, case, judged=build.same_bits)]
+    if not build.same_bits:
+        off = 1e3 * np.linalg.norm(found["point"] - base["point"], axis=1)
+        rows.append(Row.of(PART, case, build.name, APART, "mm", off))
+        reasons = int((found["reason"] != base["reason"]).sum())
+        rows.append(count(PART, case, build.name, REASON, reasons, len(base)))
+    return rows
+
+
+def _row(by: str, base: Rows, found: Rows, case: str = LOCATED, *, judged: bool = True) -> Row:
+    different = int(differing(np.ascontiguousarray(found), base).sum())
+    return count(PART, case, by, DIFFER, different, len(base), most=0.0 if judged else None)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,61 @@
+"""Many trials in parallel processes, and shares of them with their intervals."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy.stats import beta
+
+from contactbench.pipeline.study.report import Figure
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+
+def in_processes(function: Callable[..., Any], jobs: Sequence[Any], workers: int | None) -> Iterator[Any]:
+    """Yield what the function makes of each job, in their order; one worker is this process itself."""
+    count = min(workers or os.cpu_count() or 1, len(jobs))
+    if count <= 1:
+        yield from map(function, jobs)
+        return
+    with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
+        try:
+            for job in [pool.submit(function, each) for each in jobs]:
+                yield job.result()
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def share(subject: str, name: str, hits: int, trials: int, **target: Any) -> Figure:
+    """Return a share in percent with its 95 % interval (Clopper-Pearson) as the spread."""
+    low = beta.ppf(0.025, hits, trials - hits + 1) if hits else 0.0
+    high = beta.ppf(0.975, hits + 1, trials - hits) if hits < trials else 1.0
+    spread = (100 * float(low), 100 * float(high))
+    return Figure(subject, name, 100 * hits / trials, "%", spread=spread, **target)
+
+
+def rms(values: Any) -> float:
+    """Return the root mean square of the values that are there; NaN where there is none."""
+    known = np.asarray(values)[np.isfinite(values)]
+    return float(np.sqrt(np.mean(known**2))) if len(known) else float("nan")
+
+
+def png(figure: Any) -> bytes:
+    """Write a figure as a PNG image, the same bytes every time."""
+    from io import BytesIO
+
+    data = BytesIO()
+    figure.savefig(data, format="png", metadata={"Software": None})
+    return data.getvalue()
+
+
+def canvas(wide: float, high: float) -> Any:
+    """Make an empty figure, inches."""
+    from matplotlib.figure import Figure as Canvas
+
+    return Canvas(figsize=(wide, high), dpi=100, layout="constrained")

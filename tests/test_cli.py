@@ -133,7 +133,7 @@ def test_input_error_anywhere_is_one_line(monkeypatch):
     def fail() -> None:
         raise InputError("this is\nwrong")
 
-    monkeypatch.setattr(command_info, "_facts", fail)
+    monkeypatch.setattr(command_info, "facts", fail)
     result = run("info")
     assert (result.exit_code, result.stdout, result.stderr) == (2, "", "error: this is wrong\n")
     result = run("info", "--json")
@@ -145,7 +145,7 @@ def test_a_missing_extra_is_a_sentence(monkeypatch):
     def fail() -> None:
         raise ModuleNotFoundError("No module named 'mujoco'", name="mujoco")
 
-    monkeypatch.setattr(command_info, "_facts", fail)
+    monkeypatch.setattr(command_info, "facts", fail)
     result = run("info", "--json")
     assert result.exit_code == 2
     assert "pip install 'contactbench[sim]'" in json.loads(result.stdout)["error"]
@@ -162,7 +162,7 @@ def test_interruption_is_a_sentence(monkeypatch):
     def fail() -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(command_info, "_facts", fail)
+    monkeypatch.setattr(command_info, "facts", fail)
     result = run("info", "--json")
     assert result.exit_code == 130
     assert result.stderr.startswith("error: interrupted")

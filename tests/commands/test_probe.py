@@ -120,7 +120,9 @@ def test_simplify_by_contact_error_when_nothing_is_asked_for(ready, tmp_path):
     result = invoke("simplify", ready, "--out", tmp_path / "less.ply", "--json")
     assert result.exit_code == 0, result.stderr
     facts = json.loads(result.stdout)
-    assert facts["facets"] == 2000  # fewer gain nothing
+    assert (
+        2000 <= facts["facets"] <= 2020
+    )  # fewer gain nothing; a step that would spoil the surface is not taken
     step = json.loads((tmp_path / "less.json").read_text(encoding="utf-8"))["history"][-1]
     assert step["parameters"]["max_contact_error_mm"] == pytest.approx(0.1)
     assert load_probe(tmp_path / "less.ply", "m").region.max() == 1

@@ -1342,8 +1342,8 @@
         <translation>Verstärkungen der Regelung</translation>
     </message>
     <message>
-        <source>How a robot presses and follows: gains.json of contactbench control tune</source>
-        <translation>Wie ein Roboter drückt und folgt: gains.json von contactbench control tune</translation>
+        <source>How a robot presses and follows: gains.json of contactbench bench control tune</source>
+        <translation>Wie ein Roboter drückt und folgt: gains.json von contactbench bench control tune</translation>
     </message>
     <message>
         <source>Leave the gains out</source>

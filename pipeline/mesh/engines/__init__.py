@@ -5,30 +5,8 @@ pymeshlab carries its own Qt, it and the CGAL half of libigl are GPL-3, and both
 crash is an `EngineError`.
 """
 
+from contactbench.pipeline.mesh.engines.child import stop_engines
 from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError
-from contactbench.pipeline.mesh.engines.operation import Library, Operation
-from contactbench.pipeline.mesh.engines.operations import (
-    Control,
-    alpha_wrap,
-    close_holes,
-    cut_along_crossings,
-    orient_facets,
-    self_intersections,
-)
-from contactbench.pipeline.mesh.engines.run import engine_pid, run, stop_engines
+from contactbench.pipeline.mesh.engines.operations import Control, alpha_wrap, cut_along_crossings
 
-__all__ = [
-    "Cancelled",
-    "Control",
-    "EngineError",
-    "Library",
-    "Operation",
-    "alpha_wrap",
-    "close_holes",
-    "cut_along_crossings",
-    "engine_pid",
-    "orient_facets",
-    "run",
-    "self_intersections",
-    "stop_engines",
-]
+__all__ = ["Cancelled", "Control", "EngineError", "alpha_wrap", "cut_along_crossings", "stop_engines"]

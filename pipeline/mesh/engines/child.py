@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import queue
@@ -12,15 +13,18 @@ import tempfile
 import threading
 import time
 from dataclasses import dataclass
-from typing import IO, TYPE_CHECKING, BinaryIO, cast
+from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
 from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
+from contactbench.pipeline.mesh.engines.libraries import Library
 from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
-    from contactbench.pipeline.mesh.engines.operation import Library
+    import numpy.typing as npt
+
+    from contactbench.pipeline.mesh.engines.libraries import Operation
 
 _WORKER = "contactbench.pipeline.mesh.engines.worker"
 
@@ -299,9 +303,6 @@ def _converse(
 
 
 def _command(library: Library) -> list[str]:
-    if getattr(sys, "frozen", False):
-        # A bundled application is its own Python; its entry point calls worker.serve_if_asked.
-        return [sys.executable, _WORKER, str(library)]
     # -P: a file called numpy.py in the current folder must not be imported.
     return [sys.executable, "-P", "-m", _WORKER, str(library)]
 
@@ -332,3 +333,72 @@ def _widen(process: subprocess.Popen[bytes]) -> None:
         # A user who has many pipes open already is refused, and 64 kB do the work as well.
         with contextlib.suppress(OSError, AttributeError):
             fcntl.fcntl(cast("BinaryIO", pipe).fileno(), fcntl.F_SETPIPE_SZ, _PIPE_BYTES)
+
+
+_CHILDREN = {library: Child(library) for library in Library}
+
+
+def run(
+    operation: Operation,
+    arrays: Mapping[str, npt.NDArray[Any]],
+    parameters: Mapping[str, float | int | bool | str],
+    *,
+    progress: Callable[[float], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+    timeout_s: float | None = None,
+) -> dict[str, npt.NDArray[Any]]:
+    """
+    Run an operation in its library's child process.
+
+    The arrays go as they are: the typed functions check them first. The first call starts the child (about
+    a second), which then stays warm. Calls from several threads to one library queue up.
+
+    Parameters
+    ----------
+    operation : Operation
+        What to do.
+    arrays : mapping
+        float64, int32 or bool arrays by name.
+    parameters : mapping
+        Plain values by name.
+    progress : callable, optional
+        Takes 0 at the start, 0.1 when the library begins, 1 when its result is here, and in between the last of
+        these again every 0.05 s as a sign of life: the libraries do not say how far they are. Called in the
+        calling thread; what it raises stops the engine and reaches the caller.
+    cancelled : callable, optional
+        Asked every 0.05 s; once it answers True the child is killed.
+    timeout_s : float, optional
+        Longest time in seconds, without the wait for other threads' calls.
+
+    Returns
+    -------
+    dict
+        float64, int32 or bool arrays by name; their content is the library's and unchecked.
+
+    Raises
+    ------
+    Cancelled
+        `cancelled` answered True.
+    EngineError
+        The library is missing, refused, crashed or took too long. The next call starts afresh.
+    """
+    request = Message(str(operation), dict(parameters), dict(arrays))
+    watch = Watch(progress, cancelled, timeout_s)
+    return _CHILDREN[operation.library].call(request, watch).arrays
+
+
+def stop_engines() -> None:
+    """End the children, which frees their memory; the next operation starts a new one. Also done at exit."""
+    for child in _CHILDREN.values():
+        child.stop()
+
+
+def _forget_engines() -> None:
+    for child in _CHILDREN.values():
+        child.forget()
+
+
+atexit.register(stop_engines)
+# A forked copy of this process would write into the same pipes.
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_forget_engines)

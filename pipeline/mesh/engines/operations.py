@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 
+from contactbench.pipeline.mesh.engines.child import run
 from contactbench.pipeline.mesh.engines.errors import EngineError
-from contactbench.pipeline.mesh.engines.operation import Library, Operation
-from contactbench.pipeline.mesh.engines.run import run
+from contactbench.pipeline.mesh.engines.libraries import Library, Operation
 from contactbench.pipeline.mesh.probe import check_faces, check_vertices
 
 if TYPE_CHECKING:
@@ -71,85 +71,6 @@ def alpha_wrap(
     return _mesh(Operation.ALPHA_WRAP, result)
 
 
-def close_holes(
-    vertices: npt.ArrayLike,
-    faces: npt.ArrayLike,
-    *,
-    longest: int = 100,
-    edge: float = 0.0,
-    avoid_self_intersections: bool = True,
-    **control: Unpack[Control],
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], npt.NDArray[np.bool_]]:
-    """
-    Close holes with new facets.
-
-    Parameters
-    ----------
-    vertices : (n, 3) array_like
-        Any length unit.
-    faces : (m, 3) array_like
-        Vertex indices; no edge with more than two facets, or the library refuses.
-    longest : int
-        Holes with more edges than this stay open.
-    edge : float
-        Refine the new facets to about this edge length, in the vertices' unit; 0 leaves them as they are.
-    avoid_self_intersections : bool
-        Leave out fillings that would cut through the surface.
-    **control
-        See `run`.
-
-    Returns
-    -------
-    vertices : (k, 3) float64
-    faces : (l, 3) int32
-    added : (l,) bool
-        Facets that fill a hole.
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh.
-    EngineError, Cancelled
-        See `run`.
-    """
-    parameters = {"longest": longest, "edge": edge, "avoid_self_intersections": avoid_self_intersections}
-    result = run(Operation.CLOSE_HOLES, _checked(vertices, faces), parameters, **control)
-    new_vertices, new_faces = _mesh(Operation.CLOSE_HOLES, result)
-    return new_vertices, new_faces, _mask(Operation.CLOSE_HOLES, result, "added", len(new_faces))
-
-
-def self_intersections(
-    vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]
-) -> npt.NDArray[np.bool_]:
-    """
-    Find the facets that cut through others.
-
-    Parameters
-    ----------
-    vertices : (n, 3) array_like
-        Any length unit.
-    faces : (m, 3) array_like
-        Vertex indices.
-    **control
-        See `run`.
-
-    Returns
-    -------
-    (m,) bool
-        True where the facet crosses one that it does not share a vertex with.
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh.
-    EngineError, Cancelled
-        See `run`.
-    """
-    arrays = _checked(vertices, faces)
-    result = run(Operation.SELF_INTERSECTIONS, arrays, {}, **control)
-    return _mask(Operation.SELF_INTERSECTIONS, result, "selected", len(arrays["faces"]))
-
-
 def cut_along_crossings(
     vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]
 ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int32], npt.NDArray[np.int32]]:
@@ -192,34 +113,6 @@ def cut_along_crossings(
     return new_vertices, new_faces, born
 
 
-def orient_facets(vertices: npt.ArrayLike, faces: npt.ArrayLike, **control: Unpack[Control]) -> Mesh:
-    """
-    Turn facets so that neighbours agree about which side is outside; which side it is may still be wrong.
-
-    Parameters
-    ----------
-    vertices : (n, 3) array_like
-        Any length unit.
-    faces : (m, 3) array_like
-        Vertex indices.
-    **control
-        See `run`.
-
-    Returns
-    -------
-    vertices : (n, 3) float64
-    faces : (m, 3) int32
-
-    Raises
-    ------
-    MeshError
-        The arrays are no mesh.
-    EngineError, Cancelled
-        See `run`; the library refuses meshes that are not two-manifold.
-    """
-    return _mesh(Operation.ORIENT, run(Operation.ORIENT, _checked(vertices, faces), {}, **control))
-
-
 def _checked(vertices: npt.ArrayLike, faces: npt.ArrayLike) -> dict[str, npt.NDArray[Any]]:
     points = check_vertices(vertices)
     return {"vertices": points, "faces": check_faces(faces, len(points))}
@@ -245,12 +138,3 @@ def _mesh(operation: Operation, result: dict[str, npt.NDArray[Any]]) -> Mesh:
     raise EngineError(
         f"{operation.library} made no usable mesh of '{operation}': repair the mesh first, or use another engine."
     )
-
-
-def _mask(
-    operation: Operation, result: dict[str, npt.NDArray[Any]], name: str, count: int
-) -> npt.NDArray[np.bool_]:
-    mask = result.get(name)
-    if mask is None or mask.dtype != np.bool_ or mask.shape != (count,):
-        raise EngineError(f"{operation.library} gave no answer per facet to '{operation}': use another mesh.")
-    return mask

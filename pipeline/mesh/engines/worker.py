@@ -17,14 +17,11 @@ import sys
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from contactbench.pipeline.mesh.engines.errors import WireError
-from contactbench.pipeline.mesh.engines.libraries import REFUSALS, perform
-from contactbench.pipeline.mesh.engines.operation import Library, Operation
+from contactbench.pipeline.mesh.engines.libraries import REFUSALS, Library, Operation, perform
 from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-MODULE = "contactbench.pipeline.mesh.engines.worker"
+    from collections.abc import Iterator
 
 _NICENESS = 10
 
@@ -34,22 +31,6 @@ _MODULES = {
     Library.MESHLAB: "pymeshlab",
     Library.CGAL: "igl.copyleft.cgal",
 }
-
-
-def serve_if_asked(argv: Sequence[str]) -> None:
-    """
-    Become an engine when the command line says so, and never return then.
-
-    A bundled application has no Python to run a module with: the parent starts the application itself with
-    the same arguments. Its entry point calls this before anything else.
-
-    Parameters
-    ----------
-    argv : sequence of str
-        ``sys.argv``.
-    """
-    if len(argv) >= 2 and argv[-2] == MODULE:
-        sys.exit(main(argv[-1]))
 
 
 def main(library: str) -> int:

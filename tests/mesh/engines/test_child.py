@@ -17,13 +17,23 @@ import pytest
 
 from contactbench.pipeline.mesh import engines
 from contactbench.pipeline.mesh.engines import child as child_module
-from contactbench.pipeline.mesh.engines.child import Child, Watch
+from contactbench.pipeline.mesh.engines.child import _CHILDREN, Child, Watch
+from contactbench.pipeline.mesh.engines.libraries import Library, Operation
 from contactbench.pipeline.mesh.engines.wire import Message
 
 Ball = tuple[np.ndarray, np.ndarray]
 
 # Wraps a ball in far too many facets: takes minutes.
 ENDLESS = (0.05, 0.05)
+
+
+def wrap(vertices: np.ndarray, faces: np.ndarray, **control: object) -> Ball:
+    """Wrap coarsely: some milliseconds."""
+    return engines.alpha_wrap(vertices, faces, 20.0, 2.0, **control)
+
+
+def pid_of(library: Library) -> int | None:
+    return _CHILDREN[library].pid
 
 
 def _gone(pid: int, within_s: float = 10.0) -> bool:
@@ -44,15 +54,15 @@ def _gone(pid: int, within_s: float = 10.0) -> bool:
 def _crash(ball: Ball) -> None:
     """A vertex index far out of range, past the functions that would refuse it: the library segfaults."""
     arrays = {"vertices": ball[0], "faces": ball[1] + np.int32(10**8)}
-    engines.run(engines.Operation.CUT, arrays, {})
+    child_module.run(Operation.CUT, arrays, {})
 
 
 def test_the_second_call_finds_the_engine_warm(ball: Ball) -> None:
-    first = engines.orient_facets(*ball)
-    pid = engines.engine_pid(engines.Library.MESHLAB)
-    second = engines.orient_facets(*ball)
+    first = wrap(*ball)
+    pid = pid_of(Library.MESHLAB)
+    second = wrap(*ball)
     assert pid is not None
-    assert engines.engine_pid(engines.Library.MESHLAB) == pid
+    assert pid_of(Library.MESHLAB) == pid
     np.testing.assert_array_equal(first[0], second[0])
 
 
@@ -61,34 +71,34 @@ def test_a_crash_is_an_error_that_names_the_engine_and_the_next_call_works(ball:
     expected = engines.cut_along_crossings(*ball)
     with pytest.raises(engines.EngineError, match=r"cgal died \(SIG.*1280 facets.*repair"):
         _crash(ball)
-    assert engines.engine_pid(engines.Library.CGAL) is None
+    assert pid_of(Library.CGAL) is None
     np.testing.assert_array_equal(engines.cut_along_crossings(*ball)[0], expected[0])
 
 
 def test_duplicate_and_degenerate_facets_do_not_take_the_parent_with_them(ball: Ball) -> None:
     faces = np.vstack([ball[1], ball[1], ball[1][:, [0, 0, 1]]])
     try:
-        engines.self_intersections(ball[0], faces)
+        wrap(ball[0], faces)
     except engines.EngineError as error:
         assert "meshlab" in str(error)  # noqa: PT017 -- whether it crashes is the library's affair
-    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
+    assert len(wrap(*ball)[1]) > 100
 
 
 @pytest.mark.parametrize("wait", [True, False])
 def test_an_engine_killed_while_idle_is_replaced_silently(ball: Ball, wait: bool) -> None:
-    engines.orient_facets(*ball)
-    pid = engines.engine_pid(engines.Library.MESHLAB)
+    wrap(*ball)
+    pid = pid_of(Library.MESHLAB)
     assert pid is not None
     os.kill(pid, signal.SIGTERM)
     # Without the wait the child still looks alive, and is gone before it answers.
     assert not wait or _gone(pid)
-    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
+    assert len(wrap(*ball)[1]) > 100
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="names a signal")
 def test_an_engine_killed_at_work_is_an_error(ball: Ball) -> None:
     def kill_at_work(fraction: float) -> None:
-        pid = engines.engine_pid(engines.Library.MESHLAB)
+        pid = pid_of(Library.MESHLAB)
         if fraction > 0 and pid is not None:
             os.kill(pid, signal.SIGKILL)
 
@@ -101,7 +111,7 @@ def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> 
     told: list[float] = []
 
     def cancelled() -> bool:
-        pids.add(engines.engine_pid(engines.Library.MESHLAB))
+        pids.add(pid_of(Library.MESHLAB))
         return told.count(0.1) > 3
 
     with pytest.raises(engines.Cancelled, match="meshlab"):
@@ -110,25 +120,25 @@ def test_cancel_kills_the_child_and_the_next_call_starts_another(ball: Ball) -> 
     assert pids
     assert all(_gone(pid) for pid in pids if pid is not None)
     assert told == sorted(told)
-    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
+    assert len(wrap(*ball)[1]) > 100
 
 
 def test_cancelled_before_it_began_starts_nothing(ball: Ball) -> None:
     engines.stop_engines()
     with pytest.raises(engines.Cancelled):
-        engines.orient_facets(*ball, cancelled=lambda: True)
-    assert engines.engine_pid(engines.Library.MESHLAB) is None
+        wrap(*ball, cancelled=lambda: True)
+    assert pid_of(Library.MESHLAB) is None
 
 
 def test_a_timeout_is_an_error_that_says_how_long(ball: Ball) -> None:
-    engines.orient_facets(*ball)
+    wrap(*ball)
     with pytest.raises(engines.EngineError, match=r"longer than 0\.2 s for 'alpha wrap'"):
         engines.alpha_wrap(*ball, *ENDLESS, timeout_s=0.2)
 
 
 def test_progress_rises_to_one_and_what_it_raises_reaches_the_caller(ball: Ball) -> None:
     told: list[float] = []
-    engines.orient_facets(*ball, progress=told.append)
+    wrap(*ball, progress=told.append)
     assert told[0] == 0
     assert told[-1] == 1
     assert told == sorted(told)
@@ -137,8 +147,8 @@ def test_progress_rises_to_one_and_what_it_raises_reaches_the_caller(ball: Ball)
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        engines.orient_facets(*ball, progress=fail)
-    assert len(engines.orient_facets(*ball)[1]) == len(ball[1])
+        wrap(*ball, progress=fail)
+    assert len(wrap(*ball)[1]) > 100
 
 
 def test_threads_get_their_own_results(ball: Ball) -> None:
@@ -154,12 +164,12 @@ def test_threads_get_their_own_results(ball: Ball) -> None:
 def test_one_library_works_while_the_other_does(ball: Ball) -> None:
     finished = threading.Event()
 
-    def wrap() -> None:
+    def wrap_for_ever() -> None:
         with pytest.raises(engines.Cancelled):
             engines.alpha_wrap(*ball, *ENDLESS, cancelled=finished.is_set)
 
     with ThreadPoolExecutor(1) as pool:
-        wrapping = pool.submit(wrap)
+        wrapping = pool.submit(wrap_for_ever)
         try:
             assert len(engines.cut_along_crossings(*ball)[1]) == len(ball[1])
             assert not wrapping.done()
@@ -171,17 +181,17 @@ def test_one_library_works_while_the_other_does(ball: Ball) -> None:
 def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
     started, finished = threading.Event(), threading.Event()
 
-    def wrap() -> None:
+    def wrap_for_ever() -> None:
         with pytest.raises(engines.Cancelled):
             engines.alpha_wrap(*ball, *ENDLESS, progress=lambda _: started.set(), cancelled=finished.is_set)
 
     with ThreadPoolExecutor(1) as pool:
-        wrapping = pool.submit(wrap)
+        wrapping = pool.submit(wrap_for_ever)
         started.wait(10)
         calls = iter([False, False, True])
         try:
             with pytest.raises(engines.Cancelled):
-                engines.orient_facets(*ball, cancelled=lambda: next(calls))
+                wrap(*ball, cancelled=lambda: next(calls))
             assert not wrapping.done()
         finally:
             finished.set()
@@ -191,7 +201,7 @@ def test_a_waiting_thread_can_cancel(ball: Ball) -> None:
 def _with_command(monkeypatch: pytest.MonkeyPatch, code: str) -> Child:
     command = [sys.executable, "-c", textwrap.dedent(code)]
     monkeypatch.setattr(child_module, "_command", lambda _library: command)
-    return Child(engines.Library.MESHLAB)
+    return Child(Library.MESHLAB)
 
 
 def test_a_missing_library_is_told_with_the_command_that_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -205,7 +215,7 @@ def test_a_missing_library_is_told_with_the_command_that_installs_it(monkeypatch
         """,
     )
     with pytest.raises(engines.EngineError, match=r"pip install 'contactbench\[meshlab\]'"):
-        child.call(Message("orient facets"), Watch())
+        child.call(Message("alpha wrap"), Watch())
 
 
 def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -225,7 +235,9 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
     )
     arrays = {"vertices": np.eye(3), "faces": np.array([[0, 1, 2]], dtype=np.int32)}
     try:
-        assert child.call(Message("self-intersections", {}, arrays), Watch()).kind == "done"
+        assert (
+            child.call(Message("alpha wrap", {"alpha": 0.5, "offset": 0.1}, arrays), Watch()).kind == "done"
+        )
     finally:
         child.stop()
 
@@ -234,7 +246,7 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
 def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch, code: str) -> None:
     child = _with_command(monkeypatch, code)
     with pytest.raises(engines.EngineError, match=r"meshlab (died|gave)") as raised:
-        child.call(Message("orient facets"), Watch())
+        child.call(Message("alpha wrap"), Watch())
     assert child.pid is None
     assert ("Its last words: no licence" in str(raised.value)) == ("licence" in code)
 
@@ -242,41 +254,19 @@ def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch
 def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(child_module, "_command", lambda _library: ["/nowhere/python"])
     with pytest.raises(engines.EngineError, match="cannot be started"):
-        Child(engines.Library.MESHLAB).call(Message("orient facets"), Watch())
-
-
-def test_a_bundled_application_is_its_own_engine(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ball: Ball
-) -> None:
-    app = tmp_path / "app"
-    app.write_text(
-        f"#!{sys.executable}\n"
-        "import sys\n"
-        "from contactbench.pipeline.mesh.engines.worker import serve_if_asked\n"
-        "serve_if_asked(sys.argv)\n"
-        "print('the window opens')\n",
-        encoding="utf-8",
-    )
-    app.chmod(0o755)
-    assert subprocess.run([app], capture_output=True, text=True, check=True).stdout == "the window opens\n"
-    monkeypatch.setattr(sys, "frozen", True, raising=False)
-    monkeypatch.setattr(sys, "executable", str(app))
-    child = Child(engines.Library.MESHLAB)
-    arrays = {"vertices": ball[0], "faces": ball[1]}
-    try:
-        assert len(child.call(Message("orient facets", {}, arrays), Watch()).arrays["faces"]) == len(ball[1])
-    finally:
-        child.stop()
+        Child(Library.MESHLAB).call(Message("alpha wrap"), Watch())
 
 
 _PARENT = """
 import sys, time, threading
 import numpy as np
 from contactbench.pipeline.mesh import engines
+from contactbench.pipeline.mesh.engines.child import _CHILDREN
+from contactbench.pipeline.mesh.engines.libraries import Library
 corners = np.array([[0, 0, 0], [99, 0, 0], [0, 99, 0], [0, 0, 99]])
 faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-engines.orient_facets(corners, faces)
-print(engines.engine_pid(engines.Library.MESHLAB), flush=True)
+engines.alpha_wrap(corners, faces, 50.0, 5.0)
+print(_CHILDREN[Library.MESHLAB].pid, flush=True)
 if "busy" in sys.argv:
     engines.alpha_wrap(corners, faces, 0.02, 0.02, progress=lambda f: print(f, flush=True))
 if "idle" in sys.argv:
@@ -318,19 +308,21 @@ def test_a_forked_process_starts_its_own_engine_and_leaves_its_parents_alone() -
 import os
 import numpy as np
 from contactbench.pipeline.mesh import engines
+from contactbench.pipeline.mesh.engines.child import _CHILDREN
+from contactbench.pipeline.mesh.engines.libraries import Library
 corners = np.array([[0, 0, 0], [99, 0, 0], [0, 99, 0], [0, 0, 99]])
 faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-engines.orient_facets(corners, faces)
-pid = engines.engine_pid(engines.Library.MESHLAB)
+engines.alpha_wrap(corners, faces, 50.0, 5.0)
+pid = _CHILDREN[Library.MESHLAB].pid
 fork = os.fork()
 if fork == 0:
-    assert engines.engine_pid(engines.Library.MESHLAB) is None
-    engines.orient_facets(corners, faces)
-    assert engines.engine_pid(engines.Library.MESHLAB) != pid
+    assert _CHILDREN[Library.MESHLAB].pid is None
+    engines.alpha_wrap(corners, faces, 50.0, 5.0)
+    assert _CHILDREN[Library.MESHLAB].pid != pid
     engines.stop_engines()
     os._exit(0)
 assert os.waitstatus_to_exitcode(os.waitpid(fork, 0)[1]) == 0
-engines.orient_facets(corners, faces)
-assert engines.engine_pid(engines.Library.MESHLAB) == pid
+engines.alpha_wrap(corners, faces, 50.0, 5.0)
+assert _CHILDREN[Library.MESHLAB].pid == pid
 """
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

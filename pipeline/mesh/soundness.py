@@ -86,7 +86,8 @@ class Soundness:
         an edge is rounded off or cut. What is below 20 is an upper bound. NaN where there is no original to
         compare with.
     folded_facets : (k,) int64
-        Facets over the limit of the normal deviation; without an original, slivers that fold back onto a neighbour.
+        Facets over the limit of the normal deviation, and slivers that fold back onto a neighbour, also where the
+        original has them.
     """
 
     health: MeshHealth
@@ -234,8 +235,8 @@ def check_soundness(
     faces : (m, 3) int32
         At least one facet, indices in range.
     original : tuple of (n', 3) float64 and (m', 3) int32, optional
-        The surface that the mesh was made from, in the same frame. Unless it is consistently wound and faces
-        outwards, its normals count in both directions.
+        The surface that the mesh was made from, in the same frame. Unless it is consistently wound and all its parts
+        face outwards, its normals count in both directions.
     invented : (m,) bool, optional
         Facets that close openings: the original says nothing about their normals.
     steepest_deg : float
@@ -259,28 +260,25 @@ def check_soundness(
     volumes = np.einsum("ij,ij->i", unit[faces[:, 0]], doubled) / 6
     inward, nested_parts, nested = 0, 0, np.zeros(len(faces), dtype=np.bool_)
     if health.watertight and health.winding_consistent:
-        label = label_parts(faces, len(vertices))
-        part_volume = np.bincount(label, volumes).astype(np.float64)
-        inside = _nested(unit, faces, label, part_volume, doubled)
-        inward = int(np.count_nonzero((part_volume <= 0) & ~inside))
-        nested_parts, nested = int(inside.sum()), inside[label]
+        label, inside, inverted = _parts_inside(unit, faces, doubled)
+        inward, nested_parts, nested = int(inverted.sum()), int(inside.sum()), inside[label]
     pairs, kinds, counts, complete = crossings(vertices, faces)
     deviation = np.full(len(faces), np.nan)
     flat = degenerate_facets(vertices, faces)
     ours = ~flat if invented is None else ~(flat | np.asarray(invented, dtype=np.bool_))
-    signed = False
     if original is not None:
         there = (
             np.ascontiguousarray(original[0], dtype=np.float64),
             np.ascontiguousarray(original[1], dtype=np.int32),
         )
-        state = measure_health(*there)
-        signed = state.outward is True
         scaled = ((there[0] - middle) / size, there[1])
+        signed = measure_health(*there).outward is True
+        # Of several bodies one may be inside out, and the whole outward.
+        signed = signed and not _parts_inside(*scaled, _doubled(*scaled))[2].any()
         deviation[ours] = _normal_deviation(unit, faces[ours], doubled[ours], scaled, signed, steepest_deg)
     edges = _half_edges(faces)
     slivers = _turned_slivers(unit, faces, doubled, edges)
-    slivers &= ~flat if not signed else ~(flat | ours)
+    slivers &= ~flat
     return Soundness(
         health=health,
         volume_m3=float(volumes.sum()) * size**3,
@@ -341,6 +339,17 @@ def _pinched(faces: npt.NDArray[np.int32], edges: _Pairs) -> npt.NDArray[np.int6
     owner[fan] = vertex
     fans = np.bincount(owner)
     return np.flatnonzero(fans > 1)
+
+
+def _parts_inside(
+    vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], doubled: npt.NDArray[np.float64]
+) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+    """Give each facet's part, and tell which parts lie inside others, and which of the rest are inside out."""
+    label = label_parts(faces, len(vertices))
+    volumes = np.einsum("ij,ij->i", vertices[faces[:, 0]], doubled) / 6
+    volume = np.bincount(label, volumes).astype(np.float64)
+    inside = _nested(vertices, faces, label, volume, doubled)
+    return label, inside, (volume <= 0) & ~inside
 
 
 def _nested(

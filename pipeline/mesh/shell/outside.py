@@ -15,6 +15,7 @@ from contactbench.pipeline.mesh.shell.hull import outer_hull
 from contactbench.pipeline.mesh.shell.openings import Opening, describe
 from contactbench.pipeline.mesh.shell.patch import choose, make_patch
 from contactbench.pipeline.mesh.shell.sew import ROUNDING, distinct, holes, open_edges, sew
+from contactbench.pipeline.mesh.shell.union import unite
 from contactbench.pipeline.mesh.triangles import cross_products, first_alike, join
 
 if TYPE_CHECKING:
@@ -165,7 +166,7 @@ def find_outside(sewn: Sewn, added: Sequence[Surface] = (), **control: Unpack[Co
         See `contactbench.pipeline.mesh.engines.run`.
     """
     soup = _with((sewn.vertices, sewn.faces, sewn.born), added)
-    cut = cut_crossings(*soup[:2], **control)
+    cut = unite(*soup[:2]) or cut_crossings(*soup[:2], **control)
     hull = outer_hull(cut.vertices, cut.faces)
     areas = np.linalg.norm(cross_products(cut.vertices, cut.faces), axis=1)
     of = soup[2][cut.born]

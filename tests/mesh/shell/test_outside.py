@@ -12,6 +12,7 @@ from contactbench.pipeline.mesh.shell.cut import cut_crossings
 from contactbench.pipeline.mesh.shell.hull import outer_hull
 from contactbench.pipeline.mesh.shell.outside import find_outside, sew_up
 from contactbench.pipeline.mesh.shell.sew import distinct, holes, open_edges, sew
+from contactbench.pipeline.mesh.shell.union import unite
 
 pytest.importorskip("igl", reason="facets are cut by CGAL through libigl (extra 'meshlab')")
 
@@ -127,6 +128,47 @@ def test_cutting_leaves_facets_that_meet_nothing_alone():
     )
     whole = np.linalg.norm(np.cross(*(vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2))), axis=1)
     assert np.bincount(cut.born, areas) == pytest.approx(whole, rel=1e-7)
+
+
+def slanted_bars(count):
+    """Bars through each other near one point, each turned at random."""
+    rng = np.random.default_rng(7)
+    bars = []
+    for _ in range(count):
+        turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+        vertices, faces = box([-0.05, -0.06, -1], [0.05, 0.06, 1])
+        bars.append((vertices @ (turn * np.sign(np.linalg.det(turn))).T, faces))
+    return bars
+
+
+def test_bodies_that_cross_are_united_and_facets_that_meet_nothing_stay():
+    bars = slanted_bars(12)
+    vertices, faces = soup(*((v, f[:, ::-1] if number == 3 else f) for number, (v, f) in enumerate(bars)))
+    made = unite(vertices, faces)
+    assert made.left == 0
+    assert edge_table(made.faces, len(made.vertices)).uses.tolist() == [2] * (3 * len(made.faces) // 2)
+    # The twelve times two ends cross nothing, and are as they were, the inverted bar's too.
+    for v, f in bars:
+        for end in (f[:2], f[-2:]):
+            assert {tuple(corner) for corner in v[end].reshape(-1, 3)} <= set(map(tuple, made.vertices))
+    third = np.isin(made.born, np.arange(36, 48))
+    normals = np.cross(*(vertices[faces[:, k]] - vertices[faces[:, 0]] for k in (1, 2)))
+    pieces = np.cross(*(made.vertices[made.faces[:, k]] - made.vertices[made.faces[:, 0]] for k in (1, 2)))
+    assert (np.einsum("ij,ij->i", pieces, normals[made.born])[third] > 0).all()
+    found = outside_of(vertices, faces)
+    assert found.turned == 12
+    assert not crossings(found.vertices, found.faces)[2].any()
+
+
+def test_what_is_no_set_of_crossing_bodies_is_not_united():
+    apart = soup(UNIT, box([5, 5, 5], [6, 6, 6]))
+    across = soup(UNIT, box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]))
+    folded = UNIT[0].copy()
+    folded[0] = [2, 2, 2]  # through the opposite corner
+    assert unite(*apart) is None
+    assert unite(across[0], across[1][1:]) is None
+    assert unite(*soup((folded, UNIT[1]), box([0.5, 0.5, 0.5], [1.5, 1.5, 1.5]))) is None
+    assert unite(*across) is not None
 
 
 def test_random_crossing_bodies_enclose_what_any_of_them_does():

@@ -7,8 +7,8 @@ metres in frame S: origin on the flange plane, +z from the flange to the probe's
 
 from __future__ import annotations
 
-from contactbench.assets.meshing import tessellate
 from contactbench.assets.probes import PROBE_NAMES, contact_region, make, surface
 from contactbench.assets.surface import Station, Surface
+from contactbench.assets.triangulation import tessellate
 
 __all__ = ["PROBE_NAMES", "Station", "Surface", "contact_region", "make", "surface", "tessellate"]

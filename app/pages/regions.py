@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from contactbench.app.bench import Bench
     from contactbench.app.jobs import Job
-    from contactbench.pipeline.mesh.regions import Change, RegionModel
+    from contactbench.pipeline.mesh.regions import RegionChange, RegionModel
     from contactbench.pipeline.workbench.regions import RegionsWork
     from contactbench.pipeline.workbench.steps import StepStatus
     from contactbench.widgets.scene.scene import Pick
@@ -247,7 +247,7 @@ class RegionsPage(Page):
 
     # ---- changes -----------------------------------------------------------------------------
 
-    def _changed(self, change: Change, drawing: bool) -> None:
+    def _changed(self, change: RegionChange, drawing: bool) -> None:
         work = self.work
         if work is None:
             return

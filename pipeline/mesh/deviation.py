@@ -195,7 +195,7 @@ class _Side:
         return np.asarray(mask, dtype=np.bool_)[self.samples.facets]
 
 
-class Comparison:
+class SurfaceComparison:
     """
     Two surfaces compared; ask for the deviation as a whole or of some of their facets.
 
@@ -274,7 +274,7 @@ class Reference:
         self._uniform, self._most = uniform, most
         self._samples = sample_surface(probe, uniform, most)
 
-    def compare(self, other: Probe) -> Comparison:
+    def compare(self, other: Probe) -> SurfaceComparison:
         """
         Measure another surface against this one.
 
@@ -285,7 +285,7 @@ class Reference:
 
         Returns
         -------
-        Comparison
+        SurfaceComparison
         """
         index = SurfaceIndex(other.vertices, other.faces)
         samples = sample_surface(other, self._uniform, self._most)
@@ -293,7 +293,7 @@ class Reference:
         with ThreadPoolExecutor(1) as pool:
             back = pool.submit(_measure, samples, other, self.index, self.probe)
             there = _measure(self._samples, self.probe, index, other)
-            return Comparison(there, _look_again(back.result(), other, self.index))
+            return SurfaceComparison(there, _look_again(back.result(), other, self.index))
 
     def nearest_facet(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.int32]:
         """
@@ -311,7 +311,9 @@ class Reference:
         return self.index.closest(np.ascontiguousarray(points))[1]
 
 
-def compare(reference: Probe, other: Probe, *, uniform: int = 20_000, most: int | None = None) -> Comparison:
+def compare(
+    reference: Probe, other: Probe, *, uniform: int = 20_000, most: int | None = None
+) -> SurfaceComparison:
     """
     Compare two surfaces in the same frame.
 
@@ -324,7 +326,7 @@ def compare(reference: Probe, other: Probe, *, uniform: int = 20_000, most: int 
 
     Returns
     -------
-    Comparison
+    SurfaceComparison
     """
     return Reference(reference, uniform=uniform, most=most).compare(other)
 

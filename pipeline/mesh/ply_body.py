@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.ply_header import Element, Header, Property
+    from contactbench.pipeline.mesh.ply_header import Element, PlyHeader, Property
 
 _ONE_NUMBER = re.compile(NUMBER)
 _ONE_INTEGER = re.compile(rb"[+-]?\d{1,18}")
@@ -37,7 +37,7 @@ _ROW = re.compile(rb"^[^\n]+", re.M)
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class PlyBody:
     """
     What the rows hold.
 
@@ -72,13 +72,13 @@ def _body(
     labels: dict[str, npt.NDArray[np.int64]],
     strips: bool,
     notes: tuple[str, ...],
-) -> Body:
+) -> PlyBody:
     if strips:
-        return Body(vertices, _from_strips(facets), {}, notes)
+        return PlyBody(vertices, _from_strips(facets), {}, notes)
     refuse_too_many(int(np.maximum(facets.sizes - 2, 0).sum()))
     done = triangulate(vertices, facets.values, facets.sizes)
     labels = {name: values[done.polygon] for name, values in labels.items()}
-    return Body(vertices, done.faces, labels, notes + done.notes)
+    return PlyBody(vertices, done.faces, labels, notes + done.notes)
 
 
 def _from_strips(lists: _Lists) -> npt.NDArray[np.int64]:
@@ -92,13 +92,13 @@ def _from_strips(lists: _Lists) -> npt.NDArray[np.int64]:
 # ---- binary ------------------------------------------------------------------------------------------
 
 
-def read_binary(header: Header, data: bytes) -> Body:
+def read_binary(header: PlyHeader, data: bytes) -> PlyBody:
     """
     Read a binary body.
 
     Parameters
     ----------
-    header : Header
+    header : PlyHeader
         Of the file.
     data : bytes
         The whole file.
@@ -124,7 +124,7 @@ def read_binary(header: Header, data: bytes) -> Body:
 
 
 def _read_element(
-    header: Header, element: Element, data: bytes, at: int
+    header: PlyHeader, element: Element, data: bytes, at: int
 ) -> tuple[Mapping[str, npt.NDArray[Any] | _Lists], int]:
     """Read the rows that begin at a byte: what each property of use holds, and where they end."""
     dtype = _row_type(header, element, data, at)
@@ -154,7 +154,7 @@ def _even(element: Element, block: npt.NDArray[Any]) -> dict[str, npt.NDArray[An
 
 
 def _uneven(
-    header: Header, element: Element, data: bytes, at: int
+    header: PlyHeader, element: Element, data: bytes, at: int
 ) -> tuple[dict[str, npt.NDArray[Any] | _Lists], int]:
     """Read rows whose lists differ in length, so that each row tells where the next begins."""
     # A row is pieces of a fixed length with lists between them: where each piece begins, and how long each list is.
@@ -189,7 +189,7 @@ def _uneven(
 
 
 def _walk(
-    header: Header,
+    header: PlyHeader,
     element: Element,
     data: bytes,
     at: int,
@@ -231,13 +231,13 @@ def _gather(content: npt.NDArray[np.uint8], places: npt.NDArray[np.int64], kind:
     return values.ravel()
 
 
-def _refuse_short(header: Header, size: int) -> None:
+def _refuse_short(header: PlyHeader, size: int) -> None:
     needed = sum(e.count * sum(p.fewest_bytes for p in e.properties) for e in header.elements)
     if needed > size - header.length:
         raise _short(header, needed, size)
 
 
-def _short(header: Header, needed: int, size: int) -> MeshError:
+def _short(header: PlyHeader, needed: int, size: int) -> MeshError:
     return MeshError(
         f"the PLY header announces {header.contents}, at least {needed} bytes, but {size - header.length}"
         " follow: the file is cut short, copy or export it again."
@@ -251,7 +251,7 @@ def _absurd(element: Element, length: int) -> MeshError:
     )
 
 
-def _row_type(header: Header, element: Element, data: bytes, at: int) -> np.dtype[Any]:
+def _row_type(header: PlyHeader, element: Element, data: bytes, at: int) -> np.dtype[Any]:
     """Type of one row, with lists as long as in the first row, which begins at a byte of the file."""
     fields: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
     begin = at
@@ -276,13 +276,13 @@ def _row_type(header: Header, element: Element, data: bytes, at: int) -> np.dtyp
 # ---- text --------------------------------------------------------------------------------------------
 
 
-def read_text(header: Header, data: bytes) -> Body:
+def read_text(header: PlyHeader, data: bytes) -> PlyBody:
     """
     Read a text body.
 
     Parameters
     ----------
-    header : Header
+    header : PlyHeader
         Of the file.
     data : bytes
         The whole file.
@@ -335,7 +335,7 @@ def _rows(body: bytes) -> Iterator[bytes]:
     return (row for row in io.BytesIO(body) if not row.isspace())
 
 
-def _one_a_row(header: Header, body: bytes) -> bytes | None:
+def _one_a_row(header: PlyHeader, body: bytes) -> bytes | None:
     """Lay out rows that stand on other lines than usual; None unless the numbers are just as many as announced."""
     words = (word for row in _rows(body) for word in row.split())
     out = bytearray()

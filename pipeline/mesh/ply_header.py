@@ -68,7 +68,7 @@ class Element:
 
 
 @dataclass(frozen=True)
-class Header:
+class PlyHeader:
     """
     What a PLY header announces.
 
@@ -101,7 +101,7 @@ class Header:
         return ", ".join(f"{element.count} rows of '{element.name}'" for element in self.elements)
 
 
-def read_header(data: bytes) -> Header:
+def read_header(data: bytes) -> PlyHeader:
     """
     Read and check the header of a PLY file.
 
@@ -112,7 +112,7 @@ def read_header(data: bytes) -> Header:
 
     Returns
     -------
-    Header
+    PlyHeader
         With vertices that have numbers x, y and z, and facets that have a list of indices.
 
     Raises
@@ -157,7 +157,7 @@ def read_header(data: bytes) -> Header:
     if not settled:
         rows = tuple(_without_labels(element, notes) for element in rows)
     _check(rows)
-    return Header(order, rows, settled, end.end(), tuple(sorted(untouchable)), tuple(notes))
+    return PlyHeader(order, rows, settled, end.end(), tuple(sorted(untouchable)), tuple(notes))
 
 
 def ignored(label: str) -> str:

@@ -9,8 +9,8 @@ import numpy as np
 
 from contactbench.pipeline.mesh.colours import facet_colours
 from contactbench.pipeline.mesh.regions import (
-    Change,
     FacetGraph,
+    RegionChange,
     RegionError,
     RegionModel,
     RegionSet,
@@ -226,7 +226,7 @@ class RegionsWork:
         self.revision = 0
         self._table = self._all_colours()
         self._colours = self._table[self.model.labels]
-        self._listeners: list[Callable[[Change, bool], None]] = []
+        self._listeners: list[Callable[[RegionChange, bool], None]] = []
         self._strokes = 0
         self._stroke: Stroke | None = None
         self.model.subscribe(self._changed)
@@ -276,7 +276,7 @@ class RegionsWork:
         """Whether a stroke is being drawn."""
         return self._stroke is not None
 
-    def subscribe(self, listener: Callable[[Change, bool], None]) -> Callable[[], None]:
+    def subscribe(self, listener: Callable[[RegionChange, bool], None]) -> Callable[[], None]:
         """
         Have `listener` called after every change; returns what ends that.
 
@@ -321,7 +321,7 @@ class RegionsWork:
         stroke, self._stroke = self._stroke, None
         if stroke is None or not len(stroke.finish()):
             return None
-        self._tell(Change(np.empty(0, dtype=np.int32), listed=False), False)
+        self._tell(RegionChange(np.empty(0, dtype=np.int32), listed=False), False)
         return self.model.undo_text
 
     def abort(self) -> None:
@@ -387,7 +387,7 @@ class RegionsWork:
         colours = [region.colour for region in self.model.regions]
         return facet_colours(ranks, np.zeros(len(ranks), dtype=bool), colours)
 
-    def _changed(self, change: Change) -> None:
+    def _changed(self, change: RegionChange) -> None:
         self.revision += 1
         faces = change.faces
         if change.listed:
@@ -400,8 +400,8 @@ class RegionsWork:
             np.take(self._table, self.model.labels, axis=0, out=self._colours)
         else:
             self._colours[faces] = self._table[self.model.labels[faces]]
-        self._tell(Change(faces, change.listed), self._stroke is not None)
+        self._tell(RegionChange(faces, change.listed), self._stroke is not None)
 
-    def _tell(self, change: Change, drawing: bool) -> None:
+    def _tell(self, change: RegionChange, drawing: bool) -> None:
         for listener in tuple(self._listeners):
             listener(change, drawing)

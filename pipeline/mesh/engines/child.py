@@ -17,7 +17,7 @@ from typing import IO, TYPE_CHECKING, Any, BinaryIO, cast
 
 from contactbench.pipeline.mesh.engines.errors import Cancelled, EngineError, WireError
 from contactbench.pipeline.mesh.engines.libraries import Library
-from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
+from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -41,7 +41,7 @@ _LAST_WORDS = 300
 
 
 @dataclass(frozen=True)
-class Watch:
+class CallWatch:
     """
     What the caller wants to know and say while an engine works; all in the caller's thread.
 
@@ -109,7 +109,7 @@ class Child:
         process = self._process
         return None if process is None or process.poll() is not None else process.pid
 
-    def call(self, request: Message, watch: Watch) -> Message:
+    def call(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         """
         Send a call and wait for its result.
 
@@ -151,7 +151,7 @@ class Child:
             self._process.returncode = 0
         self.__init__(self.library)  # type: ignore[misc]
 
-    def _acquire(self, watch: Watch) -> None:
+    def _acquire(self, watch: CallWatch) -> None:
         watch.check(self.library)
         while not self._lock.acquire(timeout=_POLL_S):
             watch.report(_STARTED)
@@ -180,12 +180,12 @@ class Child:
 
         _widen(self._process)
 
-    def _exchange(self, request: Message, watch: Watch) -> Message:
+    def _exchange(self, request: WireMessage, watch: CallWatch) -> WireMessage:
         process, noise = self._process, self._noise
         if process is None or noise is None:
             raise AssertionError("started before")
         noise.truncate(0)
-        events: queue.SimpleQueue[Message | None] = queue.SimpleQueue()
+        events: queue.SimpleQueue[WireMessage | None] = queue.SimpleQueue()
         thread = threading.Thread(
             target=_converse,
             args=(process, request, events, self._ready),
@@ -210,7 +210,9 @@ class Child:
         watch.report(_DONE)
         return answer
 
-    def _wait(self, request: Message, events: queue.SimpleQueue[Message | None], watch: Watch) -> Message:
+    def _wait(
+        self, request: WireMessage, events: queue.SimpleQueue[WireMessage | None], watch: CallWatch
+    ) -> WireMessage:
         deadline = None if watch.timeout_s is None else time.monotonic() + watch.timeout_s
         stage, warm = _STARTED, self._ready
         while True:
@@ -223,26 +225,26 @@ class Child:
                 )
             with contextlib.suppress(queue.Empty):
                 match events.get(timeout=_POLL_S):
-                    case Message(kind="done" | "failed") as answer:
+                    case WireMessage(kind="done" | "failed") as answer:
                         return answer
-                    case Message(kind="missing") as answer:
+                    case WireMessage(kind="missing") as answer:
                         raise self._missing(answer)
-                    case Message(kind="ready"):
+                    case WireMessage(kind="ready"):
                         self._ready = True
-                    case Message(kind="working"):
+                    case WireMessage(kind="working"):
                         stage = _WORKING
                     case _ if warm and stage == _STARTED:
                         raise _DiedIdleError
                     case _:
                         raise self._death(request)
 
-    def _missing(self, answer: Message) -> EngineError:
+    def _missing(self, answer: WireMessage) -> EngineError:
         return EngineError(
             f"{self.library} cannot be loaded ({answer.fields.get('reason')}): install it with"
             f" {self.library.install}."
         )
 
-    def _death(self, request: Message) -> EngineError:
+    def _death(self, request: WireMessage) -> EngineError:
         process = self._process
         if process is None:
             raise AssertionError("it died, so it was there")
@@ -283,8 +285,8 @@ class Child:
 
 def _converse(
     process: subprocess.Popen[bytes],
-    request: Message,
-    events: queue.SimpleQueue[Message | None],
+    request: WireMessage,
+    events: queue.SimpleQueue[WireMessage | None],
     ready: bool,
 ) -> None:
     """Write the call and read what comes, in a thread of its own: the caller can then leave at any time."""
@@ -382,8 +384,8 @@ def run(
     EngineError
         The library is missing, refused, crashed or took too long. The next call starts afresh.
     """
-    request = Message(str(operation), dict(parameters), dict(arrays))
-    watch = Watch(progress, cancelled, timeout_s)
+    request = WireMessage(str(operation), dict(parameters), dict(arrays))
+    watch = CallWatch(progress, cancelled, timeout_s)
     return _CHILDREN[operation.library].call(request, watch).arrays
 
 

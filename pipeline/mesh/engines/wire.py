@@ -31,7 +31,7 @@ MOST_BYTES = 100_000_000 * 12
 
 
 @dataclass(frozen=True)
-class Message:
+class WireMessage:
     """
     One message.
 
@@ -50,7 +50,7 @@ class Message:
     arrays: dict[str, npt.NDArray[Any]] = field(default_factory=dict)
 
 
-def write_message(stream: BinaryIO, message: Message) -> None:
+def write_message(stream: BinaryIO, message: WireMessage) -> None:
     """
     Write a message and flush.
 
@@ -76,7 +76,7 @@ def write_message(stream: BinaryIO, message: Message) -> None:
     stream.flush()
 
 
-def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> Message | None:
+def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> WireMessage | None:
     """
     Read a message.
 
@@ -89,7 +89,7 @@ def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> Message | No
 
     Returns
     -------
-    Message or None
+    WireMessage or None
         None when the stream ended before the message began.
 
     Raises
@@ -109,7 +109,7 @@ def read_message(stream: BinaryIO, most_bytes: int = MOST_BYTES) -> Message | No
     if total > most_bytes:
         raise WireError(f"the header announces {total} bytes, more than {most_bytes}")
     arrays = {name: _read_array(stream, dtype, shape) for name, (dtype, shape) in layout.items()}
-    return Message(kind, fields, arrays)
+    return WireMessage(kind, fields, arrays)
 
 
 def _portable(name: str, array: npt.NDArray[Any]) -> npt.NDArray[Any]:

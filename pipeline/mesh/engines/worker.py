@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from contactbench.pipeline.mesh.engines.errors import WireError
 from contactbench.pipeline.mesh.engines.libraries import REFUSALS, Library, Operation, perform
-from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
+from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -56,12 +56,12 @@ def main(library: str) -> int:
     try:
         module = importlib.import_module(_MODULES[name])
     except ImportError as error:
-        write_message(results, Message("missing", {"reason": str(error)}))
+        write_message(results, WireMessage("missing", {"reason": str(error)}))
         return 0
-    write_message(results, Message("ready"))
+    write_message(results, WireMessage("ready"))
     try:
         while (call := read_message(calls)) is not None:
-            write_message(results, Message("working"))
+            write_message(results, WireMessage("working"))
             with _ended_with_the_parent(calls.fileno()):
                 result = _answer(module, call)
             write_message(results, result)
@@ -71,17 +71,17 @@ def main(library: str) -> int:
     return 0
 
 
-def _answer(module: Any, call: Message) -> Message:
+def _answer(module: Any, call: WireMessage) -> WireMessage:
     try:
         arrays = perform(module, Operation(call.kind), call.arrays, call.fields)
     except MemoryError:
-        return Message("failed", {"reason": "it ran out of memory"})
+        return WireMessage("failed", {"reason": "it ran out of memory"})
     except REFUSALS as error:
-        return Message("failed", {"reason": _in_one_line(error)})
+        return WireMessage("failed", {"reason": _in_one_line(error)})
     # pymeshlab's own exception is known only through the module.
     except getattr(module, "PyMeshLabException", RuntimeError) as error:
-        return Message("failed", {"reason": _in_one_line(error)})
-    return Message("done", arrays=arrays)
+        return WireMessage("failed", {"reason": _in_one_line(error)})
+    return WireMessage("done", arrays=arrays)
 
 
 def _in_one_line(error: BaseException) -> str:

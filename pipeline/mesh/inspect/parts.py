@@ -19,7 +19,7 @@ LISTED = 200
 
 
 @dataclass(frozen=True)
-class Part:
+class MeshPart:
     """
     Facets that hang together over vertices.
 
@@ -59,14 +59,14 @@ class Parts:
         The part of each facet.
     area : (m,) float64
         Of each facet, m².
-    listed : tuple of Part
+    listed : tuple of MeshPart
         The largest 200.
     count : int
     """
 
     label: npt.NDArray[np.int64]
     area: npt.NDArray[np.float64]
-    listed: tuple[Part, ...]
+    listed: tuple[MeshPart, ...]
     count: int
 
 
@@ -106,7 +106,7 @@ def find_parts(vertices: npt.NDArray[np.float64], faces: npt.NDArray[np.int32], 
     enclosed = np.bincount(label, volume, minlength=count)
     extents = _extents(centred, part_of_vertex, used, min(count, LISTED))
     listed = tuple(
-        Part(
+        MeshPart(
             int(facets[i]),
             float(total[i]),
             extents[i],

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 if TYPE_CHECKING:
     from contactbench.pipeline.mesh.health import MeshHealth
     from contactbench.pipeline.mesh.inspect.holes import Hole
-    from contactbench.pipeline.mesh.inspect.parts import Part
+    from contactbench.pipeline.mesh.inspect.parts import MeshPart
     from contactbench.pipeline.mesh.inspect.shape import EdgeLengths, Slivers
     from contactbench.pipeline.mesh.inspect.visibility import Visibility
     from contactbench.pipeline.mesh.soundness import Soundness
@@ -19,7 +19,7 @@ Level = Literal["fault", "doubt", "note"]
 
 
 @dataclass(frozen=True)
-class Finding:
+class MeshFinding:
     """
     One thing found.
 
@@ -104,7 +104,7 @@ class Inspection:
     part_count : int
     overlapping_parts : int
         Those whose facets cut through another part's.
-    parts : tuple of Part
+    parts : tuple of MeshPart
         The largest 200.
     euler : int
         V - E + F.
@@ -137,7 +137,7 @@ class Inspection:
     holes: tuple[Hole, ...]
     part_count: int
     overlapping_parts: int
-    parts: tuple[Part, ...]
+    parts: tuple[MeshPart, ...]
     euler: int
     genus: int | None
     visibility: Visibility
@@ -155,7 +155,7 @@ class Inspection:
         return facts(self)
 
     @property
-    def findings(self) -> tuple[Finding, ...]:
+    def findings(self) -> tuple[MeshFinding, ...]:
         """What is wrong or worth knowing, faults first; empty when there is nothing."""
         from contactbench.pipeline.mesh.inspect.words import findings
 

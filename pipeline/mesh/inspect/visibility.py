@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.inspect.parts import Part, Parts
+    from contactbench.pipeline.mesh.inspect.parts import MeshPart, Parts
 
 SAMPLES = 8_000
 DIRECTIONS = 128
@@ -98,7 +98,7 @@ def look(
     samples: int = SAMPLES,
     progress: Callable[[float], None],
     cancelled: Callable[[], bool],
-) -> tuple[Visibility, tuple[Part, ...]]:
+) -> tuple[Visibility, tuple[MeshPart, ...]]:
     """
     Find out what of a mesh can be seen from outside.
 
@@ -125,7 +125,7 @@ def look(
     Returns
     -------
     visibility : Visibility
-    parts : tuple of Part
+    parts : tuple of MeshPart
         Those listed, with their shares filled in.
 
     Raises
@@ -241,7 +241,7 @@ def _per_part(
     chosen: _Samples,
     hidden: npt.NDArray[np.bool_],
     turned: npt.NDArray[np.bool_],
-) -> tuple[Part, ...]:
+) -> tuple[MeshPart, ...]:
     count = np.bincount(chosen.part, minlength=parts.count)
     unseen = np.bincount(chosen.part, hidden, minlength=parts.count)
     wrong = np.bincount(chosen.part, turned, minlength=parts.count)

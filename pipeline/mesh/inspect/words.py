@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.mesh.inspect.report import Finding
+from contactbench.pipeline.mesh.inspect.report import MeshFinding
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from contactbench.pipeline.mesh.inspect.parts import Part
+    from contactbench.pipeline.mesh.inspect.parts import MeshPart
     from contactbench.pipeline.mesh.inspect.report import Inspection
     from contactbench.pipeline.mesh.inspect.visibility import Visibility
 
@@ -53,7 +53,7 @@ def facts(found: Inspection) -> tuple[str, ...]:
     return tuple(said)
 
 
-def findings(found: Inspection) -> tuple[Finding, ...]:
+def findings(found: Inspection) -> tuple[MeshFinding, ...]:
     """Say what is wrong, why it matters and what to do; faults first, then doubts, then notes."""
     every = [
         *_unit(found),
@@ -68,14 +68,14 @@ def findings(found: Inspection) -> tuple[Finding, ...]:
     return tuple(sorted(every, key=lambda finding: order[finding.level]))
 
 
-def _unit(found: Inspection) -> Iterator[Finding]:
+def _unit(found: Inspection) -> Iterator[MeshFinding]:
     if found.unit is not None and not found.unit.certain:
-        yield Finding("doubt", found.unit.doubt)
+        yield MeshFinding("doubt", found.unit.doubt)
 
 
-def _openings(found: Inspection) -> Iterator[Finding]:
+def _openings(found: Inspection) -> Iterator[MeshFinding]:
     if found.seam_vertices:
-        yield Finding(
+        yield MeshFinding(
             "doubt",
             f"Seams are not sewn: {_count(found.seam_vertices, 'vertex', 'vertices')} of open edges lie beside"
             " another, closer than the eye sees. The surface counts as open there although it looks closed."
@@ -85,26 +85,26 @@ def _openings(found: Inspection) -> Iterator[Finding]:
         holes = found.holes[:_NAMED]
         widths = ", ".join(_length(hole.widest_m) for hole in holes)
         which = "It is" if found.hole_count == 1 else f"The {len(holes)} widest are"
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"The surface has {_count(found.hole_count, 'hole')}. {which} {widths} wide. A line of force can pass"
             f" through a hole and end on an inner wall, far from the true contact. {_SHELL}",
         )
     if found.joined_edges:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"More than two facets meet at {_count(found.joined_edges, 'edge')}, so inside and outside cannot be told"
             f" apart there: walls are joined, or bodies touch along an edge. {_SHELL}",
         )
 
 
-def _sides(found: Inspection) -> Iterator[Finding]:
+def _sides(found: Inspection) -> Iterator[MeshFinding]:
     seen = found.visibility
     sheet = seen.two_sided_share > _SHEET
     if found.soundness.sound:
         return  # closed and outward: rays that slip through somewhere say nothing
     if _inside_out(found):
-        yield Finding(
+        yield MeshFinding(
             "fault",
             "The mesh is inside out: its facets face inwards, so contacts would be found on the far side of the"
             " probe. Flip all normals in the CAD program, or make the outer shell, which does.",
@@ -112,14 +112,14 @@ def _sides(found: Inspection) -> Iterator[Finding]:
     elif seen.turned_share > _SOME:
         turned = sum(1 for part in found.parts if (part.turned_share or 0) > 0.5)
         whole = f", {_count(turned, 'whole part')} among them" if turned else ""
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"Facets with {_percent(seen.turned_share)} of the area show their back to the outside{whole}."
             " Contacts there are missed, or found on the far side. Make the normals consistent in the CAD"
             " program, or make the outer shell.",
         )
     if not found.health.winding_consistent:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             "Neighbouring facets disagree about which side is outside. "
             + (
@@ -132,13 +132,13 @@ def _sides(found: Inspection) -> Iterator[Finding]:
             + "Make the normals consistent in the CAD program, or make the outer shell.",
         )
     if sheet:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"The mesh is an open sheet: {_percent(seen.two_sided_share)} of the area can be seen from both sides, so"
             " it has no inside. Export the whole part as a solid.",
         )
     elif seen.two_sided_share > _OPEN:
-        yield Finding(
+        yield MeshFinding(
             "doubt",
             f"{_share(seen.two_sided_share)} of the area can be seen from both sides, like a sheet or an open"
             " bowl: it has no thickness. Check that the whole housing was exported, as a solid.",
@@ -149,13 +149,13 @@ def _inside_out(found: Inspection) -> bool:
     return found.health.outward is False or found.visibility.turned_share > 0.5
 
 
-def _insides(found: Inspection) -> Iterator[Finding]:
+def _insides(found: Inspection) -> Iterator[MeshFinding]:
     if not found.soundness.sound:
         yield from _inner_walls(found)
     elif found.shell_made:
         little = found.visibility.hidden_share + found.visibility.sheltered_share
         if little > _DEEP:
-            yield Finding(
+            yield MeshFinding(
                 "note",
                 f"{_share(little)} of the area sees little or nothing of the outside: grooves, bores and gaps,"
                 " which the outer shell keeps. A finger hardly reaches there.",
@@ -168,24 +168,24 @@ def _insides(found: Inspection) -> Iterator[Finding]:
         said = f"The mesh has {found.part_count} separate parts ({sizes}{more})"
         speck = found.parts[1].area_m2 < _SPECK * found.parts[0].area_m2
         if not found.soundness.sound:
-            yield Finding("doubt", f"{said}. Simplification treats each by itself.")
+            yield MeshFinding("doubt", f"{said}. Simplification treats each by itself.")
         elif speck:
-            yield Finding(
+            yield MeshFinding(
                 "note", f"{said}. All but the largest are specks, which the preparation leaves out."
             )
         else:
-            yield Finding(
+            yield MeshFinding(
                 "doubt",
                 f"{said}; none lies inside another. The preparation needs one body: delete what is not the probe in the"
                 " CAD program, or bridge a narrow gap with a larger --gap.",
             )
 
 
-def _inner_walls(found: Inspection) -> Iterator[Finding]:
+def _inner_walls(found: Inspection) -> Iterator[MeshFinding]:
     """Say what lies inside a mesh that does not separate inside from outside."""
     seen, nested = found.visibility, found.soundness.nested_parts
     if found.overlapping_parts:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"{found.overlapping_parts} of the {found.part_count} parts overlap, so walls of one lie inside another."
             " Unite them in the CAD program, or make the outer shell before use.",
@@ -193,19 +193,19 @@ def _inner_walls(found: Inspection) -> Iterator[Finding]:
     if seen.hidden_share > _SOME:
         parts = sum(1 for part in found.parts if (part.hidden_share or 0) > 0.99)
         whole = f" ({parts} of the {found.part_count} parts entirely)" if parts else ""
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"{_share(seen.hidden_share)} of the area cannot be seen from outside{whole}: inner walls or parts"
             f" that nothing can touch, but that a line of force meets. {_SHELL}",
         )
     elif nested:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"{_count(nested, 'closed part lies', 'closed parts lie')} inside the body. Nothing can touch them, but a"
             f" line of force meets them. {_SHELL}",
         )
     if seen.sheltered_share > _DEEP:
-        yield Finding(
+        yield MeshFinding(
             "doubt",
             f"{_share(seen.sheltered_share)} of the area is seen from outside through narrow openings only, or"
             " lies deep in grooves. If these are inner walls behind a hole, contacts can be placed on them."
@@ -213,18 +213,18 @@ def _inner_walls(found: Inspection) -> Iterator[Finding]:
         )
     if seen.double_wall_share > _DEEP and seen.wall_m is not None:
         if seen.wall_m < _COPY * found.size_m:
-            yield Finding(
+            yield MeshFinding(
                 "fault",
                 f"The surface is there twice: behind {_percent(seen.double_wall_share)} of the outside lies another,"
                 f" typically {_length(seen.wall_m)} away. A force meets two surfaces at once. {_SHELL}",
             )
         else:
-            yield Finding(
+            yield MeshFinding(
                 "fault" if seen.double_wall_share > _HOLLOW else "doubt", f"{_hollow(seen)} {_SHELL}"
             )
 
 
-def _recesses(found: Inspection) -> Iterator[Finding]:
+def _recesses(found: Inspection) -> Iterator[MeshFinding]:
     """Say what of a sound mesh lies in cavities, bores or grooves: one sentence, for they are not told apart here."""
     seen = found.visibility
     hollow = seen.double_wall_share > _HOLLOW
@@ -232,7 +232,7 @@ def _recesses(found: Inspection) -> Iterator[Finding]:
         return
     # A closed surface without handles is no tube: the space behind its walls is reached through a mouth.
     bottle = hollow and found.genus == 0
-    yield Finding(
+    yield MeshFinding(
         "fault" if bottle else "doubt",
         (f"{_hollow(seen)} " if hollow else "")
         + " ".join(_unseen(seen))
@@ -259,17 +259,17 @@ def _hollow(seen: Visibility) -> str:
     )
 
 
-def _facets(found: Inspection) -> Iterator[Finding]:
+def _facets(found: Inspection) -> Iterator[MeshFinding]:
     health, slivers = found.health, found.slivers
     if health.duplicate_facets:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"{_count(health.duplicate_facets, 'facet is a duplicate', 'facets are duplicates')} of another, with the"
             " same corners and the same side. They answer twice and slow the search. Remove duplicates in the CAD"
             " program, or make the outer shell.",
         )
     if found.back_to_back:
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"{_count(found.back_to_back, 'facet stands', 'facets stand')} back to back with another that has the same"
             " corners: a doubled surface or sheet that shows its front on both sides, or parts that touch. A force"
@@ -277,7 +277,7 @@ def _facets(found: Inspection) -> Iterator[Finding]:
         )
     if slivers.count:
         share = slivers.count / found.facets
-        yield Finding(
+        yield MeshFinding(
             "doubt" if share > 0.1 and not found.shell_made else "note",
             f"{_count(slivers.count, 'facet')} ({_percent(share)}) are slivers with an angle under 1°; the worst is"
             f" {slivers.worst_aspect:,.0f} times as long as high. CAD exports have them; they make normals"
@@ -285,21 +285,21 @@ def _facets(found: Inspection) -> Iterator[Finding]:
             + ("" if found.shell_made else " Simplify the mesh, or export with a limit on the aspect ratio."),
         )
     if health.dropped_facets:
-        yield Finding(
+        yield MeshFinding(
             "note",
             f"{_count(health.dropped_facets, 'facet')} without area were left out. They cannot be touched, but may"
             " have closed a seam.",
         )
 
 
-def _rest(found: Inspection) -> Iterator[Finding]:
+def _rest(found: Inspection) -> Iterator[MeshFinding]:
     """Pass on what the check of soundness says, except what is said above with more figures."""
     sound = found.soundness
     counted = replace(sound.health, components=1, dropped_facets=0).sentences
     repeats = found.health.duplicate_facets + found.back_to_back
     turned = _inside_out(found) or found.visibility.turned_share > _SOME
     if len(sound.folded_facets):
-        yield Finding(
+        yield MeshFinding(
             "fault",
             f"{_count(len(sound.folded_facets), 'thin facet folds', 'thin facets fold')} back onto a neighbour."
             " Contacts there are missed or found on the far side. "
@@ -314,21 +314,21 @@ def _rest(found: Inspection) -> Iterator[Finding]:
     )
     for sentence in rest.sentences:
         if sentence not in counted:
-            yield Finding("fault" if sentence in rest.faults else "note", sentence)
+            yield MeshFinding("fault" if sentence in rest.faults else "note", sentence)
 
 
-def _vertices(found: Inspection) -> Iterator[Finding]:
-    yield from (Finding("note", sentence) for sentence in found.read_notes)
+def _vertices(found: Inspection) -> Iterator[MeshFinding]:
+    yield from (MeshFinding("note", sentence) for sentence in found.read_notes)
     file = found.file
     if file is not None and file.shared and file.surplus_vertices:
-        yield Finding(
+        yield MeshFinding(
             "note",
             f"{_count(file.surplus_vertices, 'vertex', 'vertices')} in the file were double or unused and have been"
             " merged or left out.",
         )
     # Where the surface is closed they are there on purpose: bodies that touch in a point or an edge.
     if found.coincident_vertices and found.hole_count:
-        yield Finding(
+        yield MeshFinding(
             "doubt",
             f"{_count(found.coincident_vertices, 'vertex', 'vertices')} lie exactly on another and are not merged:"
             " the surface falls apart there. Save the mesh to a file and read it again, which merges them.",
@@ -339,7 +339,7 @@ def _parts(count: int) -> str:
     return "one part" if count == 1 else f"{count} separate parts"
 
 
-def _size(part: Part) -> str:
+def _size(part: MeshPart) -> str:
     return " x ".join(f"{1e3 * extent:.3g}" for extent in part.extents_m) + " mm"
 
 

@@ -11,7 +11,7 @@ from contactbench.pipeline.mesh.regions.errors import RegionError
 from contactbench.pipeline.mesh.regions.exchange import load_regions, save_regions
 from contactbench.pipeline.mesh.regions.facet_graph import FacetGraph
 from contactbench.pipeline.mesh.regions.mirror import Mirrored, mirror
-from contactbench.pipeline.mesh.regions.model import Change, RegionModel
+from contactbench.pipeline.mesh.regions.model import RegionChange, RegionModel
 from contactbench.pipeline.mesh.regions.morphology import grow, shrink, smooth
 from contactbench.pipeline.mesh.regions.region import Region, RegionSet
 from contactbench.pipeline.mesh.regions.selections import component, facing, flood, half_space, in_box
@@ -21,10 +21,10 @@ from contactbench.pipeline.mesh.regions.transfer import RegionReport, Transferre
 __all__ = [
     "PALETTE",
     "Brush",
-    "Change",
     "FacetGraph",
     "Mirrored",
     "Region",
+    "RegionChange",
     "RegionError",
     "RegionModel",
     "RegionReport",

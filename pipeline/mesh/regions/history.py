@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class RegionStep:
     """
     One edit: a new list of regions, ranks renumbered by it, and facets that changed hands.
 
@@ -59,7 +59,7 @@ class Step:
         labels[self.faces] = self.old
 
 
-class History:
+class RegionHistory:
     """
     What was done and undone.
 
@@ -70,22 +70,22 @@ class History:
     """
 
     def __init__(self, limit: int | None = None) -> None:
-        self._done: deque[Step] = deque(maxlen=limit)
-        self._undone: list[Step] = []
+        self._done: deque[RegionStep] = deque(maxlen=limit)
+        self._undone: list[RegionStep] = []
 
-    def push(self, step: Step) -> None:
+    def push(self, step: RegionStep) -> None:
         """Remember a step that was just done; what was undone before it is forgotten."""
         self._done.append(step)
         self._undone.clear()
 
-    def back(self) -> Step | None:
+    def back(self) -> RegionStep | None:
         """Return the step to undo, if there is one."""
         if not self._done:
             return None
         self._undone.append(self._done.pop())
         return self._undone[-1]
 
-    def forward(self) -> Step | None:
+    def forward(self) -> RegionStep | None:
         """Return the step to redo, if there is one."""
         if not self._undone:
             return None

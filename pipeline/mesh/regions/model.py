@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.mesh.regions.errors import RegionError
-from contactbench.pipeline.mesh.regions.history import History, Step
+from contactbench.pipeline.mesh.regions.history import RegionHistory, RegionStep
 from contactbench.pipeline.mesh.regions.region import (
     Region,
     RegionSet,
@@ -33,7 +33,7 @@ _NO_FACES = np.empty(0, dtype=np.int32)
 
 
 @dataclass(frozen=True, eq=False)
-class Change:
+class RegionChange:
     """
     What a view has to draw again.
 
@@ -68,9 +68,9 @@ class RegionModel:
     def __init__(self, initial: RegionSet, *, undo_limit: int | None = None) -> None:
         self._regions = initial.regions
         self._labels = initial.labels.copy()
-        self._history = History(undo_limit)
+        self._history = RegionHistory(undo_limit)
         self._stroke: Stroke | None = None
-        self._listeners: list[Callable[[Change], None]] = []
+        self._listeners: list[Callable[[RegionChange], None]] = []
 
     # ---- what there is -----------------------------------------------------------------------
 
@@ -94,7 +94,7 @@ class RegionModel:
         """Return the rank of the region of this name; RegionError if there is none."""
         return find_rank(self._regions, name)
 
-    def subscribe(self, listener: Callable[[Change], None]) -> Callable[[], None]:
+    def subscribe(self, listener: Callable[[RegionChange], None]) -> Callable[[], None]:
         """Have `listener` called after every change; returns what ends that."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
@@ -304,21 +304,23 @@ class RegionModel:
             raise RegionError(f"facet {bad} does not exist: they run from 0 to {count - 1}.")
         return np.unique(array).astype(np.int32)
 
-    def _step(self, text: str, after: tuple[Region, ...], table: Ints | None, faces: Ints, new: Ints) -> Step:
-        return Step(text, self._regions, after, table, faces, self._labels[faces], new)
+    def _step(
+        self, text: str, after: tuple[Region, ...], table: Ints | None, faces: Ints, new: Ints
+    ) -> RegionStep:
+        return RegionStep(text, self._regions, after, table, faces, self._labels[faces], new)
 
     def _relist(self, text: str, regions: tuple[Region, ...]) -> None:
         check_list(regions)
         self._do(self._step(text, regions, None, _NO_FACES, _NO_FACES))
 
-    def _do(self, step: Step) -> None:
+    def _do(self, step: RegionStep) -> None:
         self._refuse_during_stroke()
         if step.before == step.after and np.array_equal(step.old, step.new):
             return
         self._history.push(step)
         self._apply(step)
 
-    def _apply(self, step: Step) -> None:
+    def _apply(self, step: RegionStep) -> None:
         step.redo(self._labels)
         self._regions = step.after
         self._emit(step)
@@ -329,16 +331,18 @@ class RegionModel:
             return
         name = self._regions[stroke.rank - 1].name
         text = f"{'erase' if stroke.brush.erase else 'paint'} {name}"
-        self._history.push(Step(text, self._regions, self._regions, None, faces, old, self._labels[faces]))
+        self._history.push(
+            RegionStep(text, self._regions, self._regions, None, faces, old, self._labels[faces])
+        )
 
-    def _emit(self, step: Step) -> None:
+    def _emit(self, step: RegionStep) -> None:
         faces = step.faces if step.table is None else None
-        self._tell(Change(faces, listed=step.before != step.after))
+        self._tell(RegionChange(faces, listed=step.before != step.after))
 
     def _emit_faces(self, faces: Ints) -> None:
-        self._tell(Change(faces, listed=False))
+        self._tell(RegionChange(faces, listed=False))
 
-    def _tell(self, change: Change) -> None:
+    def _tell(self, change: RegionChange) -> None:
         for listener in tuple(self._listeners):
             listener(change)
 

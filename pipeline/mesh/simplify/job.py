@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from contactbench.pipeline.mesh.deviation import Comparison, Deviation, Reference
+    from contactbench.pipeline.mesh.deviation import Deviation, Reference, SurfaceComparison
 
 # Counts tried in turn, over the one asked for: most shapes are sound at the first, thin and engraved ones at some more.
 _STEPS = (1.0, 1.05, 1.2, 1.5, 2.0, 4.0, 8.0)
@@ -46,7 +46,7 @@ class Attempt:
     ----------
     probe : Probe
         The result, with the regions of the nearest original facets.
-    comparison : Comparison
+    comparison : SurfaceComparison
         With the original.
     deviation : Deviation
         Over the whole surface.
@@ -55,12 +55,12 @@ class Attempt:
     """
 
     probe: Probe
-    comparison: Comparison
+    comparison: SurfaceComparison
     deviation: Deviation
     soundness: Soundness | None = None
 
 
-class Job:
+class SimplifyJob:
     """
     The simplifications of one probe.
 

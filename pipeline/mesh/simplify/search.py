@@ -11,7 +11,7 @@ from contactbench.pipeline.mesh.simplify.target import FEWEST
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from contactbench.pipeline.mesh.simplify.job import Attempt, Job
+    from contactbench.pipeline.mesh.simplify.job import Attempt, SimplifyJob
 
 MOST_ATTEMPTS = 12
 _FIRST_GUESS = 500
@@ -27,7 +27,7 @@ _AFTER_FAILURE = 2.0
 
 
 def fewest_facets(
-    job: Job,
+    job: SimplifyJob,
     error: Callable[[Attempt], float],
     limit: float,
     progress: Callable[[float], None],
@@ -41,7 +41,7 @@ def fewest_facets(
 
     Parameters
     ----------
-    job : Job
+    job : SimplifyJob
         Makes the simplified probes.
     error : callable
         The error of an attempt.
@@ -126,7 +126,7 @@ def _next(low: int, high: int, met: list[tuple[float, float]]) -> int:
     return min(max(round(math.exp(min(max(guess, bottom + margin), top - margin))), low + 1), high - 1)
 
 
-def _check_original(job: Job, error: Callable[[Attempt], float], limit: float) -> None:
+def _check_original(job: SimplifyJob, error: Callable[[Attempt], float], limit: float) -> None:
     value = error(job.unchanged())
     if not value <= limit:
         raise MeshError(

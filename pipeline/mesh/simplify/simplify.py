@@ -12,7 +12,7 @@ import numpy as np
 
 from contactbench.pipeline.mesh.deviation import Deviation, Reference
 from contactbench.pipeline.mesh.probe import Probe
-from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, Job, check_ratio
+from contactbench.pipeline.mesh.simplify.job import ENGINE, UNCHANGED, Attempt, SimplifyJob, check_ratio
 from contactbench.pipeline.mesh.simplify.search import MOST_ATTEMPTS, fewest_facets
 from contactbench.pipeline.mesh.simplify.target import Count, Engine, MaxDeviation, MaxError, Target
 
@@ -129,13 +129,15 @@ def simplify(
     density = _COARSE if isinstance(target, Count) else _THOROUGH
     # The search tree is built without the interpreter while the edges are collapsed.
     with ThreadPoolExecutor(1) as pool:
-        job = Job(probe, pool.submit(Reference, probe, **density), region_ratio, tell.within, cancelled)
+        job = SimplifyJob(
+            probe, pool.submit(Reference, probe, **density), region_ratio, tell.within, cancelled
+        )
         attempt, short = _reach(job, target, tell)
     tell(1.0)
     return _summed_up(job, attempt, short, _warnings(probe, engine, region_ratio))
 
 
-def _reach(job: Job, target: Target, tell: _Told) -> tuple[Attempt, str]:
+def _reach(job: SimplifyJob, target: Target, tell: _Told) -> tuple[Attempt, str]:
     have = len(job.probe.faces)
     if isinstance(target, Count):
         if target.facets >= have:
@@ -177,7 +179,7 @@ def _warnings(probe: Probe, engine: Engine, region_ratio: float) -> tuple[str, .
     return tuple(told)
 
 
-def _summed_up(job: Job, attempt: Attempt, short: str, warnings: tuple[str, ...]) -> Simplified:
+def _summed_up(job: SimplifyJob, attempt: Attempt, short: str, warnings: tuple[str, ...]) -> Simplified:
     before, after = job.probe.region, attempt.probe.region
     regions: dict[int, Deviation] = {}
     if before.any():

@@ -17,9 +17,9 @@ import pytest
 
 from contactbench.pipeline.mesh import engines
 from contactbench.pipeline.mesh.engines import child as child_module
-from contactbench.pipeline.mesh.engines.child import _CHILDREN, Child, Watch
+from contactbench.pipeline.mesh.engines.child import _CHILDREN, CallWatch, Child
 from contactbench.pipeline.mesh.engines.libraries import Library, Operation
-from contactbench.pipeline.mesh.engines.wire import Message
+from contactbench.pipeline.mesh.engines.wire import WireMessage
 
 Ball = tuple[np.ndarray, np.ndarray]
 
@@ -215,7 +215,7 @@ def test_a_missing_library_is_told_with_the_command_that_installs_it(monkeypatch
         """,
     )
     with pytest.raises(engines.EngineError, match=r"pip install 'contactbench\[meshlab\]'"):
-        child.call(Message("alpha wrap"), Watch())
+        child.call(WireMessage("alpha wrap"), CallWatch())
 
 
 def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -236,7 +236,8 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
     arrays = {"vertices": np.eye(3), "faces": np.array([[0, 1, 2]], dtype=np.int32)}
     try:
         assert (
-            child.call(Message("alpha wrap", {"alpha": 0.5, "offset": 0.1}, arrays), Watch()).kind == "done"
+            child.call(WireMessage("alpha wrap", {"alpha": 0.5, "offset": 0.1}, arrays), CallWatch()).kind
+            == "done"
         )
     finally:
         child.stop()
@@ -246,7 +247,7 @@ def test_what_a_library_prints_does_not_reach_the_pipe(monkeypatch: pytest.Monke
 def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch, code: str) -> None:
     child = _with_command(monkeypatch, code)
     with pytest.raises(engines.EngineError, match=r"meshlab (died|gave)") as raised:
-        child.call(Message("alpha wrap"), Watch())
+        child.call(WireMessage("alpha wrap"), CallWatch())
     assert child.pid is None
     assert ("Its last words: no licence" in str(raised.value)) == ("licence" in code)
 
@@ -254,7 +255,7 @@ def test_a_child_that_makes_no_sense_is_an_error(monkeypatch: pytest.MonkeyPatch
 def test_python_that_cannot_be_started_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(child_module, "_command", lambda _library: ["/nowhere/python"])
     with pytest.raises(engines.EngineError, match="cannot be started"):
-        Child(Library.MESHLAB).call(Message("alpha wrap"), Watch())
+        Child(Library.MESHLAB).call(WireMessage("alpha wrap"), CallWatch())
 
 
 _PARENT = """

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from contactbench.pipeline.mesh.engines.errors import WireError
-from contactbench.pipeline.mesh.engines.wire import Message, read_message, write_message
+from contactbench.pipeline.mesh.engines.wire import WireMessage, read_message, write_message
 
 _ARRAYS = st.sampled_from([np.float64, np.int32, np.bool_]).flatmap(
     lambda dtype: hnp.arrays(dtype, hnp.array_shapes(min_dims=1, max_dims=2, min_side=0, max_side=5))
@@ -20,7 +20,7 @@ _ARRAYS = st.sampled_from([np.float64, np.int32, np.bool_]).flatmap(
 _FIELDS = st.dictionaries(st.text(max_size=5), st.integers(-1000, 1000) | st.booleans() | st.text(max_size=5))
 
 
-def _bytes(message: Message) -> bytes:
+def _bytes(message: WireMessage) -> bytes:
     stream = io.BytesIO()
     write_message(stream, message)
     return stream.getvalue()
@@ -36,7 +36,7 @@ def _message(header: object, content: bytes = b"") -> bytes:
 def test_a_message_arrives_as_it_was_sent(
     kind: str, fields: dict[str, object], arrays: dict[str, np.ndarray]
 ) -> None:
-    stream = io.BytesIO(_bytes(Message(kind, fields, arrays)) * 2)
+    stream = io.BytesIO(_bytes(WireMessage(kind, fields, arrays)) * 2)
     for _ in range(2):
         message = read_message(stream)
         assert message is not None
@@ -50,21 +50,21 @@ def test_a_message_arrives_as_it_was_sent(
 
 @given(st.integers(1, 200))
 def test_a_message_cut_short_is_refused(length: int) -> None:
-    whole = _bytes(Message("done", {"a": 1}, {"x": np.arange(12.0)}))
+    whole = _bytes(WireMessage("done", {"a": 1}, {"x": np.arange(12.0)}))
     with pytest.raises(WireError):
         read_message(io.BytesIO(whole[: min(length, len(whole) - 1)]))
 
 
 @given(st.lists(st.tuples(st.integers(0, 120), st.integers(0, 255)), min_size=1, max_size=4))
 def test_damaged_bytes_give_a_message_or_are_refused(damage: list[tuple[int, int]]) -> None:
-    data = bytearray(_bytes(Message("done", {"a": 1}, {"x": np.ones((2, 3)), "y": np.ones(3, bool)})))
+    data = bytearray(_bytes(WireMessage("done", {"a": 1}, {"x": np.ones((2, 3)), "y": np.ones(3, bool)})))
     for place, value in damage:
         data[place % len(data)] = value
     try:
         message = read_message(io.BytesIO(bytes(data)), most_bytes=1 << 16)
     except WireError:
         return
-    assert isinstance(message, Message)
+    assert isinstance(message, WireMessage)
 
 
 @pytest.mark.parametrize(
@@ -114,11 +114,11 @@ def test_a_byte_that_is_no_truth_value_becomes_one() -> None:
 
 def test_other_dtypes_are_not_sent() -> None:
     with pytest.raises(WireError, match="'x' is int64"):
-        _bytes(Message("a", arrays={"x": np.arange(3)}))
+        _bytes(WireMessage("a", arrays={"x": np.arange(3)}))
 
 
 def test_an_array_in_any_order_is_sent_as_its_rows() -> None:
     array = np.arange(12.0).reshape(3, 4).T[::2]
-    message = read_message(io.BytesIO(_bytes(Message("a", arrays={"x": array}))))
+    message = read_message(io.BytesIO(_bytes(WireMessage("a", arrays={"x": array}))))
     assert message is not None
     np.testing.assert_array_equal(message.arrays["x"], array)

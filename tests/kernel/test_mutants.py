@@ -57,7 +57,7 @@ def test_every_line_of_the_table_is_in_its_header_once() -> None:
     [
         ("answer.hpp", "int nowhere = 0;", "answer.hpp has 0 lines that read"),
         ("answer.hpp", "}", "lines that read"),
-        ("choice.hpp", "}", "there is no header choice.hpp"),
+        ("choice.hpp", "}", "there is no file choice.hpp"),
     ],
 )
 def test_a_line_that_is_not_there_once_is_refused(tmp_path: Path, file: str, old: str, says: str) -> None:

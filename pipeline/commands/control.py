@@ -136,7 +136,7 @@ def tune(
     if as_json():
         print_json(result.to_json())
     else:
-        show_tables(*(sheet.table() for sheet in result.sheets), result.report.table())
+        show_tables(*(sheet.table() for sheet in result.report.sheets), result.report.table())
     say(f"Written to {out}: gains.json is for `bundle export --settings`.")
     if not result.report.passed:
         raise typer.Exit(_NOT_GOOD_ENOUGH)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from importlib import import_module
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,15 +24,14 @@ from contactbench.pipeline.control.tuning import (
     spread_of,
     tune,
 )
-from contactbench.pipeline.durable import make_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
-from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import Sheet, write_bytes, write_text
+from contactbench.pipeline.study.pages import png
+from contactbench.pipeline.study.report import Figure, Report, Sheet
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from pathlib import Path
 
 _TRIAL_S, _SETTLED_S = 6.0, 1.5
@@ -41,142 +39,20 @@ _TRIALS = 3  # softest, usual, stiffest
 _MOST_SHARE, _MOST_N, _MOST_DEG = 130.0, 0.25, 3.0
 
 
-@dataclass(frozen=True)
-class Trial:
-    """
-    A press on tissue that rests, with the chosen gains.
-
-    Attributes
-    ----------
-    stiffness : float
-        N/m.
-    peak : float
-        Largest force, of the wanted one, %.
-    force, angle : float
-        Standard deviations in the last 1.5 s, N and degrees: what swings has a large one.
-    tracked : bool
-        Whether it tracked at the end.
-    """
-
-    stiffness: float
-    peak: float
-    force: float
-    angle: float
-    tracked: bool
-
-
 @dataclass(frozen=True, eq=False)
 class TuningResult:
-    """
-    Gains, their margins, and the trials.
+    """Gains, and the report of how they did: what is judged are presses on tissue that rests."""
 
-    Attributes
-    ----------
-    settings : dict
-        What they were chosen for.
-    tuned : Tuned
-    rows : tuple of Row
-    trials : tuple of Trial
-    """
-
-    settings: dict[str, Any]
     tuned: Tuned
-    rows: tuple[Row, ...]
-    trials: tuple[Trial, ...]
-
-    @property
-    def sheets(self) -> tuple[Sheet, ...]:
-        """Gains, and margins."""
-        return (self._gains(), self._margins())
-
-    @property
-    def report(self) -> Report:
-        """What is judged: the trials."""
-        figures = []
-        for trial in self.trials:
-            subject = f"{trial.stiffness:,.0f} N/m"
-            figures += [
-                Figure(subject, "tracked at the end", float(trial.tracked), "", 1),
-                Figure(subject, "largest force, of the wanted", trial.peak, "%", most=_MOST_SHARE),
-                Figure(subject, "SD of the force at rest", trial.force, "N", most=_MOST_N),
-                Figure(subject, "SD of the angle at rest", trial.angle, "deg", most=_MOST_DEG),
-            ]
-        wanted = self.tuned.wanted
-        note = (
-            f"Wanted on all stiffnesses: gain margin {wanted.gain:g}, phase margin {np.degrees(wanted.phase):.0f}"
-            f" degrees; no gain above {wanted.fastest:g}/s. The figures are of simulation, on tissue that rests."
-        )
-        return Report("control tune", self.settings, tuple(figures), (note,))
+    report: Report
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
-        tables = {sheet.name: sheet.to_json() for sheet in self.sheets}
-        return {**self.report.to_json(), **tables, "config": settings_content(self.tuned.settings)}
+        return {**self.report.to_json(), "config": settings_content(self.tuned.settings)}
 
     def write(self, out: Path) -> None:
-        """
-        Write gains.json, tuning.md, margins.png and a CSV file per table in a folder.
-
-        Raises
-        ------
-        InputError
-            It cannot be written.
-        """
-        make_folder(out)
-        write_text(out / "gains.json", json.dumps(settings_content(self.tuned.settings), indent=2) + "\n")
-        for sheet in self.sheets:
-            write_text(out / f"{sheet.name}.csv", sheet.csv())
-        parts = [self.report.markdown(), *(sheet.markdown() for sheet in self.sheets)]
-        head = ["# Gains", "", "![margins](margins.png)", ""]
-        write_text(out / "tuning.md", "\n".join([*head, *parts]))
-        write_bytes(out / "margins.png", _draw(self.rows, self.tuned.wanted))
-
-    def _gains(self) -> Sheet:
-        s = self.tuned.settings
-        x, y = s.angle_gains
-        rows = (
-            (
-                "force",
-                s.force_gain,
-                s.force_mass,
-                s.force_damping,
-                s.bandwidth[0],
-                self.tuned.reached["force"],
-            ),
-            (
-                "about x",
-                x,
-                s.angle_inertia[0],
-                s.angle_damping[0],
-                s.bandwidth[1],
-                self.tuned.reached["about x"],
-            ),
-            (
-                "about y",
-                y,
-                s.angle_inertia[1],
-                s.angle_damping[1],
-                s.bandwidth[2],
-                self.tuned.reached["about y"],
-            ),
-        )
-        columns = ("loop", "gain 1/s", "mass or inertia", "damping", "lead 1/s", "stopped by")
-        return Sheet("gains", "Gains (SI units)", columns, rows)
-
-    def _margins(self) -> Sheet:
-        rows = tuple(
-            (
-                row.axis,
-                row.stiffness,
-                "yes" if row.margins.stable else "NO",
-                row.margins.gain,
-                float(np.degrees(row.margins.phase)),
-                row.margins.crossover,
-            )
-            for row in self.rows
-        )
-        columns = ("loop", "stiffness N/m", "stable", "gain margin", "phase margin deg", "crossover rad/s")
-        return Sheet("margins", "Margins against stiffness", columns, rows)
+        """Write gains.json, tuning.md, margins.png and a CSV file per table in a folder; InputError."""
+        self.report.write(out, "tuning.md")
 
 
 def run(
@@ -229,7 +105,7 @@ def run(
             )
         modulus = foundation.modulus_of(force, stiffness)
     tuned = tune(foundation, modulus, variant=variant, wanted=wanted, desired_force=force)
-    trials = []
+    figures: list[Figure] = []
     for number, each in enumerate(spread_of(modulus, tuned.wanted.spread, _TRIALS)):
         rig = make_rig(
             world,
@@ -241,22 +117,68 @@ def run(
         )
         trace = run_loop(rig.scene, rig.controller, rig.sensor, _TRIAL_S)
         last = trace.between(trace.time[-1] - _SETTLED_S)
-        trials.append(
-            Trial(
-                foundation.at(force, each).stiffness,
+        swing = float(np.degrees(last.angles.std(axis=0).max()))
+        subject = f"{foundation.at(force, each).stiffness:,.0f} N/m"
+        figures += [
+            Figure(subject, "tracked at the end", float(trace.ended is State.TRACK), "", 1),
+            Figure(
+                subject,
+                "largest force, of the wanted",
                 float(100 * trace.peak.max() / force),
-                float(last.force.std()),
-                float(np.degrees(last.angles.std(axis=0).max())),
-                tracked=trace.ended is State.TRACK,
-            )
-        )
+                "%",
+                most=_MOST_SHARE,
+            ),
+            Figure(subject, "SD of the force at rest", float(last.force.std()), "N", most=_MOST_N),
+            Figure(subject, "SD of the angle at rest", swing, "deg", most=_MOST_DEG),
+        ]
         progress(number + 1, _TRIALS)
     told = {"probe": probe, "variant": str(variant), "force": f"{force:g} N", "scene": world, "seed": seed}
     told["stiffness"] = f"{foundation.at(force, modulus).stiffness:,.0f} N/m"
-    return TuningResult(told, tuned, tuple(rows_of(tuned, foundation)), tuple(trials))
+    rows = rows_of(tuned, foundation)
+    note = (
+        f"Wanted on all stiffnesses: gain margin {tuned.wanted.gain:g}, phase margin"
+        f" {np.degrees(tuned.wanted.phase):.0f} degrees; no gain above {tuned.wanted.fastest:g}/s. The figures are of"
+        " simulation, on tissue that rests."
+    )
+    files = {
+        "gains.json": f"{json.dumps(settings_content(tuned.settings), indent=2)}\n".encode(),
+        "margins.png": _draw(rows, tuned.wanted),
+    }
+    sheets = (_gains(tuned), _margins(rows))
+    return TuningResult(tuned, Report("control tune", told, tuple(figures), (note,), sheets, files))
 
 
-def _draw(rows: tuple[Row, ...], wanted: Wanted) -> bytes:
+def _gains(tuned: Tuned) -> Sheet:
+    s = tuned.settings
+    loops = (
+        ("force", s.force_gain, s.force_mass, s.force_damping, s.bandwidth[0]),
+        *(
+            (axis, s.angle_gains[i], s.angle_inertia[i], s.angle_damping[i], s.bandwidth[1 + i])
+            for i, axis in enumerate(AXES[1:])
+        ),
+    )
+    columns = ("loop", "gain 1/s", "mass or inertia", "damping", "lead 1/s", "stopped by")
+    rows = tuple((*loop, tuned.reached[loop[0]]) for loop in loops)
+    return Sheet("gains", "Gains (SI units)", columns, rows)
+
+
+def _margins(rows: Sequence[Row]) -> Sheet:
+    columns = ("loop", "stiffness N/m", "stable", "gain margin", "phase margin deg", "crossover rad/s")
+    cells = tuple(
+        (
+            row.axis,
+            row.stiffness,
+            "yes" if row.margins.stable else "NO",
+            row.margins.gain,
+            float(np.degrees(row.margins.phase)),
+            row.margins.crossover,
+        )
+        for row in rows
+    )
+    return Sheet("margins", "Margins against stiffness", columns, cells)
+
+
+def _draw(rows: Sequence[Row], wanted: Wanted) -> bytes:
     """Draw both margins of all loops against stiffness, as a PNG image."""
     figure = import_module("matplotlib.figure").Figure(figsize=(12, 5), dpi=100, layout="constrained")
     left, right = figure.subplots(1, 2)
@@ -272,6 +194,4 @@ def _draw(rows: tuple[Row, ...], wanted: Wanted) -> bytes:
     for panel in (left, right):
         panel.legend(fontsize=8)
         panel.grid(alpha=0.3)
-    data = BytesIO()
-    figure.savefig(data, format="png", metadata={"Software": None})
-    return data.getvalue()
+    return png(figure)

@@ -32,9 +32,7 @@ from contactbench.pipeline.study.hard_trials import (
     exact,
     judged,
     like,
-    markdown,
     refused,
-    table,
     within,
 )
 
@@ -43,7 +41,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.study.hard_meshes import Float, Place, Solutions
 
-__all__ = ["Case", "HardCasesReport", "Outcome", "Rule", "Trial", "markdown", "run", "table"]
+__all__ = ["Case", "HardCasesReport", "Outcome", "Rule", "Trial", "run"]
 
 Rng = np.random.Generator
 

@@ -310,40 +310,38 @@ class HardCasesReport:
         """Return plain data for ``--json``."""
         return {"passed": self.passed, **asdict(self)}
 
+    def tables(self) -> list[Table]:
+        """Build a table for the terminal: one row a case, Algorithm 1's figures after the stroke."""
+        from rich.table import Table
 
-def table(report: HardCasesReport) -> Table:
-    """Build a table for the terminal: one row a case, Algorithm 1's figures after the stroke."""
-    from rich.table import Table
+        built = Table(title=f"Hard cases, contactbench | algorithm1, seed {self.seed}")
+        for title in _COLUMNS:
+            built.add_column(title, justify="left" if title in ("case", "verdict") else "right")
+        for case in self.cases:
+            style = "" if case.passed else "red"
+            built.add_row(case.name, f"{case.tries:,}", *_figures(case, " | "), _verdict(case), style=style)
+        return [built]
 
-    built = Table(title=f"Hard cases, contactbench | algorithm1, seed {report.seed}")
-    for title in ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict"):
-        built.add_column(title, justify="left" if title in ("case", "verdict") else "right")
-    for case in report.cases:
-        style = "" if case.passed else "red"
-        built.add_row(case.name, f"{case.tries:,}", *_figures(case), _verdict(case), style=style)
-    return built
-
-
-def markdown(report: HardCasesReport) -> str:
-    """Write the report as Markdown: the table, then each case in words."""
-    lines = [
-        "| case | tries | answered | largest error, mm | wrong, not flagged | verdict |",
-        "|---|---:|---:|---:|---:|---|",
-    ]
-    for case in report.cases:
-        figures = " | ".join(f.replace(" | ", " / ") for f in _figures(case))
-        lines.append(f"| {case.name} | {case.tries} | {figures} | {_verdict(case)} |")
-    lines += ["", "Figures are contactbench / algorithm1.", ""]
-    lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in report.cases]
-    return "\n".join(lines) + "\n"
+    def markdown(self) -> str:
+        """Write it as Markdown: the table, then each case in words."""
+        lines = ["| " + " | ".join(_COLUMNS) + " |", "|---|---:|---:|---:|---:|---|"]
+        for case in self.cases:
+            figures = " | ".join(_figures(case, " / "))
+            lines.append(f"| {case.name} | {case.tries} | {figures} | {_verdict(case)} |")
+        lines += ["", "Figures are contactbench / algorithm1.", ""]
+        lines += [f"- **{case.name}**: {case.what}. Passes when: {case.expectation}." for case in self.cases]
+        return "\n".join(lines) + "\n"
 
 
-def _figures(case: Case) -> tuple[str, str, str]:
+_COLUMNS = ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict")
+
+
+def _figures(case: Case, stroke: str) -> tuple[str, str, str]:
     both = (case.contactbench, case.algorithm1)
     return (
-        " | ".join(f"{100 * o.answered:.4g} %" for o in both),
-        " | ".join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
-        " | ".join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
+        stroke.join(f"{100 * o.answered:.4g} %" for o in both),
+        stroke.join("-" if o.max_mm is None else f"{o.max_mm:.2g}" for o in both),
+        stroke.join(f"{100 * o.wrong_unflagged:.3g} %" for o in both),
     )
 
 

@@ -1,4 +1,4 @@
-"""Figures with their targets: what each study of probe preparation gives, as a table and as plain data."""
+"""What studies and benchmarks report: figures with their targets, and tables."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from contactbench.pipeline.durable import make_folder
-from contactbench.pipeline.study.sheets import write_bytes, write_text
+from contactbench.pipeline.durable import make_folder, write_file
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,9 +15,72 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from rich.table import Table
 
-    from contactbench.pipeline.study.sheets import Sheet
 
 _HEADINGS = ("of", "figure", "target", "measured", "spread", "worst")
+
+
+Cell = str | int | float | None
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """
+    One table.
+
+    Attributes
+    ----------
+    name : str
+        Of its file, without ending.
+    title : str
+    columns : tuple of str
+        With units.
+    rows : tuple of tuple
+        A NaN is no value.
+    shown : bool
+        For people too; a long table, or one that every run changes, is only for its file and JSON.
+    """
+
+    name: str
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    shown: bool = True
+
+    def csv(self) -> str:
+        """Write it with all digits."""
+        return "\n".join([",".join(self.columns), *(",".join(map(_whole, row)) for row in self.rows)]) + "\n"
+
+    def markdown(self) -> str:
+        """Write it with three digits, under a heading."""
+        lines = [f"## {self.title}", "", _line(self.columns), "|---" * len(self.columns) + "|"]
+        return "\n".join([*lines, *(_line([short(cell) for cell in row]) for row in self.rows)]) + "\n"
+
+    def table(self) -> Table:
+        """Build it for the terminal."""
+        from rich.table import Table
+        from rich.text import Text
+
+        table = Table(title=self.title)
+        for column in self.columns:
+            table.add_column(column)
+        for row in self.rows:
+            table.add_row(*(Text(short(cell)) for cell in row))
+        return table
+
+    def to_json(self) -> list[dict[str, Any]]:
+        """Return a row as one object by column."""
+        return [dict(zip(self.columns, map(_plain, row), strict=True)) for row in self.rows]
+
+
+def short(cell: Cell) -> str:
+    """Write one cell with three digits; a dash for no value."""
+    if cell is None or (isinstance(cell, float) and not np.isfinite(cell)):
+        return "-"
+    if isinstance(cell, float):
+        if abs(cell) < 5e-4:
+            return "0"
+        return f"{cell:,.0f}" if abs(cell) >= 100 else f"{cell:.2f}" if abs(cell) >= 0.1 else f"{cell:.3f}"
+    return str(cell)
 
 
 @dataclass(frozen=True)
@@ -170,9 +232,9 @@ class Report:
             **{sheet.name: sheet.to_json() for sheet in self.sheets},
         }
 
-    def write(self, out: Path) -> None:
+    def write(self, out: Path, page: str = "report.md") -> None:
         """
-        Write the report as a Markdown file, or, with tables, a folder: report.md, a CSV file a table, and all files.
+        Write the report as a Markdown file, or, with tables, a folder: `page`, a CSV file a table, and all files.
 
         Raises
         ------
@@ -180,15 +242,15 @@ class Report:
             It cannot be written.
         """
         if not self.sheets:
-            write_text(out, self.markdown())
+            write_file(out, self.markdown().encode())
             return
         make_folder(out)
-        write_text(out / "report.md", self.markdown())
+        write_file(out / page, self.markdown().encode())
         for sheet in self.sheets:
-            write_text(out / f"{sheet.name}.csv", sheet.csv())
+            write_file(out / f"{sheet.name}.csv", sheet.csv().encode())
         for name, data in self.files.items():
             make_folder((out / name).parent)
-            write_bytes(out / name, data)
+            write_file(out / name, data)
 
     def table(self) -> Table:
         """Build the table for the terminal; what misses its target is red."""
@@ -239,3 +301,13 @@ def _plain(value: Any) -> Any:
     if isinstance(value, float):
         return value if np.isfinite(value) else None
     return value
+
+
+def _line(cells: tuple[str, ...] | list[str]) -> str:
+    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |"
+
+
+def _whole(cell: Cell) -> str:
+    value = _plain(cell)
+    text = "" if value is None else repr(value) if isinstance(value, float) else str(value)
+    return f'"{text}"' if "," in text else text

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.durable import write_durably
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 
 if TYPE_CHECKING:
@@ -121,10 +121,7 @@ def write_results(
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd")
     file = folder / RESULTS
-    try:
-        write_durably(file, sink.getvalue().to_pybytes())
-    except OSError as error:
-        raise InputError(f"{file}: cannot be written ({error}): choose another folder.") from error
+    write_file(file, sink.getvalue().to_pybytes())
     return file
 
 

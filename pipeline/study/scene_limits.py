@@ -115,7 +115,7 @@ class Inertia:
 
 
 @dataclass(frozen=True)
-class Report:
+class SceneReport:
     """All that was measured, for one probe and period (s)."""
 
     probe: str
@@ -127,6 +127,31 @@ class Report:
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
         return asdict(self)
+
+    def sheets(self) -> dict[str, tuple[tuple[str, ...], list[list[str]]]]:
+        """Return each table by its title: names of its columns, and its rows."""
+        effects = [
+            [e.motion, e.change]
+            + [f"{v:.3f}" for v in (e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)]
+            + [f"{v:.2f}" for v in (e.lean, e.most_lean)]
+            + [f"{e.lag_ms:.1f}"]
+            for e in self.effects
+        ]
+        inertia = [[i.motion, i.scene, f"{i.force:.3f}", f"{i.place:.2f}"] for i in self.inertia]
+        times = [[scene, f"{factor:.1f}"] for scene, factor in self.real_time.items()]
+        return {
+            "What a change of the scene changes": (_EFFECTS, effects),
+            "What the sensor reads beside contact and weight": (_INERTIA, inertia),
+            "How fast, with a sample every 5 ms": (_TIMES, times),
+        }
+
+    def markdown(self) -> str:
+        """Return the tables as Markdown."""
+        parts = [f"# What the scenes with a moving phantom leave out: {self.probe}, {self.period:g} s", _HOW]
+        for title, (columns, rows) in self.sheets().items():
+            lines = [columns, ["---"] * len(columns), *rows]
+            parts += [f"## {title}", "\n".join("| " + " | ".join(line) + " |" for line in lines)]
+        return "\n\n".join(parts) + "\n"
 
 
 @dataclass(frozen=True)
@@ -177,7 +202,7 @@ def run(
     motions: Sequence[str] = tuple(MOTIONS),
     only: Sequence[str] | None = None,
     progress: Callable[[str], None] = lambda _: None,
-) -> Report:
+) -> SceneReport:
     """
     Ride every changed scene, and compare.
 
@@ -213,7 +238,7 @@ def run(
             if change in (AS_IT_IS, ARM):
                 most = rides[change].inertia.max(axis=0)
                 inertia.append(Inertia(motion, change, float(most[0]), float(most[1])))
-    return Report(probe, period, effects, inertia, factors)
+    return SceneReport(probe, period, effects, inertia, factors)
 
 
 def ride(
@@ -321,33 +346,3 @@ _HOW = (
     f"Set-points from the truth follow {_SHARE:.0%} of the phantom's motion, {FORCE_N:g} N. Differences are against the"
     " platform as it is; those of the arm's own settings against the arm as it is."
 )
-
-
-def sheets(report: Report) -> dict[str, tuple[tuple[str, ...], list[list[str]]]]:
-    """Return each table by its title: names of its columns, and its rows."""
-    effects = [
-        [e.motion, e.change]
-        + [f"{v:.3f}" for v in (e.force, e.most_force, e.angle, e.most_angle, e.place, e.most_place)]
-        + [f"{v:.2f}" for v in (e.lean, e.most_lean)]
-        + [f"{e.lag_ms:.1f}"]
-        for e in report.effects
-    ]
-    inertia = [[i.motion, i.scene, f"{i.force:.3f}", f"{i.place:.2f}"] for i in report.inertia]
-    times = [[scene, f"{factor:.1f}"] for scene, factor in report.real_time.items()]
-    return {
-        "What a change of the scene changes": (_EFFECTS, effects),
-        "What the sensor reads beside contact and weight": (_INERTIA, inertia),
-        "How fast, with a sample every 5 ms": (_TIMES, times),
-    }
-
-
-def markdown(report: Report) -> str:
-    """Return the tables as Markdown."""
-    parts = [
-        f"# What the scenes with a moving phantom leave out: {report.probe}, {report.period:g} s",
-        _HOW,
-    ]
-    for title, (columns, rows) in sheets(report).items():
-        lines = [columns, ["---"] * len(columns), *rows]
-        parts += [f"## {title}", "\n".join("| " + " | ".join(line) + " |" for line in lines)]
-    return "\n\n".join(parts) + "\n"

@@ -15,6 +15,7 @@ from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.study.pages import table
 from contactbench.pipeline.study.sweep.judging import bound_of
 from contactbench.pipeline.timing import Timing, time_calls
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
+    from rich.table import Table
 
     from contactbench.pipeline.contact.methods import Method
     from contactbench.pipeline.simulation import Touches
@@ -83,6 +85,12 @@ class Target:
         """Whether the measured figure is within the limit."""
         return self.measured >= self.limit if self.at_least else self.measured <= self.limit
 
+    @property
+    def cells(self) -> list[str]:
+        """It as a row of a table."""
+        limit = f"{'at least' if self.at_least else 'at most'} {self.limit:g}"
+        return [self.name, f"{self.measured:.3g}", limit, "met" if self.met else "missed"]
+
 
 @dataclass(frozen=True)
 class SpeedReport:
@@ -102,6 +110,38 @@ class SpeedReport:
         for entry, target in zip(data["targets"], self.targets, strict=True):
             entry["met"] = target.met
         return data
+
+    @property
+    def passed(self) -> bool:
+        """Whether tracking and cold solves never differed."""
+        return not self.stream_differences
+
+    def tables(self) -> list[Table]:
+        """Return the measurements, the targets and the stream comparison for a terminal."""
+        title = f"{self.probe}, {self.touches:,} touches, seed {self.seed}"
+        measured = _table(title, _COLUMNS, [_cells(row) for row in self.rows])
+        targets = _table("Ratios, all from this run", _TARGETS, [target.cells for target in self.targets])
+        targets.caption = self._stream
+        return [measured, targets]
+
+    def markdown(self) -> str:
+        """Return the same as Markdown."""
+        parts = [
+            f"# Speed against error: {self.probe}",
+            f"{self.touches:,} touches, seed {self.seed}. {self._stream}",
+            table(_COLUMNS, [_cells(row) for row in self.rows]),
+            table(_TARGETS, [target.cells for target in self.targets]),
+        ]
+        return "\n\n".join(parts) + "\n"
+
+    @property
+    def _stream(self) -> str:
+        if not self.stream_samples:
+            return "Tracking was not compared with cold solves."
+        return (
+            f"Tracking differed from cold solves on {self.stream_differences} samples"
+            f" of a {self.stream_samples:,}-sample stream, over all resolutions."
+        )
 
 
 def run(
@@ -344,3 +384,54 @@ def _targets(rows: Sequence[Row], facets: Sequence[int]) -> list[Target]:
 def _indexed(rows: Sequence[Row], facets: Sequence[int]) -> list[tuple[Row, int]]:
     """Pair each row with the requested facet count its mesh came nearest to."""
     return [(r, min(facets, key=lambda count: abs(count - r.facets))) for r in rows]
+
+
+# ---- as text ---------------------------------------------------------------------------------------
+
+_COLUMNS = (
+    "method",
+    "from",
+    "facets",
+    "median µs",
+    "p99 µs",
+    "mean mm",
+    "p95 mm",
+    "max mm",
+    "rms/bound, settled",
+    "settled %",
+    "answered %",
+)
+_TARGETS = ("figure", "measured", "target", "")
+
+
+def _cells(row: Row) -> list[str]:
+    def number(value: float | None, digits: str = ".2f") -> str:
+        return "" if value is None else format(value, digits)
+
+    def percent(value: float | None) -> str:
+        return number(None if value is None else 100 * value, ".1f")
+
+    return [
+        row.method,
+        row.language,
+        f"{row.facets:,}",
+        f"{row.timing.median / 1e3:.3g}",
+        f"{row.timing.p99 / 1e3:.3g}",
+        number(row.mean_mm),
+        number(row.p95_mm),
+        number(row.max_mm, ".1f"),
+        number(row.over_bound),
+        percent(row.settled),
+        percent(row.answered),
+    ]
+
+
+def _table(title: str, columns: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
+    from rich.table import Table
+
+    built = Table(title=title)
+    for i, column in enumerate(columns):
+        built.add_column(column, justify="left" if i == 0 else "right")
+    for row in rows:
+        built.add_row(*row)
+    return built

@@ -19,9 +19,8 @@ from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise, methods
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study import hard_meshes as hm
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, chapter, png
 from contactbench.pipeline.study.hard_trials import EXACT
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 from contactbench.pipeline.study.sweep.bodies import file_facets, mesh_of
 
 if TYPE_CHECKING:
@@ -135,7 +134,7 @@ class StabilityReport:
             "rows": [row.to_json() for row in self.rows],
         }
 
-    def table(self) -> Table:
+    def tables(self) -> list[Table]:
         """Build the figures for a terminal; what broke a bound is red."""
         from rich.table import Table
 
@@ -146,11 +145,7 @@ class StabilityReport:
             case, figure, *_, worst, _, bound, kept = _line(group)
             built.add_row(case, figure, worst, bound, kept, style="" if kept in ("", "kept") else "red")
         built.caption = "--out or --json gives every figure"
-        return built
-
-    def markdown(self) -> str:
-        """Write the tables as Markdown."""
-        return "\n\n".join(f"### {title}\n\n{text}" for title, text in tables(self.rows)) + "\n"
+        return [built]
 
 
 def run(

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import Sheet
+from contactbench.pipeline.study.report import Figure, Report, Sheet
 
 from . import shapes as catalogue
 from .contact_error import ContactError, distances, draw_touches, locate, visible_points
@@ -27,7 +26,7 @@ from .stranger import look, normal_deviations, read_prepared, sample
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from contactbench.pipeline.study.sheets import Cell
+    from contactbench.pipeline.study.report import Cell
 
     from .shapes import Shape
     from .stranger import Prepared

@@ -73,10 +73,10 @@ def test_same_seed_gives_the_same_report(report: HardCasesReport) -> None:
 
 def test_views_hold_every_case(report: HardCasesReport) -> None:
     console = Console(width=220, file=io.StringIO())
-    console.print(hard_cases.table(report))
+    console.print(*report.tables())
     shown = console.file.getvalue()  # type: ignore[attr-defined]
     assert all(case.name in shown for case in report.cases)
-    text = hard_cases.markdown(report)
+    text = report.markdown()
     rows = [line for line in text.splitlines() if line.startswith("|")]
     assert len(rows) == len(report.cases) + 2
     assert {row.count("|") for row in rows} == {7}

@@ -20,8 +20,7 @@ from contactbench.pipeline.study.ablation.verdicts import (
     crossings,
     unit_of,
 )
-from contactbench.pipeline.study.chapters import chapter
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import chapter, number, table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

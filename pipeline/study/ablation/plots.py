@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from contactbench.pipeline.study.ablation import locating, reading
 from contactbench.pipeline.study.ablation.effects import FILTERED
 from contactbench.pipeline.study.ablation.verdicts import ANSWERS, MATTERS, located_more, noise_name, share_of
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, png
+from contactbench.pipeline.study.pages import COLOURS, STYLE, png
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

@@ -6,9 +6,8 @@ from dataclasses import fields
 from typing import TYPE_CHECKING
 
 from contactbench.assets import PROBE_NAMES
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, chapter, png
 from contactbench.pipeline.study.confidence.study import PARTS, Row
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import COLOURS, STYLE, chapter, number, png, table
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -141,7 +141,7 @@ class ConfidenceReport:
             "rows": [asdict(row) | {"met": row.met} for row in self.rows],
         }
 
-    def table(self) -> Table:
+    def tables(self) -> list[Table]:
         """Build what missed its bound for a terminal."""
         from rich.table import Table
 
@@ -159,13 +159,7 @@ class ConfidenceReport:
             built.add_column(heading)
         for row in missed:
             built.add_row(row.probe, row.case, row.figure, figure(row), bound(row), style="red")
-        return built
-
-    def markdown(self) -> str:
-        """Write every figure as Markdown."""
-        from contactbench.pipeline.study.confidence.page import tables
-
-        return "\n\n".join(f"### {title}\n\n{text}" for title, text in tables(self.rows)) + "\n"
+        return [built]
 
 
 def run(

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from contactbench.pipeline.study.chapters import chapter
-from contactbench.pipeline.study.markdown import number, table
+from contactbench.pipeline.study.pages import chapter, number, table
 from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import OURS
 from contactbench.pipeline.study.rivals.verdicts import MARGIN, Duel, duels

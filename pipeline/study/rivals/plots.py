@@ -8,7 +8,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from contactbench.pipeline.study.chapters import COLOURS, STYLE, png
+from contactbench.pipeline.study.pages import COLOURS, STYLE, png
 from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import OURS
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.durable import write_durably
-from contactbench.pipeline.errors import InputError
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.study.sweep.pictures import astray, draw
 from contactbench.pipeline.study.sweep.plan import Plan
 from contactbench.pipeline.study.sweep.run import faults_of
@@ -65,7 +64,7 @@ def make(results: Results, folder: Path) -> str:
         parts += [f"### {title}", text, *([_SAID[title]] if title in _SAID else [])]
     for name, data in pictures.items():
         if data:
-            _write(folder / name, data)
+            write_file(folder / name, data)
             parts.append(f"![{name.removesuffix('.png')}]({name})\n\n{_SAID[name]}")
     noisy = [row for row in rows if is_noisy(row) and not row["failed"]]
     parts.append(
@@ -92,10 +91,3 @@ def _about(plan: Plan, cells: int) -> str:
         f" {of(plan.noises)}; filters {of(plan.filters)}. Truth of a bundled probe is its exact surface, of a"
         " file the mesh in it."
     )
-
-
-def _write(file: Path, data: bytes) -> None:
-    try:
-        write_durably(file, data)
-    except OSError as error:
-        raise InputError(f"{file}: cannot be written ({error}): choose another folder.") from error

@@ -19,7 +19,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.sweep.noise import FILTERS, NOISES
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 _MOST_CELLS = 1_000_000
 
@@ -135,21 +135,13 @@ class Plan(BaseModel):
     touches: Annotated[int, Field(ge=10, le=1_000_000)] = 1_000
     seed: Annotated[int, Field(ge=0, le=2**32)] = 0
 
-    @field_validator("methods", "noises", "filters")
+    @field_validator("methods", "noises", "filters", "most_facets")
     @classmethod
-    def _known(cls, values: tuple[str, ...], info: Any) -> tuple[str, ...]:
-        known = {"methods": METHODS, "noises": NOISES, "filters": FILTERS}[info.field_name]
+    def _known(cls, values: Any, info: Any) -> Any:
+        known = {"noises": NOISES, "filters": FILTERS}.get(info.field_name, METHODS)
         for value in values:
             if value not in known:
                 raise ValueError(f"{value!r} is none of {', '.join(known)}")
-        return values
-
-    @field_validator("most_facets")
-    @classmethod
-    def _methods(cls, values: dict[str, int]) -> dict[str, int]:
-        for name in values:
-            if name not in METHODS:
-                raise ValueError(f"{name!r} is none of {', '.join(METHODS)}")
         return values
 
     @field_validator("probes")
@@ -193,6 +185,15 @@ class Plan(BaseModel):
             if self._wanted(method, facets):
                 yield Cell(method, probe, facets, force, angle, torsion, noise, way, self.touches, self.seed)
 
+    def changed(
+        self, probes: Sequence[str] = (), touches: int | None = None, seed: int | None = None
+    ) -> Plan:
+        """Return it with other probes, touches or seed, where they are given; InputError."""
+        given = {"probes": tuple(probes) or None, "touches": touches, "seed": seed}
+        return Plan.of(
+            self.model_dump() | {name: value for name, value in given.items() if value is not None}
+        )
+
     @classmethod
     def read(cls, file: Path) -> Plan:
         """
@@ -228,3 +229,62 @@ _VARIED = ("probes", "facets", "forces", "angles", "torsions", "noises", "filter
 def _plain(stem: str) -> str:
     kept = "".join(c if c.isascii() and (c.isalnum() or c in "-_") else "-" for c in stem.lower())
     return kept if kept[:1].isalpha() else f"s-{kept}"
+
+
+# ---- plans that are there by name ------------------------------------------------------------------
+
+_ALL = ("contactbench", "algorithm1", "wrench_axis", "iterative")
+# What the paper varied: its three probes, 1 to 20 N, 0 and 30 degrees, its filter, its rivals.
+_PAPER = {
+    "name": "paper",
+    "methods": _ALL,
+    "facets": (500, 2_000),
+    "forces": (1.0, 2.0, 5.0, 9.0, 20.0),
+    "angles": (0.0, 30.0),
+    "filters": ("none", "kalman"),
+    "touches": 2_000,
+}
+_GROWING = {
+    "methods": _ALL,
+    "forces": (2.0, 9.0, 20.0),
+    "angles": (0.0, 30.0),
+    "noises": ("none", "paper"),
+    # The literal loop takes a millisecond for 20,000 facets: its law is known long before.
+    "most_facets": {"algorithm1": 5_000},
+}
+# How time and error grow with the mesh.
+_RESOLUTION = _GROWING | {
+    "name": "resolution",
+    "facets": (100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 300_000, 1_000_000),
+    "touches": 2_000,
+}
+# The same in a minute: fewer meshes, forces and touches.
+_QUICK = _GROWING | {
+    "name": "quick",
+    "facets": (100, 500, 2_000, 20_000, 300_000),
+    "forces": (9.0,),
+    "most_facets": {"algorithm1": 2_000},
+    "touches": 500,
+}
+# Error against force and angle: little and much force, steep, twisted, quiet and loud.
+_STEEP = {
+    "name": "steep",
+    "methods": ("contactbench", "algorithm1", "wrench_axis"),
+    "facets": (2_000, 20_000),
+    "forces": (1.0, 2.0, 5.0, 10.0, 20.0),
+    "angles": (0.0, 30.0, 45.0, 60.0, 70.0),
+    "torsions": (0.0003, 0.003),
+    "noises": ("none", "paper"),
+    "most_facets": {"algorithm1": 2_000},
+    "touches": 1_000,
+}
+PRESETS: dict[str, dict[str, Any]] = {
+    str(each["name"]): each for each in (_PAPER, _RESOLUTION, _QUICK, _STEEP)
+}
+
+
+def preset_plan(name: str) -> Plan:
+    """Return a plan by its name; InputError if there is none of that name."""
+    if name not in PRESETS:
+        raise InputError(f"--preset {name}: choose one of {', '.join(PRESETS)}.")
+    return Plan.of(PRESETS[name])

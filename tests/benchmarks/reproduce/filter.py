@@ -20,8 +20,7 @@ from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.study.marker_touches import model_of, truth_of
 from contactbench.pipeline.study.paper_setup import RATE_HZ, WARM_S, draw_bench
-from contactbench.pipeline.study.report import Figure, Report
-from contactbench.pipeline.study.sheets import Sheet
+from contactbench.pipeline.study.report import Figure, Report, Sheet
 
 if TYPE_CHECKING:
     from collections.abc import Callable

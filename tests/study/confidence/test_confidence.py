@@ -88,7 +88,9 @@ def test_one_touch_is_plausible_and_most_pairs_are_not():
 
 
 def test_the_page_is_made_from_the_file_alone(report, tmp_path):
-    page = publish(tmp_path, study.KIND, ["confidence"], [asdict(row) for row in report.rows])
+    page = publish(
+        tmp_path, study.KIND, "contactbench study confidence", [asdict(row) for row in report.rows]
+    )
     first = page.read_text(encoding="utf-8")
     assert make_page(tmp_path) == first
     assert (tmp_path / "reliability.png").stat().st_size > 1_000

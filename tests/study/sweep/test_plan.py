@@ -8,8 +8,7 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.save import save_probe
-from contactbench.pipeline.study.sweep.plan import Plan, label
-from contactbench.pipeline.study.sweep.presets import PRESETS, changed, preset
+from contactbench.pipeline.study.sweep.plan import PRESETS, Plan, label, preset_plan
 
 _GOOD = """
 methods = ["contactbench", "algorithm1"]
@@ -111,10 +110,10 @@ def test_a_file_is_known_by_what_is_in_it_not_by_where_it_lies(tmp_path):
 
 def test_presets_are_whole_and_can_be_changed():
     for name in PRESETS:
-        assert preset(name).name == name
-        assert len(preset(name)) == len(preset(name).cells())
-    plan = preset("quick", ("convex",), 50, 3)
+        assert preset_plan(name).name == name
+        assert len(preset_plan(name)) == len(preset_plan(name).cells())
+    plan = preset_plan("quick").changed(["convex"], 50, 3)
     assert (plan.probes, plan.touches, plan.seed) == (("convex",), 50, 3)
-    assert changed(plan) == plan
+    assert plan.changed() == plan
     with pytest.raises(InputError, match="choose one of paper, resolution, quick, steep"):
-        preset("slow")
+        preset_plan("slow")

@@ -32,7 +32,6 @@ def tilt_bound(
 
     Parameters
     ----------
-    settings : ControlSettings
     foundation : Foundation
         Of the probe.
     modulus : float

@@ -52,7 +52,6 @@ def mount_of(config: RuntimeConfig, p_ES_E: ArrayLike, quaternion_ES: ArrayLike 
 
     Parameters
     ----------
-    config : RuntimeConfig
     p_ES_E : (3,)
         m; a bundle does not know it.
     quaternion_ES : (4,), optional

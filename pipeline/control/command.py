@@ -22,20 +22,14 @@ class Mount:
     """
     How the sensor sits on the flange.
 
-    Attributes
-    ----------
-    R_ES : (3, 3)
-    p_ES_E : (3,)
-        m.
-
     Raises
     ------
     InputError
         It is no rotation, or a number is not finite.
     """
 
-    R_ES: NDArray[np.float64]
-    p_ES_E: NDArray[np.float64]
+    R_ES: NDArray[np.float64]  # (3, 3)
+    p_ES_E: NDArray[np.float64]  # (3,) m
 
     def __post_init__(self) -> None:
         R, p = np.array(self.R_ES, dtype=np.float64), np.array(self.p_ES_E, dtype=np.float64)
@@ -56,32 +50,14 @@ class Mount:
 
 @dataclass(frozen=True, eq=False)
 class Command:
-    """
-    What a step decided.
+    """What a step decided."""
 
-    Attributes
-    ----------
-    q : (n,)
-        Set-point of the joints at the end of the period.
-    state : State
-    change : Change or None
-        What changed in this step, and why.
-    twist : (6,)
-        Wanted velocity of the tip and angular velocity, in B, m/s and rad/s.
-    force : float
-        Pressing force, N; NaN without a fresh sample.
-    offset : (2,)
-        Contact minus wanted contact along S's x and y, m; NaN where it is not known.
-    sensed : Sensed
-    step : Step
-        What the arm makes of the twist.
-    """
-
-    q: NDArray[np.float64]
+    q: NDArray[np.float64]  # (n,) Set-point of the joints at the end of the period
     state: State
-    change: Change | None
-    twist: NDArray[np.float64]
-    force: float
+    change: Change | None  # what changed in this step, and why
+    twist: NDArray[np.float64]  # (6,) wanted velocity of the tip and angular velocity, in B, m/s and rad/s
+    force: float  # pressing force, N; NaN without a fresh sample
+    # (2,) contact minus wanted contact along S's x and y, m; NaN where it is not known
     offset: NDArray[np.float64]
     sensed: Sensed
-    step: Step
+    step: Step  # what the arm makes of the twist

@@ -54,13 +54,10 @@ class Controller:
 
     Parameters
     ----------
-    settings : ControlSettings
-    arm : Arm
     probe : Probe
         In S, its face towards +z.
     intake : Intake
         What is believed of the sensor.
-    mount : Mount
     q : (n,)
         Joints at the beginning.
 
@@ -128,8 +125,6 @@ class Controller:
 
         Parameters
         ----------
-        config : RuntimeConfig
-        arm : Arm
         q : (n,)
             Joints at the beginning.
         p_ES_E : (3,)

@@ -31,16 +31,6 @@ class ScriptedFault:
     """
     One fault.
 
-    Attributes
-    ----------
-    kind : FaultKind
-    start : float
-        s, of the scene.
-    seconds : float
-        How long it lasts; a spike of 0 s is one reading. Infinite: it does not end.
-    wrench : (6,)
-        What a spike or a jump adds, S, N and N·m.
-
     Raises
     ------
     InputError
@@ -48,9 +38,10 @@ class ScriptedFault:
     """
 
     kind: FaultKind
-    start: float
+    start: float  # s, of the scene
+    # how long it lasts; a spike of 0 s is one reading. Infinite: it does not end.
     seconds: float = 0.0
-    wrench: tuple[float, ...] = field(default=_ZERO)
+    wrench: tuple[float, ...] = field(default=_ZERO)  # (6,) what a spike or a jump adds, S, N and N·m
 
     def __post_init__(self) -> None:
         if not (0 <= self.start < math.inf and self.seconds >= 0):
@@ -66,13 +57,7 @@ class ScriptedFault:
 
 
 class FaultyLine:
-    """
-    A line from a sensor to a controller on which faults happen.
-
-    Parameters
-    ----------
-    faults : sequence of ScriptedFault
-    """
+    """A line from a sensor to a controller on which faults happen."""
 
     def __init__(self, faults: Sequence[ScriptedFault] = ()) -> None:
         self._faults = tuple(faults)

@@ -24,62 +24,34 @@ BEGIN, FRAME, END = "begin", "frame", "end"
 
 @dataclass(frozen=True)
 class Beginning:
-    """
-    What does not change.
-
-    Attributes
-    ----------
-    robot, variant : str
-    wanted_N, limit_N : float
-    period_s : float
-        Between frames.
-    rest_B_m : (3,)
-        Where the sensor is in B while the probe stands upright on the phantom at rest.
-    """
+    """What does not change."""
 
     robot: str
     variant: str
     wanted_N: float
     limit_N: float
-    period_s: float
-    rest_B_m: Three
+    period_s: float  # between frames
+    rest_B_m: Three  # (3,) where the sensor is in B while the probe stands upright on the phantom at rest
 
 
 @dataclass(frozen=True)
 class Frame:
-    """
-    A period, in the base's frame B, z up.
-
-    Attributes
-    ----------
-    time_s : float
-    state : str
-        A value of `State`.
-    reason : str or None
-        Why the state has changed in this period; None: it has not.
-    force_N : float
-        The true force along the probe's axis.
-    angles_rad : (in plane, out of plane)
-        How far the phantom's normal is from the probe's axis, see `MovedScene.angles`.
-    R_BS : (9,)
-        Row by row.
-    sensor_B_m : (3,)
-        Where S is.
-    phantom_B_m, normal_B : (3,)
-        The middle of the phantom's top, and what points out of it.
-    point_S_m, force_S_N : (3,) or None
-        The contact as it was located, and the force on the probe; None: not known.
-    """
+    """A period, in the base's frame B, z up."""
 
     time_s: float
-    state: str
-    reason: str | None
-    force_N: float
+    state: str  # a value of `State`
+    reason: str | None  # why the state has changed in this period; None: it has not
+    force_N: float  # the true force along the probe's axis
+    # (in plane, out of plane) how far the phantom's normal is from the probe's axis, see
+    # `MovedScene.angles`
     angles_rad: tuple[float, float]
-    R_BS: tuple[float, ...]
-    sensor_B_m: Three
+    R_BS: tuple[float, ...]  # (9,) row by row
+    sensor_B_m: Three  # (3,) where S is
+    # phantom_B_m, normal_B: (3,) the middle of the phantom's top, and what points out of it
     phantom_B_m: Three
     normal_B: Three
+    # point_S_m, force_S_N: (3,) or None The contact as it was located, and the force on the probe; None:
+    # not known
     point_S_m: Three | None
     force_S_N: Three | None
 

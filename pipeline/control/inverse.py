@@ -32,28 +32,13 @@ class Held(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Step:
-    """
-    One step of the joints.
+    """One step of the joints."""
 
-    Attributes
-    ----------
-    q : (n,)
-        Next joints.
-    share : float
-        Of the motion that was wanted, 0 to 1: the direction is kept, the length cut.
-    held : tuple of Held
-        Why it was cut, or bent by damping.
-    joint : int or None
-        Which one is at its limit.
-    smallest : float
-        Smallest singular value of the Jacobian, metres scaled by 0.3 m; 0 is a singularity.
-    """
-
-    q: NDArray[np.float64]
-    share: float
-    held: tuple[Held, ...]
-    joint: int | None
-    smallest: float
+    q: NDArray[np.float64]  # (n,) next joints
+    share: float  # of the motion that was wanted, 0 to 1: the direction is kept, the length cut
+    held: tuple[Held, ...]  # why it was cut, or bent by damping
+    joint: int | None  # which one is at its limit
+    smallest: float  # smallest singular value of the Jacobian, metres scaled by 0.3 m; 0 is a singularity
 
 
 def tip_jacobian(J: NDArray[np.float64], lever: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -81,7 +66,6 @@ def solve_step(
 
     Parameters
     ----------
-    arm : Arm
     q : (n,)
         Set-points of the step before.
     lever : (3,)

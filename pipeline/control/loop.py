@@ -42,9 +42,6 @@ class Loop:
 
     Parameters
     ----------
-    scene : MovedScene
-    controller : Controller
-    sensor : SensorModel
     faults : sequence of ScriptedFault, optional
         On the way from the sensor to the controller.
     switched_on : float

@@ -30,63 +30,31 @@ _MOST = 1e3
 
 @dataclass(frozen=True)
 class Loop:
-    """
-    One loop, in the path that it controls: m along the axis, or rad about one.
+    """One loop, in the path that it controls: m along the axis, or rad about one."""
 
-    Attributes
-    ----------
-    gain : float
-        1/s: speed per path that is missing, in the steady state.
-    settling : float
-        Mass over damping, s.
-    spring : float
-        Stiffness over damping, 1/s.
-    ratio : float
-        What is sensed over what there is: true over assumed stiffness, or gain of the place.
-    bandwidth : float
-        1/s, of the estimate that is led by; 0: nothing leads.
-    smoothing : float
-        s, of what is led by; 0: none.
-    inertia : float
-        s²: path that is sensed too little for each unit of acceleration: the share of the tool's inertia that was not
-        taken off.
-    lag : float
-        How late the arm is, s.
-    period : float
-        s.
-    """
-
-    gain: float
-    settling: float
-    spring: float = 0.0
+    gain: float  # 1/s: speed per path that is missing, in the steady state
+    settling: float  # mass over damping, s
+    spring: float = 0.0  # stiffness over damping, 1/s
+    # what is sensed over what there is: true over assumed stiffness, or gain of the place
     ratio: float = 1.0
-    bandwidth: float = 0.0
-    smoothing: float = 0.0
+    bandwidth: float = 0.0  # 1/s, of the estimate that is led by; 0: nothing leads
+    smoothing: float = 0.0  # s, of what is led by; 0: none
+    # s²: path that is sensed too little for each unit of acceleration: the share of the tool's inertia that
+    # was not taken off
     inertia: float = 0.0
-    lag: float = 0.0
-    period: float = 0.02
+    lag: float = 0.0  # how late the arm is, s
+    period: float = 0.02  # s
 
 
 @dataclass(frozen=True)
 class Margins:
-    """
-    What a loop has left.
-
-    Attributes
-    ----------
-    stable : bool
-    gain : float
-        Factor by which the loop may grow before it swings; below 1: it swings, and must shrink by that much.
-    phase : float
-        rad, smallest at a frequency where the loop's gain is 1; 0 if it swings.
-    crossover : float
-        rad/s, the largest such frequency.
-    """
+    """What a loop has left."""
 
     stable: bool
+    # factor by which the loop may grow before it swings; below 1: it swings, and must shrink by that much
     gain: float
-    phase: float
-    crossover: float
+    phase: float  # rad, smallest at a frequency where the loop's gain is 1; 0 if it swings
+    crossover: float  # rad/s, the largest such frequency
 
 
 def loop_of(
@@ -103,12 +71,10 @@ def loop_of(
 
     Parameters
     ----------
-    settings : ControlSettings
     foundation : Foundation
         Of the probe.
     modulus : float
         Of the tissue, N/m³.
-    axis : {"force", "about x", "about y"}
     assumed : float, optional
         What the aware variant takes the modulus to be; left out, it has measured it. The plain one does not ask.
     unknown : float

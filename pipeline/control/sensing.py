@@ -43,30 +43,14 @@ class Fault(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Sensed:
-    """
-    What is believed at one step.
+    """What is believed at one step."""
 
-    Attributes
-    ----------
-    time : float
-        Mean time of the samples, s; of the newest good one where there is none now.
-    wrench : (6,)
-        Compensated, on the probe, S, N and N·m; NaN without a fresh sample.
-    contact : Contact or None
-        Where it acts; None: too little force, or no method says.
-    fault : Fault or None
-    age : float
-        s since the newest good sample.
-    count : int
-        Samples that the wrench is the mean of.
-    """
-
-    time: float
-    wrench: NDArray[np.float64]
-    contact: Contact | None
+    time: float  # mean time of the samples, s; of the newest good one where there is none now
+    wrench: NDArray[np.float64]  # (6,) compensated, on the probe, S, N and N·m; NaN without a fresh sample
+    contact: Contact | None  # where it acts; None: too little force, or no method says
     fault: Fault | None
-    age: float
-    count: int
+    age: float  # s since the newest good sample
+    count: int  # samples that the wrench is the mean of
 
     @property
     def fresh(self) -> bool:
@@ -83,11 +67,8 @@ class Intake:
 
     Parameters
     ----------
-    probe : Probe
-    gravity : GravityModel
     noise : WrenchNoise, optional
         Of one reading.
-    gates : Gates, optional
     model : TouchModel, optional
         What is known of a touch beside the noise.
     method : str

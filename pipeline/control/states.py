@@ -87,10 +87,6 @@ class Safety:
     """
     The state machine; it moves nothing, and knows nothing of geometry.
 
-    Parameters
-    ----------
-    settings : ControlSettings
-
     Attributes
     ----------
     state : State
@@ -142,7 +138,6 @@ class Safety:
         ----------
         now : float
             s.
-        sensed : Sensed
         force : float
             How hard the tissue is pressed, N; NaN without a fresh sample.
         travelled : float

@@ -30,7 +30,6 @@ class Surface:
 
     Parameters
     ----------
-    foundation : Foundation
     bandwidth : (place, tilt about x, tilt about y)
         1/s.
     modulus : float

@@ -12,27 +12,13 @@ _WALK = 2e-5  # m per root second, how the place's own error wanders
 
 @dataclass(frozen=True)
 class Reading:
-    """
-    What one wrench says about one axis.
+    """What one wrench says about one axis."""
 
-    Attributes
-    ----------
-    lean : float
-        Angle of the force against S's z, rad.
-    place : float
-        Of the contact from where it should be, m; positive where a positive tilt moves it.
-    gain : float
-        How far a tilt moves the place, m/rad.
-    lever : float
-        Height of the place over the sensor's origin, m.
-    force_sigma, torque_sigma : float
-        Of the wrench over its force: rad and m.
-    """
-
-    lean: float
-    place: float
-    gain: float
-    lever: float
+    lean: float  # angle of the force against S's z, rad
+    place: float  # of the contact from where it should be, m; positive where a positive tilt moves it
+    gain: float  # how far a tilt moves the place, m/rad
+    lever: float  # height of the place over the sensor's origin, m
+    # force_sigma, torque_sigma: of the wrench over its force: rad and m
     force_sigma: float
     torque_sigma: float
 

@@ -33,27 +33,16 @@ class Wanted:
     """
     What gains must leave.
 
-    Attributes
-    ----------
-    gain : float
-        Factor by which a loop may still grow.
-    phase : float
-        rad.
-    spread : float
-        Tissue may be this many times softer or stiffer.
-    fastest : float
-        1/s: no gain above it is chosen.
-
     Raises
     ------
     InputError
         A number is out of range.
     """
 
-    gain: float = 2.0
-    phase: float = math.radians(30)
-    spread: float = 5.0
-    fastest: float = 8.0
+    gain: float = 2.0  # factor by which a loop may still grow
+    phase: float = math.radians(30)  # rad
+    spread: float = 5.0  # tissue may be this many times softer or stiffer
+    fastest: float = 8.0  # 1/s: no gain above it is chosen
 
     def __post_init__(self) -> None:
         if not (1 < self.gain <= 100 and 0 < self.phase < math.pi / 2):
@@ -83,23 +72,12 @@ class Row:
 
 @dataclass(frozen=True)
 class Tuned:
-    """
-    Gains that were chosen.
-
-    Attributes
-    ----------
-    settings : ControlSettings
-    modulus : float
-        That they were chosen for, N/m³.
-    wanted : Wanted
-    reached : dict of str to str
-        For each loop, what stopped its gain.
-    """
+    """Gains that were chosen."""
 
     settings: ControlSettings
-    modulus: float
+    modulus: float  # that they were chosen for, N/m³
     wanted: Wanted
-    reached: dict[str, str]
+    reached: dict[str, str]  # for each loop, what stopped its gain
 
 
 def tune(
@@ -122,7 +100,6 @@ def tune(
         Of the usual tissue, N/m³; see `Foundation.modulus_of`.
     variant : Variant
         The aware one measures the stiffness by a press before it tracks; the plain one has to do with any.
-    wanted : Wanted, optional
     desired_force : float
         N.
     servo_lag : float

@@ -26,7 +26,6 @@ class Upright:
 
     Parameters
     ----------
-    settings : ControlSettings
     surface : Surface
         What is known of the tissue.
     """
@@ -58,7 +57,6 @@ class Upright:
         R_BS : (3, 3)
         lead : float
             How much older than the middle of that time what was sensed is, s.
-        dt : float
         """
         settings = self._settings
         if settings.variant is Variant.AWARE:

@@ -66,19 +66,14 @@ def virtual_robot(
 
     Parameters
     ----------
-    config : RuntimeConfig
     address : str
         One of `ROBOTS`.
     variant : Variant, optional
         Another one than the bundle's.
-    method : str
-    motion : PlatformMotion, optional
     stiffness : float, optional
         Of the phantom at the wanted force, N/m; left out, that of soft tissue.
-    friction : float
     quaternion_ES : (4,), optional
         How the sensor is turned on the flange, w, x, y, z, for a bundle that does not say.
-    seed : int
 
     Raises
     ------

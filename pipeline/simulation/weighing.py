@@ -26,22 +26,12 @@ _LEVER = 0.15  # m, at which a hand bumps the tool
 
 @dataclass(frozen=True, eq=False)
 class Weighing:
-    """Poses and the truth behind them.
-
-    Attributes
-    ----------
-    truth : GravityModel
-    noise : PoseNoise
-        True standard deviations of a pose's mean.
-    poses : tuple of PoseSample
-    bumped : (n,) bool
-        Poses that something touched.
-    """
+    """Poses and the truth behind them."""
 
     truth: GravityModel
-    noise: PoseNoise
+    noise: PoseNoise  # True standard deviations of a pose's mean
     poses: tuple[PoseSample, ...]
-    bumped: NDArray[np.bool_]
+    bumped: NDArray[np.bool_]  # (n,) bool Poses that something touched
 
 
 def draw_load(rng: np.random.Generator, mass: Range = (0.1, 2.0)) -> GravityModel:
@@ -49,7 +39,6 @@ def draw_load(rng: np.random.Generator, mass: Range = (0.1, 2.0)) -> GravityMode
 
     Parameters
     ----------
-    rng : numpy.random.Generator
     mass : (low, high)
         kg, uniform.
     """
@@ -91,7 +80,6 @@ def draw_weighing(
 
     Parameters
     ----------
-    rng : numpy.random.Generator
     poses : (low, high)
         How many, both included.
     mass, force_noise, torque_noise : (low, high)
@@ -107,10 +95,8 @@ def bump(weighing: Weighing, share: float, rng: np.random.Generator, force: Rang
 
     Parameters
     ----------
-    weighing : Weighing
     share : float
         Of the poses, rounded to whole ones.
-    rng : numpy.random.Generator
     force : (low, high)
         N, uniform; a torque is such a force on a lever of 50 mm.
     """

@@ -60,15 +60,10 @@ def make_rig(
 
     Parameters
     ----------
-    scene : {"platform", "arm"}
     probe : str
         One of assets.PROBE_NAMES.
-    settings : ControlSettings
     seed : int
         Of load, biases, calibration and noise: the calibration is made from readings, it is not the truth.
-    method : str
-    tissue : Tissue, optional
-    motion : PlatformMotion, optional
     gap : float
         m between probe and phantom at the beginning.
     coarse : bool

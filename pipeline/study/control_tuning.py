@@ -75,12 +75,8 @@ def run(
         One of assets.PROBE_NAMES.
     stiffness : float, optional
         Of the usual tissue at the wanted force, N/m.
-    scene : {"platform", "arm"}
-    variant : Variant
     force : float
         N.
-    wanted : Wanted, optional
-    seed : int
     progress : callable, optional
         Told how many of how many trials are done.
 

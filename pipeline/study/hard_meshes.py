@@ -29,16 +29,10 @@ _BORDER = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """A closed triangle mesh in S, m.
+    """A closed triangle mesh in S, m."""
 
-    Attributes
-    ----------
-    vertices : (n, 3) m
-    faces : (m, 3) counter-clockwise seen from outside
-    """
-
-    vertices: Float
-    faces: Ints
+    vertices: Float  # (n, 3) m
+    faces: Ints  # (m, 3) counter-clockwise seen from outside
 
     @cached_property
     def corners(self) -> Long:
@@ -153,16 +147,10 @@ def through_stl(body: Body) -> Probe:
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """Wrenches and where they were made to touch.
+    """Wrenches and where they were made to touch."""
 
-    Attributes
-    ----------
-    wrenches : (n, 6) N and N·m, S
-    points : (n, 3) m, S
-    """
-
-    wrenches: Float
-    points: Float
+    wrenches: Float  # (n, 6) N and N·m, S
+    points: Float  # (n, 3) m, S
 
     def __len__(self) -> int:
         return len(self.points)
@@ -250,18 +238,11 @@ def places(
 
 @dataclass(frozen=True, eq=False)
 class Solutions:
-    """Every contact that answers one wrench.
+    """Every contact that answers one wrench."""
 
-    Attributes
-    ----------
-    points : (n, 3) m
-    angles : (n,) friction angles, degrees
-    sure : bool
-        False where a solution lies on a border within rounding: how many there are is then a convention.
-    """
-
-    points: Float
-    angles: Float
+    points: Float  # (n, 3) m
+    angles: Float  # (n,) friction angles, degrees
+    # False where a solution lies on a border within rounding: how many there are is then a convention
     sure: bool
 
 

@@ -28,54 +28,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What one method made of a case.
+    """What one method made of a case."""
 
-    Attributes
-    ----------
-    answered : float
-        Share of tries that got a point, `ambiguous` ones included.
-    mean_mm, max_mm : float or None
-        Error of the points; None where there is no point, or no place it should be.
-    reasons : dict
-        Reason code -> tries.
-    wrong_unflagged : float
-        Share of tries with an error beyond the case's tolerance under an accepted reason.
-    wrong : float
-        Share of tries with an error beyond the tolerance, whatever the reason.
-    broken : int
-        Tries that break the case's own check.
-    """
-
-    answered: float
+    answered: float  # share of tries that got a point, `ambiguous` ones included
+    # mean_mm, max_mm: error of the points; None where there is no point, or no place it should be
     mean_mm: float | None
     max_mm: float | None
-    reasons: dict[str, int]
+    reasons: dict[str, int]  # reason code -> tries
+    # share of tries with an error beyond the case's tolerance under an accepted reason
     wrong_unflagged: float
-    wrong: float = 0.0
-    broken: int = 0
+    wrong: float = 0.0  # share of tries with an error beyond the tolerance, whatever the reason
+    broken: int = 0  # tries that break the case's own check
 
 
 @dataclass(frozen=True)
 class Rule:
-    """What an outcome must be to pass.
+    """What an outcome must be to pass."""
 
-    Attributes
-    ----------
-    words : str
-        The rule, in words.
-    answered : (low, high)
-        Bounds of the answered share.
-    unflagged, wrong : float
-        Most that the shares of the same names may be.
-    reasons : tuple of Reason, optional
-        The only reasons allowed.
-    """
-
-    words: str
-    answered: tuple[float, float] = (1.0, 1.0)
+    words: str  # the rule, in words
+    answered: tuple[float, float] = (1.0, 1.0)  # (low, high) bounds of the answered share
+    # unflagged, wrong: most that the shares of the same names may be
     unflagged: float = 0.0
     wrong: float = 1.0
-    reasons: tuple[Reason, ...] | None = None
+    reasons: tuple[Reason, ...] | None = None  # the only reasons allowed
 
     def faults(self, outcome: Outcome) -> tuple[str, ...]:
         """Return what is wrong with an outcome, in words; nothing when it passes."""
@@ -100,29 +75,18 @@ class Rule:
 
 @dataclass(frozen=True)
 class Case:
-    """One hard case, as it went.
+    """One hard case, as it went."""
 
-    Attributes
-    ----------
-    name, what, expectation : str
-        In words.
-    tries : int
-        Wrenches.
-    contactbench, algorithm1 : Outcome
-    passed : bool
-        Whether contactbench kept the rule. Algorithm 1 is shown, not judged.
-    faults : tuple of str
-        What was wrong.
-    """
-
+    # name, what, expectation: in words
     name: str
     what: str
-    tries: int
+    tries: int  # wrenches
     expectation: str
     contactbench: Outcome
     algorithm1: Outcome
+    # whether contactbench kept the rule. Algorithm 1 is shown, not judged.
     passed: bool
-    faults: tuple[str, ...] = ()
+    faults: tuple[str, ...] = ()  # what was wrong
 
 
 _SAME_TOUCH, _ROUNDING_M, _TIED = 4.5, 1e-9, 1e-9
@@ -137,32 +101,20 @@ Check = Callable[[methods.Method, Batch], Bools]
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A case before it is tried.
-
-    Attributes
-    ----------
-    drawn : Drawn
-        The wrenches, and where each should be found; NaN where nowhere in particular.
-    noise, gates, model
-        What the solver is told.
-    tolerance_mm : float
-        A larger error is wrong.
-    check : callable, optional
-        Gives (n,) bool: tries that break a rule of the case's own.
-    known_bad_mesh : bool
-        Facets were turned over on purpose: an answer counts as flagged when the mesh's health says so.
-    """
+    """A case before it is tried."""
 
     name: str
     what: str
     rule: Rule
     probe: Probe
-    drawn: Drawn
+    drawn: Drawn  # the wrenches, and where each should be found; NaN where nowhere in particular
+    # noise, gates, model: what the solver is told
     noise: WrenchNoise = field(default_factory=lambda: WrenchNoise(0.0, 0.0))
     gates: Gates = field(default_factory=Gates)
     model: TouchModel = field(default_factory=lambda: EXACT)
-    tolerance_mm: float = 10.0
-    check: Check | None = None
+    tolerance_mm: float = 10.0  # a larger error is wrong
+    check: Check | None = None  # gives (n,) bool: tries that break a rule of the case's own
+    # facets were turned over on purpose: an answer counts as flagged when the mesh's health says so
     known_bad_mesh: bool = False
 
     def run(self) -> Case:
@@ -288,15 +240,9 @@ def like(base: Trial, move: Callable[[Float], Float], size: float) -> Check:
 
 @dataclass(frozen=True)
 class HardCasesReport:
-    """Every case.
+    """Every case."""
 
-    Attributes
-    ----------
-    samples, seed : int
-        As given to :func:`run`.
-    cases : list of Case
-    """
-
+    # samples, seed: as given to :func:`run`
     samples: int
     seed: int
     cases: list[Case]

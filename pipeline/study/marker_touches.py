@@ -32,30 +32,19 @@ _MOST_TORSION_M = 0.0006  # more would turn the tip
 
 @dataclass(frozen=True, eq=False)
 class Touched:
-    """
-    Touches at rest, one row each; S, SI units.
+    """Touches at rest, one row each; S, SI units."""
 
-    Attributes
-    ----------
-    seeds, markers, angles, repeats : (n,) int
-        Markers from 1; angles are rows of `ANGLES`.
-    targets, points, normals : (n, 3)
-        The marker, the true contact, and the outward normal there.
-    contacts : (n, 6)
-        Wrench on the probe about the sensor's origin.
-    R_WS : (n, 3, 3)
-        How the sensor is held: the force is vertical.
-    """
-
+    # seeds, markers, angles, repeats: (n,) markers from 1; angles are rows of `ANGLES`
     seeds: NDArray[np.int_]
     markers: NDArray[np.int_]
     angles: NDArray[np.int_]
     repeats: NDArray[np.int_]
+    # targets, points, normals: (n, 3) the marker, the true contact, and the outward normal there
     targets: NDArray[np.float64]
     points: NDArray[np.float64]
     normals: NDArray[np.float64]
-    contacts: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
+    contacts: NDArray[np.float64]  # (n, 6) wrench on the probe about the sensor's origin
+    R_WS: NDArray[np.float64]  # (n, 3, 3) how the sensor is held: the force is vertical
 
     def __len__(self) -> int:
         return len(self.seeds)
@@ -135,7 +124,6 @@ def press_markers(
     name : str
         Probe.
     markers_S : (n, 3)
-    seeds, repeats : int
     progress : callable
         Called after each marker.
 

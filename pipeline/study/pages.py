@@ -64,14 +64,12 @@ def chapter(
 
     Parameters
     ----------
-    title, about : str
     tables : sequence of (str, str)
         Titles and Markdown.
     pictures : mapping
         File name -> PNG.
     said : mapping
         File name -> caption.
-    folder : Path
 
     Raises
     ------

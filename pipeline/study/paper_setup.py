@@ -30,22 +30,11 @@ _MASS_KG = (0.3, 0.8)
 
 @dataclass(frozen=True, eq=False)
 class Bench:
-    """
-    A sensor, its load, and the gravity calibration that was made of it.
-
-    Attributes
-    ----------
-    seed : int
-    settings : SensorSettings
-        With the biases of this bench.
-    truth : GravityModel
-        Weight, centre of mass and biases as they are.
-    calibration : Calibration
-    """
+    """A sensor, its load, and the gravity calibration that was made of it."""
 
     seed: int
-    settings: SensorSettings
-    truth: GravityModel
+    settings: SensorSettings  # with the biases of this bench
+    truth: GravityModel  # weight, centre of mass and biases as they are
     calibration: Calibration
 
     @property
@@ -69,7 +58,6 @@ def draw_bench(seed: int, sensor: str = "paper", calibrated_at: float = WARM_S) 
 
     Parameters
     ----------
-    seed : int
     sensor : str
         A preset.
     calibrated_at : float
@@ -96,7 +84,6 @@ def read_touches(
 
     Parameters
     ----------
-    bench : Bench
     contacts : (n, 6)
         True wrenches on the probe, S.
     R_WS : (n, 3, 3)

@@ -24,26 +24,13 @@ Cell = str | int | float | None
 
 @dataclass(frozen=True)
 class Sheet:
-    """
-    One table.
+    """One table."""
 
-    Attributes
-    ----------
-    name : str
-        Of its file, without ending.
-    title : str
-    columns : tuple of str
-        With units.
-    rows : tuple of tuple
-        A NaN is no value.
-    shown : bool
-        For people too; a long table, or one that every run changes, is only for its file and JSON.
-    """
-
-    name: str
+    name: str  # of its file, without ending
     title: str
-    columns: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
+    columns: tuple[str, ...]  # with units
+    rows: tuple[tuple[Cell, ...], ...]  # a NaN is no value
+    # for people too; a long table, or one that every run changes, is only for its file and JSON
     shown: bool = True
 
     def csv(self) -> str:
@@ -85,37 +72,18 @@ def short(cell: Cell) -> str:
 
 @dataclass(frozen=True)
 class Figure:
-    """
-    One measured figure, and what it must reach.
+    """One measured figure, and what it must reach."""
 
-    Attributes
-    ----------
-    subject : str
-        What was measured: a shape, a file, a method.
-    name : str
-    measured : float
-        The headline: the median where there are several values.
-    unit : str
-        Written behind the numbers; "" for ratios and counts.
-    least, most : float or None
-        The target; both None where there is none.
-    spread : (float, float) or None
-        5th and 95th percentile; None for a single value.
-    worst : float or None
-        The value furthest towards missing the target.
-    judged : {"measured", "worst"}
-        Which of them the target is for.
-    """
-
-    subject: str
+    subject: str  # what was measured: a shape, a file, a method
     name: str
-    measured: float
-    unit: str = ""
+    measured: float  # the headline: the median where there are several values
+    unit: str = ""  # written behind the numbers; "" for ratios and counts
+    # least, most: the target; both None where there is none
     least: float | None = None
     most: float | None = None
-    spread: tuple[float, float] | None = None
-    worst: float | None = None
-    judged: Literal["measured", "worst"] = "measured"
+    spread: tuple[float, float] | None = None  # 5th and 95th percentile; None for a single value
+    worst: float | None = None  # the value furthest towards missing the target
+    judged: Literal["measured", "worst"] = "measured"  # which of them the target is for
 
     @classmethod
     def of(
@@ -188,31 +156,16 @@ class Figure:
 
 @dataclass(frozen=True)
 class Report:
-    """
-    All figures of a study.
-
-    Attributes
-    ----------
-    title : str
-    settings : dict
-        What the figures depend on: counts and seed.
-    figures : tuple of Figure
-    notes : tuple of str
-        What the numbers do not say, in sentences.
-    sheets : tuple of Sheet
-        Tables beside the figures.
-    files : dict of str to bytes
-        More files to write, by name: pictures and recordings.
-    differences : tuple of str
-        Where the set-up differs from the one that the figures are compared with.
-    """
+    """All figures of a study."""
 
     title: str
-    settings: dict[str, Any]
+    settings: dict[str, Any]  # what the figures depend on: counts and seed
     figures: tuple[Figure, ...]
-    notes: tuple[str, ...] = ()
-    sheets: tuple[Sheet, ...] = ()
+    notes: tuple[str, ...] = ()  # what the numbers do not say, in sentences
+    sheets: tuple[Sheet, ...] = ()  # tables beside the figures
+    # more files to write, by name: pictures and recordings
     files: dict[str, bytes] = field(default_factory=dict)
+    # where the set-up differs from the one that the figures are compared with
     differences: tuple[str, ...] = ()
 
     @property

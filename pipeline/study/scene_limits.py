@@ -43,65 +43,39 @@ _GRAVITY = np.array([0.0, 0.0, -9.80665])
 
 @dataclass(frozen=True, eq=False)
 class Ride:
-    """
-    A probe that is moved beside a moving phantom by given set-points; rows every 5 ms, after a quarter of a period.
+    """A probe that follows set-points beside a moving phantom; rows every 5 ms, after a quarter of a period."""
 
-    Attributes
-    ----------
-    force : (n,)
-        Along the probe's axis, N.
-    angles : (n, 2)
-        In plane and out of plane, degrees.
-    places : (n, 2)
-        Of the contact in S, mm.
-    leans : (n, 2)
-        Of the contact's force against the probe's axis, degrees: what friction adds.
-    inertia : (n, 2)
-        What the sensor reads beside contact and weight: |force|, N, and how far that moves a contact of this force, mm.
-    lag_ms : float
-        By how much later than its set-points the carrier is there.
-    """
-
-    force: NDArray[np.float64]
-    angles: NDArray[np.float64]
-    places: NDArray[np.float64]
+    force: NDArray[np.float64]  # (n,) along the probe's axis, N
+    angles: NDArray[np.float64]  # (n, 2) in plane and out of plane, degrees
+    places: NDArray[np.float64]  # (n, 2) of the contact in S, mm
+    # (n, 2) of the contact's force against the probe's axis, degrees: what friction adds
     leans: NDArray[np.float64]
+    # (n, 2) what the sensor reads beside contact and weight: |force|, N, and how far that moves a contact
+    # of this force, mm
     inertia: NDArray[np.float64]
-    lag_ms: float
+    lag_ms: float  # by how much later than its set-points the carrier is there
 
 
 @dataclass(frozen=True)
 class Effect:
-    """
-    One change of a scene, under one motion, against the scene that it is a change of.
-
-    Attributes
-    ----------
-    motion, change, against : str
-    force, most_force : float
-        N, root mean square and largest difference.
-    angle, most_angle : float
-        Degrees.
-    place, most_place : float
-        mm, of the contact on the probe.
-    lean, most_lean : float
-        Degrees, of the force's direction.
-    lag_ms : float
-        Behind the set-points.
-    """
+    """One change of a scene, under one motion, against the scene that it is a change of."""
 
     motion: str
     change: str
     against: str
+    # force, most_force: N, root mean square and largest difference
     force: float
     most_force: float
+    # angle, most_angle: degrees
     angle: float
     most_angle: float
+    # place, most_place: mm, of the contact on the probe
     place: float
     most_place: float
+    # lean, most_lean: degrees, of the force's direction
     lean: float
     most_lean: float
-    lag_ms: float
+    lag_ms: float  # behind the set-points
 
 
 @dataclass(frozen=True)

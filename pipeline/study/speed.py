@@ -39,36 +39,24 @@ _PAST_M, _MISSED = 1e-6, 1e30  # behind a hit the next ray begins; Embree's dist
 
 @dataclass(frozen=True)
 class Row:
-    """One method on one mesh.
+    """One method on one mesh."""
 
-    Attributes
-    ----------
-    method, language : str
-        ``C++``: compiled solves in a batch; ``Python``: one call at a time; ``Python, batch``: 500 in one call.
-    facets : int
-    timing : Timing
-        Nanoseconds a solve.
-    mean_mm, p95_mm, max_mm : float or None
-        Error against the true surface, over touches that got a point; None where only time was measured.
-    over_bound : float or None
-        Root mean square error over the noise bound's, over settled touches.
-    settled : float or None
-        Share of touches whose answer was accepted: without doubt, or because of the declared lens. Rivals know no
-        doubt.
-    answered : float or None
-        Share of touches that got a point.
-    """
-
+    # method, language: ``C++``: compiled solves in a batch; ``Python``: one call at a time; ``Python,
+    # batch``: 500 in one call
     method: str
     language: str
     facets: int
-    timing: Timing
+    timing: Timing  # nanoseconds a solve
+    # mean_mm, p95_mm, max_mm: error against the true surface, over touches that got a point; None where
+    # only time was measured
     mean_mm: float | None = None
     p95_mm: float | None = None
     max_mm: float | None = None
-    over_bound: float | None = None
+    over_bound: float | None = None  # root mean square error over the noise bound's, over settled touches
+    # share of touches whose answer was accepted: without doubt, or because of the declared lens. Rivals
+    # know no doubt.
     settled: float | None = None
-    answered: float | None = None
+    answered: float | None = None  # share of touches that got a point
 
 
 @dataclass(frozen=True)

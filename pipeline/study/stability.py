@@ -164,7 +164,6 @@ def run(
         Bundled probes, or prepared files in S.
     samples : int
         Touches of each figure, at least 50.
-    seed : int
     progress : callable
         Told in words what is being measured.
 

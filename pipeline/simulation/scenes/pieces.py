@@ -80,7 +80,6 @@ def add_facets(
     spec : mujoco.MjSpec
     body : mujoco.MjsBody
         In S.
-    probe : Probe
     facets : (k,) int
     prefix : str
         Of the pieces' names.

@@ -81,8 +81,6 @@ class TissueScene(Scene):
     ----------
     spec : mujoco.MjSpec
         With a probe that `add_probe` and a phantom that `add_phantom` added.
-    truth : Truth
-    tissue : Tissue
     places : (n, 3)
         Of the face, S, m; what `add_probe` returned.
     area : float
@@ -208,7 +206,6 @@ def spread(probe: Probe, count: int) -> tuple[NDArray[np.float64], NDArray[np.fl
 
     Parameters
     ----------
-    probe : Probe
     count : int
         About how many.
 

@@ -67,7 +67,6 @@ class VirtualBench:
         Of the sensor's noise.
     rate, pose_rate : float
         Wrenches and poses a second, up to 1000 Hz; each is taken at the nearest step of 0.5 ms.
-    payload : Payload, optional
     R_SE : (3, 3), optional
         How the sensor is mounted: turns components in the flange E into S. Both have the same origin.
     script : sequence of Timed

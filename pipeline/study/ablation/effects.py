@@ -40,7 +40,6 @@ def effect(
     ----------
     choice : str
         Of CHOICES.
-    record : Record
     facets : int
         Of the mesh.
     noise : float

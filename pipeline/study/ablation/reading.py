@@ -39,19 +39,13 @@ _FLOOR = np.repeat([1e-4, 2e-6], 3)  # N, N·m: below it a calibration would fin
 
 @dataclass(frozen=True, eq=False)
 class Read:
-    """
-    The same wrenches without a choice and with it.
+    """The same wrenches without a choice and with it."""
 
-    Attributes
-    ----------
-    without, made : (n, 6)
-        After compensation, S, N and N·m.
-    turns : tuple of (3, 3)
-        R_ES as it is, as it is taken to be without the choice, and with it: what a robot sees of a contact.
-    """
-
+    # without, made: (n, 6) after compensation, S, N and N·m
     without: NDArray[np.float64]
     made: NDArray[np.float64]
+    # tuple of (3, 3): R_ES as it is, as it is taken to be without the choice, and with it: what a robot
+    # sees of a contact
     turns: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 
@@ -63,12 +57,10 @@ def read(choice: str, record: Record, amount: float, noise: float, rng: np.rando
     ----------
     choice : str
         Of CHOICES.
-    record : Record
     amount : float
         In the unit of UNITS.
     noise : float
         Times that of one reading.
-    rng : numpy.random.Generator
     """
     drawn = sigmas_of(noise) * rng.standard_normal(record.contacts.shape)
     return {DRIFT: _drift, MOUNT: _mount, CROSSTALK: _crosstalk}[choice](record, amount, drawn, rng)

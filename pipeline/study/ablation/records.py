@@ -50,29 +50,17 @@ _ROUNDS = 3  # depth and heave depend on each other
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """
-    Contacts of one probe in one scene, one row each; S, SI units.
-
-    Attributes
-    ----------
-    scene, probe : str
-    contacts, felt : (n, 6)
-        True wrench on the probe, and what a perfect sensor reads beside the weight: the contact, and inertia where
-        something moves.
-    points : (n, 3)
-        True place of the contact.
-    R_WS : (n, 3, 3)
-    seconds : float
-        That computing a row took.
-    """
+    """Contacts of one probe in one scene, one row each; S, SI units."""
 
     scene: str
     probe: str
+    # contacts, felt: (n, 6) True wrench on the probe, and what a perfect sensor reads beside the weight:
+    # the contact, and inertia where something moves
     contacts: NDArray[np.float64]
     felt: NDArray[np.float64]
-    points: NDArray[np.float64]
-    R_WS: NDArray[np.float64]
-    seconds: float
+    points: NDArray[np.float64]  # (n, 3) True place of the contact
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    seconds: float  # that computing a row took
 
     def __len__(self) -> int:
         return len(self.contacts)
@@ -119,9 +107,6 @@ def drawn(
 
     Parameters
     ----------
-    probe : str
-    count : int
-    rng : numpy.random.Generator
     torsion : float
         Standard deviation of k / |F|, m.
     angle : float

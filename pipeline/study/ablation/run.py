@@ -41,39 +41,18 @@ _AMOUNTS = {
 
 @dataclass(frozen=True)
 class Sizes:
-    """
-    How much is done.
-
-    Attributes
-    ----------
-    probes, scenes : tuple of str
-    facets : int
-        Of the mesh in the scenes.
-    coarse : tuple of int
-        Of the meshes on which smooth normals are tried.
-    twisted : tuple of int
-        Of those, the ones on which the local torque is varied.
-    size : int
-        Markers, and fifths of a second, of a scene.
-    touches : int
-        Drawn for each point of a curve.
-    seeds : int
-    rounds : int
-        Of timed blocks.
-    motions : tuple of str
-        Of the platform.
-    """
+    """How much is done."""
 
     probes: tuple[str, ...] = assets.PROBE_NAMES
     scenes: tuple[str, ...] = SCENES
-    facets: int = 2_000
-    coarse: tuple[int, ...] = (300, 500, 1_000, 2_000)
-    twisted: tuple[int, ...] = (500, 2_000)
-    size: int = 15
-    touches: int = 4_000
+    facets: int = 2_000  # of the mesh in the scenes
+    coarse: tuple[int, ...] = (300, 500, 1_000, 2_000)  # of the meshes on which smooth normals are tried
+    twisted: tuple[int, ...] = (500, 2_000)  # of those, the ones on which the local torque is varied
+    size: int = 15  # markers, and fifths of a second, of a scene
+    touches: int = 4_000  # drawn for each point of a curve
     seeds: int = 5
-    rounds: int = 20
-    motions: tuple[str, ...] = ("vertical", "in plane", "out of plane")
+    rounds: int = 20  # of timed blocks
+    motions: tuple[str, ...] = ("vertical", "in plane", "out of plane")  # of the platform
 
     def __post_init__(self) -> None:
         for probe in self.probes:
@@ -105,7 +84,6 @@ def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda
 
     Parameters
     ----------
-    sizes : Sizes
     seed : int
         Of touches and noise; that of each repetition is this one plus its number.
     progress : callable

@@ -31,33 +31,22 @@ _TOUCHING_M = 2e-5  # what lies so near to the foremost place touches a rigid pl
 
 @dataclass(frozen=True)
 class Difference:
-    """
-    What leaving a choice out changes in the truth of a scene.
-
-    Attributes
-    ----------
-    choice, scene, probe, motion : str
-    samples : int
-    mean_mm, rms_mm, p95_mm : float
-        How far the contact moves on the probe.
-    floor_mm : float
-        The same, root mean square, for half the time step: less than this the scene does not know.
-    force_n : float or None
-        Root mean square difference of the force; None where a rigid body's is whatever one pushes with.
-    without_us, made_us : float
-        Of computing a millisecond of the scene.
-    """
+    """What leaving a choice out changes in the truth of a scene."""
 
     choice: str
     scene: str
     probe: str
     motion: str
     samples: int
+    # mean_mm, rms_mm, p95_mm: how far the contact moves on the probe
     mean_mm: float
     rms_mm: float
     p95_mm: float
+    # the same, root mean square, for half the time step: less than this the scene does not know
     floor_mm: float
+    # root mean square difference of the force; None where a rigid body's is whatever one pushes with
     force_n: float | None
+    # without_us, made_us: of computing a millisecond of the scene
     without_us: float
     made_us: float
 

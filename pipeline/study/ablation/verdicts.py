@@ -25,31 +25,19 @@ NOISE = "filtered"
 
 @dataclass(frozen=True)
 class Bought:
-    """
-    What a choice buys in one scene, over all probes and repetitions; mm.
-
-    Attributes
-    ----------
-    choice, scene : str
-    without, made : float
-        Mean error without it, and with it. Of the scene's own choices: how far the contact is off without it, and what
-        the scene does not know itself.
-    bought, sigma : float
-        Mean difference, and its standard error.
-    answers : float
-        By how much the share of touches grows that are located without a gross miss.
-    models : bool
-        Whether to model it there.
-    """
+    """What a choice buys in one scene, over all probes and repetitions; mm."""
 
     choice: str
     scene: str
+    # without, made: mean error without it, and with it. Of the scene's own choices: how far the contact is
+    # off without it, and what the scene does not know itself.
     without: float
     made: float
+    # bought, sigma: mean difference, and its standard error
     bought: float
     sigma: float
-    answers: float
-    models: bool
+    answers: float  # by how much the share of touches grows that are located without a gross miss
+    models: bool  # whether to model it there
 
 
 @dataclass(frozen=True)
@@ -74,29 +62,17 @@ class Cost:
 
 @dataclass(frozen=True)
 class Crossing:
-    """
-    Where a choice begins to matter, along something that is varied.
+    """Where a choice begins to matter, along something that is varied."""
 
-    Attributes
-    ----------
-    choice, varied, at : str
-        Of what, and with what mesh and noise.
-    probe : str
-    where : float or None
-        In the unit of `varied`, where it buys `MATTERS` of the error; None: nowhere in the range.
-    above : bool
-        Whether it matters above it, or below; nowhere or everywhere: at the end of the range.
-    always : bool
-        It matters over the whole range.
-    """
-
+    # choice, varied, at: of what, and with what mesh and noise
     choice: str
     varied: str
     at: str
     probe: str
+    # in the unit of `varied`, where it buys `MATTERS` of the error; None: nowhere in the range
     where: float | None
-    above: bool
-    always: bool
+    above: bool  # whether it matters above it, or below; nowhere or everywhere: at the end of the range
+    always: bool  # it matters over the whole range
 
     @property
     def words(self) -> str:
@@ -223,8 +199,6 @@ def crossing(
     ----------
     xs : sequence of float
         Ascending; interpolated between their logarithms, but for 0.
-    values : sequence of float
-    level : float
     """
     over = np.array(values) >= level
     if over.all():

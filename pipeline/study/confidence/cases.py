@@ -42,25 +42,13 @@ _ELLIPSE = -2 * np.log(0.05)
 
 @dataclass(frozen=True, eq=False)
 class Asked:
-    """
-    Touches, and what was answered.
-
-    Attributes
-    ----------
-    touches : Touches
-    wrenches : (n, 6) as the sensor read them
-    batch : Batch
-    errors : (n,) m
-        NaN without a point.
-    sure : (n,) bool
-        Reason ``ok`` or ``vertex``: nothing but the wrench was needed.
-    """
+    """Touches, and what was answered."""
 
     touches: Touches
-    wrenches: Float
+    wrenches: Float  # (n, 6) as the sensor read them
     batch: Batch
-    errors: Float
-    sure: Bools
+    errors: Float  # (n,) m NaN without a point
+    sure: Bools  # (n,) bool Reason ``ok`` or ``vertex``: nothing but the wrench was needed
 
     def off(self, limit: float) -> Bools:
         """Tell which answers have a point that is further off than this, m."""

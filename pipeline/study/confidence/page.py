@@ -36,7 +36,6 @@ def make(results: Results, folder: Path) -> str:
     ----------
     results : Results
         Of kind ``confidence``.
-    folder : Path
     """
     known = [field.name for field in fields(Row)]
     rows = [Row(**{name: row[name] for name in known}) for row in results.rows]

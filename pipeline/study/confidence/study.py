@@ -41,25 +41,14 @@ _FEW = 20  # answers: a bin of fewer says nothing
 
 @dataclass(frozen=True)
 class Sizes:
-    """
-    How much is tried.
+    """How much is tried."""
 
-    Attributes
-    ----------
-    touches, seeds : int
-        Of each figure, and repetitions of it.
-    facets : int
-        Of the meshes, where they do not vary.
-    ellipse_facets : tuple of int
-    pruned : int
-        Wrenches of a probe that are compared with every facet one by one.
-    """
-
+    # touches, seeds: of each figure, and repetitions of it
     touches: int = 10_000
     seeds: int = 5
-    facets: int = 2_000
+    facets: int = 2_000  # of the meshes, where they do not vary
     ellipse_facets: tuple[int, ...] = (500, 1_000, 2_000, 20_000)
-    pruned: int = 100_000
+    pruned: int = 100_000  # wrenches of a probe that are compared with every facet one by one
 
 
 QUICK = Sizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
@@ -67,37 +56,24 @@ QUICK = Sizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), p
 
 @dataclass(frozen=True)
 class Row:
-    """
-    One figure.
+    """One figure."""
 
-    Attributes
-    ----------
-    part : str
-        A key of :data:`PARTS`.
-    probe, case, figure, unit : str
-        In words.
-    tries : int
-        Touches of one seed; for the reliability, answers.
-    value, low, high : float
-        Mean, least and most of the seeds; for what is right, the share and its 95 % interval.
-    at_least, at_most : float or None
-        What the mean must keep.
-    stated : float or None
-        Confidence, mean of the bin.
-    """
-
-    part: str
+    part: str  # a key of :data:`PARTS`
+    # probe, case, figure, unit: in words
     probe: str
     case: str
     figure: str
     unit: str
-    tries: int
+    tries: int  # touches of one seed; for the reliability, answers
+    # value, low, high: mean, least and most of the seeds; for what is right, the share and its 95 %
+    # interval
     value: float
     low: float
     high: float
+    # at_least, at_most: what the mean must keep
     at_least: float | None = None
     at_most: float | None = None
-    stated: float | None = None
+    stated: float | None = None  # confidence, mean of the bin
 
     @property
     def met(self) -> bool:
@@ -109,19 +85,9 @@ class Row:
 
 @dataclass(frozen=True)
 class ConfidenceReport:
-    """
-    Every figure.
+    """Every figure."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Probes.
-    sizes : Sizes
-    seed : int
-    rows : tuple of Row
-    """
-
-    names: tuple[str, ...]
+    names: tuple[str, ...]  # probes
     sizes: Sizes
     seed: int
     rows: tuple[Row, ...]
@@ -176,7 +142,6 @@ def run(
     ----------
     names : sequence of str
         Bundled probes, or prepared files in S: those have no declared lens, and are their own truth.
-    sizes : Sizes, optional
     seed : int
         At least 0.
     progress : callable

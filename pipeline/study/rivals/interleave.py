@@ -27,7 +27,6 @@ def medians(
     ----------
     calls : mapping
         Key -> (function, arguments it is called with in turn).
-    rounds : int
 
     Returns
     -------

@@ -31,7 +31,6 @@ def make(results: Results, folder: Path) -> str:
 
     Parameters
     ----------
-    results : Results
     folder : Path
         For the pictures.
 

@@ -52,11 +52,6 @@ def place_rows(probe: str, facets: int, touches: int, rounds: int, seed: int) ->
     """
     Measure all contenders on one mesh of a bundled probe.
 
-    Parameters
-    ----------
-    probe : str
-    facets, touches, rounds, seed : int
-
     Yields
     ------
     dict

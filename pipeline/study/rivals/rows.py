@@ -23,18 +23,10 @@ _MM = 1e3
 
 @dataclass(frozen=True)
 class Contender:
-    """
-    Somebody's code.
-
-    Attributes
-    ----------
-    name : str
-    package : str
-        On PyPI; empty for code of this project.
-    """
+    """Somebody's code."""
 
     name: str
-    package: str = ""
+    package: str = ""  # on PyPI; empty for code of this project
 
     @property
     def version(self) -> str:

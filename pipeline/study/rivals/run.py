@@ -20,19 +20,10 @@ _FEWEST, _MOST = 300, 200_000
 
 @dataclass(frozen=True)
 class Sizes:
-    """
-    How much is measured.
-
-    Attributes
-    ----------
-    probes : tuple of str
-    facets : tuple of int
-        Of the meshes that contacts are located on.
-    touches, rounds : int
-    """
+    """How much is measured."""
 
     probes: tuple[str, ...] = assets.PROBE_NAMES
-    facets: tuple[int, ...] = (500, 2_000, 20_000)
+    facets: tuple[int, ...] = (500, 2_000, 20_000)  # of the meshes that contacts are located on
     touches: int = 4_000
     rounds: int = 15
 
@@ -56,7 +47,6 @@ def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda
 
     Parameters
     ----------
-    sizes : Sizes
     seed : int
         Of touches and noise.
     progress : callable

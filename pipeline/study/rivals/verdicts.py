@@ -19,36 +19,21 @@ _ROUNDING_MM = 1e-6
 
 @dataclass(frozen=True)
 class Duel:
-    """
-    One rival against ours on one subject.
-
-    Attributes
-    ----------
-    family, subject, condition, contender : str
-    facets : int or None
-    ratio : float or None
-        Its time over ours: the least of those that can be compared; a ray alone counts as a whole solve.
-    mode : str
-        Of that time.
-    mean, ours : float
-        Errors on what both answer, mm.
-    answered : float
-        Share that it answers of what ours answers.
-    better : bool
-        More accurate by more than chance, and it answers as much.
-    """
+    """One rival against ours on one subject."""
 
     family: str
     subject: str
     condition: str
     contender: str
     facets: int | None
+    # its time over ours: the least of those that can be compared; a ray alone counts as a whole solve
     ratio: float | None
-    mode: str
+    mode: str  # of that time
+    # mean, ours: errors on what both answer, mm
     mean: float
     ours: float
-    answered: float
-    better: bool
+    answered: float  # share that it answers of what ours answers
+    better: bool  # more accurate by more than chance, and it answers as much
 
     @property
     def faster(self) -> bool:

@@ -30,29 +30,14 @@ _SHOWN = 1_500  # facets of a picture
 
 @dataclass(frozen=True, eq=False)
 class Body:
-    """
-    A probe that is touched.
+    """A probe that is touched."""
 
-    Attributes
-    ----------
-    surface : Sampled
-        As it truly is.
-    above : float
-        Only what lies higher than this is touched, z in S, m.
-    """
-
-    surface: Sampled
-    above: float
+    surface: Sampled  # as it truly is
+    above: float  # only what lies higher than this is touched, z in S, m
 
 
 class MeshSurface:
-    """
-    A mesh as a true surface.
-
-    Parameters
-    ----------
-    probe : Probe
-    """
+    """A mesh as a true surface."""
 
     def __init__(self, probe: Probe) -> None:
         self._corners = probe.vertices[probe.faces]

@@ -43,7 +43,6 @@ def run_cell(cell: Cell, *, timed: bool = True) -> dict[str, Any]:
 
     Parameters
     ----------
-    cell : Cell
     timed : bool
         Whether to measure times, too.
 

@@ -27,16 +27,9 @@ _VARIED = ("probe", "facets", "force", "angle", "torsion", "noise", "filter")
 
 @dataclass(frozen=True)
 class Finding:
-    """
-    One conclusion of both sweeps.
+    """One conclusion of both sweeps."""
 
-    Attributes
-    ----------
-    what, small, large : str
-        What it is about, and what each says.
-    same : bool
-    """
-
+    # what, small, large: what it is about, and what each says
     what: str
     small: str
     large: str

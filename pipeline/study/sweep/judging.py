@@ -30,7 +30,6 @@ def bound_of(touches: Touches, sigmas: Float) -> Float:
 
     Parameters
     ----------
-    touches : Touches
     sigmas : (6,)
         Standard deviations of Fx Fy Fz Mx My Mz, N and N·m.
     """
@@ -53,7 +52,6 @@ def judged(batch: Batch, touches: Touches, bound: Float) -> dict[str, Any]:
 
     Parameters
     ----------
-    batch : Batch
     touches : Touches
         The truth, row by row.
     bound : (n,)

@@ -45,7 +45,6 @@ def make(results: Results, folder: Path) -> str:
 
     Parameters
     ----------
-    results : Results
     folder : Path
         For the pictures.
 

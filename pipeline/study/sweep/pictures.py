@@ -37,25 +37,14 @@ _FINE = 1_000  # facets: below, the mesh alone is far off
 
 @dataclass(frozen=True)
 class Panel:
-    """
-    One touch that went astray.
+    """One touch that went astray."""
 
-    Attributes
-    ----------
-    mesh : dict
-        Of `packed_mesh`.
-    title : str
-    true, found : list of float
-        Points, S, m.
-    force : list of float
-        On the probe, S, N.
-    """
-
-    mesh: Mapping[str, str]
+    mesh: Mapping[str, str]  # of `packed_mesh`
     title: str
+    # true, found: points, S, m
     true: list[float]
     found: list[float]
-    force: list[float]
+    force: list[float]  # on the probe, S, N
 
 
 def astray(rows: Sequence[Row], meshes: Mapping[str, Mapping[str, str]]) -> list[list[Panel]]:

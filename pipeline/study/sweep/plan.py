@@ -31,40 +31,19 @@ Arm = Annotated[float, Field(ge=0, le=0.1, allow_inf_nan=False)]
 
 @dataclass(frozen=True)
 class Cell:
-    """
-    One combination of everything that is varied.
+    """One combination of everything that is varied."""
 
-    Attributes
-    ----------
-    method : str
-        Of `contactbench.pipeline.contact.methods.METHODS`.
-    probe : str
-        Name of a bundled probe, or path of a prepared one.
-    facets : int
-        Asked for; what there is may differ by a few.
-    force : float
-        |F|, N.
-    angle : float
-        Between the force and the normal, degrees.
-    torsion : float
-        Standard deviation of the torque about the normal over |F|, m.
-    noise, filter : str
-        Of `NOISES` and `FILTERS`.
-    touches : int
-    seed : int
-        Of the plan.
-    """
-
-    method: str
-    probe: str
-    facets: int
-    force: float
-    angle: float
-    torsion: float
+    method: str  # of `contactbench.pipeline.contact.methods.METHODS`
+    probe: str  # name of a bundled probe, or path of a prepared one
+    facets: int  # asked for; what there is may differ by a few
+    force: float  # |F|, N
+    angle: float  # between the force and the normal, degrees
+    torsion: float  # standard deviation of the torque about the normal over |F|, m
+    # noise, filter: of `NOISES` and `FILTERS`
     noise: str
     filter: str
     touches: int
-    seed: int
+    seed: int  # of the plan
 
     @property
     def key(self) -> str:

@@ -27,27 +27,15 @@ _TOGETHER = 24  # cells of a task: few enough that little is lost when it is can
 
 @dataclass(frozen=True)
 class Swept:
-    """
-    What a run did.
+    """What a run did."""
 
-    Attributes
-    ----------
-    results : Path or None
-        The Parquet file; None: it was cancelled before all was done.
-    cells, computed, failed : int
-        All of them, those computed now, and those that could not be.
-    left_out : tuple of str
-        Meshes that a file cannot be made into, and why.
-    faults : tuple of str
-        What could not be computed, and why.
-    """
-
-    results: Path | None
+    results: Path | None  # the Parquet file; None: it was cancelled before all was done
+    # cells, computed, failed: all of them, those computed now, and those that could not be
     cells: int
     computed: int
     failed: int
-    left_out: tuple[str, ...] = ()
-    faults: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()  # meshes that a file cannot be made into, and why
+    faults: tuple[str, ...] = ()  # what could not be computed, and why
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
@@ -73,7 +61,6 @@ def run(
 
     Parameters
     ----------
-    plan : Plan
     out : Path
         Folder; what is done in it is not done again, but what failed.
     command : str

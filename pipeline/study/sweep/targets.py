@@ -24,14 +24,7 @@ _SPREAD = 0.5
 
 @dataclass(frozen=True)
 class Target:
-    """
-    A figure that should be reached.
-
-    Attributes
-    ----------
-    what, measured : str
-    met : bool
-    """
+    """A figure that should be reached."""
 
     what: str
     measured: str

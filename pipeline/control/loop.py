@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from contactbench.pipeline.control.arms import CartesianMount
 from contactbench.pipeline.control.axes import cross
-from contactbench.pipeline.control.faults import FaultyLine, ScriptedFault
 from contactbench.pipeline.control.states import State
 from contactbench.pipeline.control.trace import STATES, Trace
 from contactbench.pipeline.devices.sample import Status, WrenchSample
@@ -29,11 +29,21 @@ if TYPE_CHECKING:
 WARM_S = 3600.0  # a sensor is used warm
 _LONGEST_S = 3600.0
 Watch = Callable[["Command", "Loop"], bool | None]
+Line = Callable[[WrenchSample], WrenchSample | None]
 
 
 def arm_of(scene: MovedScene) -> Arm:
     """Return what carries the probe of a scene, as a controller sees it."""
     return scene.robot if isinstance(scene, ArmScene) else CartesianMount()
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """What a closed loop is made of."""
+
+    scene: MovedScene
+    controller: Controller
+    sensor: SensorModel
 
 
 class Loop:
@@ -42,8 +52,8 @@ class Loop:
 
     Parameters
     ----------
-    faults : sequence of ScriptedFault, optional
-        On the way from the sensor to the controller.
+    line : callable, optional
+        What arrives of a sample on its way from the sensor to the controller; None: nothing.
     switched_on : float
         How long before the scene began the sensor was switched on, s.
     """
@@ -53,11 +63,11 @@ class Loop:
         scene: MovedScene,
         controller: Controller,
         sensor: SensorModel,
-        faults: Sequence[ScriptedFault] = (),
+        line: Line | None = None,
         switched_on: float = WARM_S,
     ) -> None:
         self.scene, self.controller, self.sensor = scene, controller, sensor
-        self._line, self._on = FaultyLine(faults), switched_on
+        self._line, self._on = line, switched_on
         self._arm = arm_of(scene)
         self._period, self._rate = controller.settings.period, sensor.settings.rate
         self._periods = self._read = 0
@@ -115,7 +125,7 @@ class Loop:
         sample = WrenchSample(
             self.scene.time, (row[0], row[1], row[2]), (row[3], row[4], row[5]), self._read, status
         )
-        return self._line.carry(sample), moment.force
+        return self._line(sample) if self._line else sample, moment.force
 
     def _note(self, command: Command, peak: float, took: tuple[float, float]) -> None:
         scene = self.scene
@@ -171,7 +181,7 @@ def run_loop(
     sensor: SensorModel,
     seconds: float,
     *,
-    faults: Sequence[ScriptedFault] = (),
+    line: Line | None = None,
     stop_after: float | None = None,
     watch: Watch | None = None,
 ) -> Trace:
@@ -180,7 +190,7 @@ def run_loop(
 
     Parameters
     ----------
-    scene, controller, sensor, faults
+    scene, controller, sensor, line
         As of `Loop`.
     seconds : float
         How long, s; it ends before, once the controller stands still for good.
@@ -198,7 +208,7 @@ def run_loop(
     """
     if not 0 < seconds <= _LONGEST_S:
         raise InputError(f"closed loop: {seconds} s: give a time above 0, up to {_LONGEST_S:g} s.")
-    loop = Loop(scene, controller, sensor, faults)
+    loop = Loop(scene, controller, sensor, line)
     begin = scene.time
     while scene.time < begin + seconds - 1e-9:
         if stop_after is not None and scene.time - begin >= stop_after:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +11,7 @@ from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
 from contactbench.pipeline.config.runtime.values import gates_of
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import Foundation
-from contactbench.pipeline.control.loop import arm_of
+from contactbench.pipeline.control.loop import Rig, arm_of
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import (
@@ -37,15 +36,6 @@ ROBOTS = ("virtual://arm", "virtual://platform")
 _FASTEST_HZ = 1000.0
 
 
-@dataclass(frozen=True, eq=False)
-class VirtualRobot:
-    """What a closed loop is made of: see `run_loop`."""
-
-    scene: MovedScene
-    controller: Controller
-    sensor: SensorModel
-
-
 def virtual_robot(
     config: RuntimeConfig,
     address: str = ROBOTS[0],
@@ -57,7 +47,7 @@ def virtual_robot(
     friction: float = 0.1,
     quaternion_ES: ArrayLike | None = None,
     seed: int = 0,
-) -> VirtualRobot:
+) -> Rig:
     """
     Make a robot that a bundle fits.
 
@@ -101,7 +91,7 @@ def virtual_robot(
         method=method,
         variant=variant,
     )
-    return VirtualRobot(scene, controller, SensorModel(_sensor(config, force_bias, torque_bias), rng))
+    return Rig(scene, controller, SensorModel(_sensor(config, force_bias, torque_bias), rng))
 
 
 def check_address(address: str) -> None:

@@ -7,6 +7,7 @@ is what a pose's mean reading is made of.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,6 +15,8 @@ from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel, PoseNoise, PoseSample
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY
+from contactbench.pipeline.contact import WrenchNoise
+from contactbench.pipeline.simulation.sensor_model import SensorSettings, preset
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,6 +25,31 @@ Range = tuple[float, float]
 
 _TOOL_LENGTH = (0.02, 0.15)  # m, of the centre of mass along the sensor's z axis
 _LEVER = 0.15  # m, at which a hand bumps the tool
+
+
+@dataclass(frozen=True, eq=False)
+class LoadedSensor:
+    """A sensor with something on it that weighs."""
+
+    load: GravityModel  # weight in the world W, centre of mass, and biases of the cold sensor
+    preset: str = "paper"  # figures of the sensor, but for its biases
+
+    @cached_property
+    def settings(self) -> SensorSettings:
+        """The sensor: the preset with the biases of this one."""
+        return replace(
+            preset(self.preset), bias=np.concatenate([self.load.force_bias, self.load.torque_bias])
+        )
+
+    def noise(self, left: float = 1.0) -> WrenchNoise:
+        """Return that of one reading, with the steps of the readings; `left`: the share that a filter leaves."""
+        sigma = left * np.sqrt(self.settings.noise**2 + self.settings.resolution**2 / 12)
+        return WrenchNoise(sigma[:3], sigma[3:])
+
+    def weight(self, R_WS: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return what a perfect sensor reads of the load at rest, (n, 6), at orientations (n, 3, 3)."""
+        bias = np.concatenate([self.load.force_bias, self.load.torque_bias])
+        return np.asarray(self.load.predict(R_WS) - bias)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,13 +80,6 @@ def draw_load(rng: np.random.Generator, mass: Range = (0.1, 2.0)) -> GravityMode
     )
 
 
-def draw_noise(
-    rng: np.random.Generator, force: Range = (0.02, 0.2), torque: Range = (0.0005, 0.01)
-) -> PoseNoise:
-    """Draw the standard deviations of a pose's mean, N and N·m, uniform."""
-    return PoseNoise(rng.uniform(*force), rng.uniform(*torque))
-
-
 def weigh(
     truth: GravityModel, R_WS: NDArray[np.float64], noise: PoseNoise, rng: np.random.Generator
 ) -> Weighing:
@@ -66,28 +87,6 @@ def weigh(
     readings = truth.predict(R_WS) + noise.sigmas * rng.standard_normal((len(R_WS), 6))
     poses = tuple(PoseSample(R, w[:3], w[3:]) for R, w in zip(R_WS, readings, strict=True))
     return Weighing(truth, noise, poses, np.zeros(len(poses), dtype=bool))
-
-
-def draw_weighing(
-    rng: np.random.Generator,
-    *,
-    poses: tuple[int, int] = (4, 12),
-    mass: Range = (0.1, 2.0),
-    force_noise: Range = (0.02, 0.2),
-    torque_noise: Range = (0.0005, 0.01),
-) -> Weighing:
-    """Draw a load, its noise, and orientations spread over all rotations.
-
-    Parameters
-    ----------
-    poses : (low, high)
-        How many, both included.
-    mass, force_noise, torque_noise : (low, high)
-        kg, N and N·m, uniform.
-    """
-    count = int(rng.integers(poses[0], poses[1] + 1))
-    R_WS = Rotation.random(count, rng).as_matrix()
-    return weigh(draw_load(rng, mass), R_WS, draw_noise(rng, force_noise, torque_noise), rng)
 
 
 def bump(weighing: Weighing, share: float, rng: np.random.Generator, force: Range = (2.0, 20.0)) -> Weighing:

@@ -376,7 +376,7 @@ def rivals(
     """
     from contactbench.pipeline.study.pages import publish
     from contactbench.pipeline.study.rivals import run as study
-    from contactbench.pipeline.study.rivals.verdicts import duels
+    from contactbench.pipeline.study.rivals.rows import duels
 
     sizes = _sized(study.QUICK if quick else study.Sizes(), probes=probe, rounds=rounds)
     make_folder(out)

@@ -88,7 +88,7 @@ def chapter(
 def png(figure: Any) -> bytes:
     """Return a Matplotlib figure as a PNG image; the same figure gives the same bytes."""
     data = BytesIO()
-    figure.savefig(data, format="png", metadata={"Software": None})
+    figure.savefig(data, format="png", metadata={"Software": None}, pil_kwargs={"optimize": True})
     return data.getvalue()
 
 

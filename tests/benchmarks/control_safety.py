@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from benchmarks.faulty_line import FaultKind, FaultyLine, ScriptedFault
 from benchmarks.trials import in_processes
 
 from contactbench import assets
-from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.loop import run_loop
 from contactbench.pipeline.control.settings import ControlSettings, Variant
@@ -157,7 +157,12 @@ def run_start(start: Start) -> End:
     )
     try:
         trace = run_loop(
-            rig.scene, rig.controller, rig.sensor, _END_S, faults=start.faults, stop_after=_STOP_S
+            rig.scene,
+            rig.controller,
+            rig.sensor,
+            _END_S,
+            line=FaultyLine(start.faults).carry,
+            stop_after=_STOP_S,
         )
     except PhysicsError:
         nothing = float("nan")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_noise, draw_weighing
 
 from contactbench.pipeline.calibration import Calibration, GravityModel, Level, calibrate
 from contactbench.pipeline.calibration.fit import parameter_covariance
@@ -17,14 +18,7 @@ from contactbench.pipeline.calibration.reachable import by_robot
 from contactbench.pipeline.calibration.suggest import plan_error, plan_poses
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.robot import Robot
-from contactbench.pipeline.simulation.weighing import (
-    Weighing,
-    bump,
-    draw_load,
-    draw_noise,
-    draw_weighing,
-    weigh,
-)
+from contactbench.pipeline.simulation.weighing import Weighing, bump, draw_load, weigh
 from contactbench.pipeline.study.report import Figure, Report
 from contactbench.pipeline.timing import time_calls
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from benchmarks.trials import share
 from scipy.spatial.transform import Rotation
+from weighing_files import draw_weighing
 
 from contactbench import assets
 from contactbench.pipeline.calibration import GravityModel, calibrate
@@ -18,7 +19,6 @@ from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise
 from contactbench.pipeline.simulation.sensor_model import preset
 from contactbench.pipeline.simulation.virtual.markers import markers as bundled_markers
-from contactbench.pipeline.simulation.weighing import draw_weighing
 from contactbench.pipeline.study.report import Figure, Report
 from contactbench.pipeline.verification.figures import Cause
 from contactbench.pipeline.verification.markers import make_markers

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+from benchmarks.reproduce.tilt_bound import tilt_bound
 
-from contactbench.pipeline.control.bounds import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS, Foundation
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.tilt import Reading, Tilt

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from benchmarks.faulty_line import FaultKind, FaultyLine, ScriptedFault
 
-from contactbench.pipeline.control.faults import FaultKind, ScriptedFault
 from contactbench.pipeline.control.loop import Loop, run_loop
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.control.states import State
@@ -83,7 +83,7 @@ def test_csv_has_a_row_for_each_period(whole):
 
 def test_a_dropout_has_it_hold_and_go_back():
     dropout = ScriptedFault(FaultKind.DROPOUT, 1.5, float("inf"))
-    trace = run(6.0, faults=(dropout,))
+    trace = run(6.0, line=FaultyLine((dropout,)).carry)
     assert trace.ended is State.SAFE
     later = trace.between(1.5 + 0.1)
     assert not later.was(State.TRACK).any()

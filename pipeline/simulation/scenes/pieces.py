@@ -10,8 +10,6 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes.physics import physics
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
@@ -96,11 +94,3 @@ def add_facets(
             name=name, uservert=corners.ravel(), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
         )
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname=name, **geometry)
-
-
-def markers_from(points_S: Sequence[Sequence[float]], probe: Probe) -> NDArray[np.float64]:
-    """Return points (n, 3) projected on a probe's surface, m."""
-    from contactbench.pipeline.kernel import SurfaceIndex
-
-    index = SurfaceIndex(probe.vertices, probe.faces)
-    return np.asarray(index.closest(np.ascontiguousarray(points_S, dtype=np.float64))[2])

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from itertools import pairwise
+from dataclasses import asdict, dataclass, field
+from functools import partial
+from itertools import pairwise, product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,11 +15,13 @@ from contactbench.pipeline.study.confidence import cases
 from contactbench.pipeline.study.stability import check, title_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from rich.table import Table
 
     from contactbench.pipeline.study.confidence.cases import Bools, Float, Measured
+
+    Bounds = tuple[float | None, float | None]
 
 KIND = "confidence"
 PARTS = {
@@ -156,69 +159,85 @@ def run(
         raise InputError(f"seed: {seed} is negative: give at least 0.")
     check(names)
     sizes, rows = sizes or Sizes(), list[Row]()
-    for part, measure in _MEASURES.items():
-        progress(PARTS[part])
-        rows += measure(tuple(names), sizes, seed)
+    tried = list(_cases(names, sizes))
+    for part, title in PARTS.items():
+        progress(title)
+        if part == "reliability":
+            rows += _reliability(names, sizes, seed)
+        elif part == "pruning":
+            rows += _pruning(names, sizes, seed)
+        else:
+            rows += (row for case in tried if case.part == part for row in case.rows(sizes, seed))
     return ConfidenceReport(tuple(names), sizes, seed, tuple(rows))
 
 
 # ---- the parts -----------------------------------------------------------------------------------------
 
 
-def _fin(_: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
+@dataclass(frozen=True)
+class Case:
+    """One thing that is tried with several seeds: its figures, and what the mean of each must keep."""
+
+    part: str
+    probe: str
+    name: str
+    chance: tuple[int, ...]  # beside the seed and the repetition
+    measure: Callable[[np.random.Generator], Measured]
+    bounds: Mapping[str, Bounds] = field(default_factory=dict)
+
+    def rows(self, sizes: Sizes, seed: int) -> Iterator[Row]:
+        """Sum up what several seeds gave: shares as %."""
+        measured = [self.measure(rng) for rng in _chances(sizes, seed, *self.chance)]
+        for figure in measured[0]:
+            length = figure.endswith("mean")
+            values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
+            middle = (float(values.mean()), float(values.min()), float(values.max()))
+            unit, bounds = "mm" if length else "%", self.bounds.get(figure, (None, None))
+            yield Row(self.part, self.probe, self.name, figure, unit, sizes.touches, *middle, *bounds)
+
+
+def _cases(names: Sequence[str], sizes: Sizes) -> Iterator[Case]:
+    """Give every case but the reliability and the pruning, which are no figures of several seeds."""
+    count, facets = sizes.touches, sizes.facets
+    wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
     for i, thickness in enumerate(cases.FINS_M):
         for j, (said, noise) in enumerate(cases.NOISES.items()):
-            measured = [
-                cases.fin(thickness, noise, sizes.touches, rng) for rng in _chances(sizes, seed, i, j)
-            ]
-            case = f"{1e3 * thickness:g} mm, {said} noise"
-            yield from _rows(
-                "fin", "capsule", case, sizes, measured, {"sure and over 10 mm off": (None, 0.1)}
+            name = f"{1e3 * thickness:g} mm, {said} noise"
+            yield Case("fin", "capsule", name, (i, j), partial(cases.fin, thickness, noise, count), wrong)
+    for i, probe in enumerate(name for name in names if name in PROBE_NAMES):  # their lens is known
+        measure = partial(cases.region, probe, facets, count)
+        yield Case("region", probe, "8 to 10 N", (i,), measure, {"sure, of these over 5 mm off": (None, 0.1)})
+        for (said, noise), region, pull in product(cases.NOISES.items(), (False, True), cases.PULLS_N):
+            name = f"{pull:g} N, {said} noise, {'lens declared' if region else 'no region'}"
+            pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=region)
+            # A pull of ten times the model's error is shown, not judged.
+            yield Case("pull", probe, name, (i,), pulled, wrong if pull == min(cases.PULLS_N) else {})
+    for i, probe in enumerate(names):
+        title = title_of(probe)
+        yield Case(
+            "two touches", title, "forces 1:1 to 1:3", (i,), partial(cases.two, probe, facets, count),
+            {"sure and over 5 mm from both": (None, 15.0)},
+        )  # fmt: skip
+        for (said, noise), torsion in product(cases.NOISES.items(), cases.TORSIONS_M):
+            # Of a file nobody knows how often one wrench has several answers.
+            judged = probe in PROBE_NAMES and torsion == min(cases.TORSIONS_M)
+            name = f"torsion {1e3 * torsion:g} mm, {said} noise"
+            single = partial(cases.single, probe, facets, noise, torsion, count)
+            least = 95.0 if probe == "t-shape" else 98.0
+            yield Case("one touch", title, name, (i,), single, {"sure": (least, None)} if judged else {})
+        for size, (said, noise), torsion, drift in product(
+            sizes.ellipse_facets, cases.NOISES.items(), cases.TORSIONS_M, (True, False)
+        ):
+            error = "with the model's error" if drift else "without"
+            name = f"{size:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
+            ellipse = partial(cases.ellipse, probe, size, noise, torsion, count, drift=drift)
+            # Without it the ellipse, which allows for it, holds more.
+            yield Case("ellipse", title, name, (i,), ellipse, {"inside": (92.0, 98.0)} if drift else {})
+        for torsion, force in product(cases.TORSIONS_M, cases.FORCES_N):
+            name = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
+            yield Case(
+                "error", title, name, (i,), partial(cases.errors, probe, facets, force, torsion, count)
             )
-
-
-def _region(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(_bundled(names)):
-        measured = [cases.region(name, sizes.facets, sizes.touches, rng) for rng in _chances(sizes, seed, i)]
-        bounds = {"sure, of these over 5 mm off": (None, 0.1)}
-        yield from _rows("region", name, "8 to 10 N", sizes, measured, bounds)
-
-
-def _pull(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(_bundled(names)):
-        for said, noise in cases.NOISES.items():
-            for region in (False, True):
-                for pull in cases.PULLS_N:
-                    measured = [
-                        cases.pulled(name, sizes.facets, noise, pull, sizes.touches, rng, region=region)
-                        for rng in _chances(sizes, seed, i)
-                    ]
-                    case = f"{pull:g} N, {said} noise, {'lens declared' if region else 'no region'}"
-                    # A pull of ten times the model's error is shown, not judged.
-                    wrong = {"sure and over 10 mm off": (None, 0.1)} if pull == min(cases.PULLS_N) else {}
-                    yield from _rows("pull", name, case, sizes, measured, wrong)
-
-
-def _two(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        measured = [cases.two(name, sizes.facets, sizes.touches, rng) for rng in _chances(sizes, seed, i)]
-        bounds = {"sure and over 5 mm from both": (None, 15.0)}
-        yield from _rows("two touches", name, "forces 1:1 to 1:3", sizes, measured, bounds)
-
-
-def _one(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        for said, noise in cases.NOISES.items():
-            for torsion in cases.TORSIONS_M:
-                measured = [
-                    cases.single(name, sizes.facets, noise, torsion, sizes.touches, rng)
-                    for rng in _chances(sizes, seed, i)
-                ]
-                # Of a file nobody knows how often one wrench has several answers.
-                judged = name in PROBE_NAMES and torsion == min(cases.TORSIONS_M)
-                bounds = {"sure": (95.0 if name == "t-shape" else 98.0, None)} if judged else {}
-                case = f"torsion {1e3 * torsion:g} mm, {said} noise"
-                yield from _rows("one touch", name, case, sizes, measured, bounds)
 
 
 def _reliability(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
@@ -257,35 +276,6 @@ def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Row]:
         yield Row("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
 
 
-def _ellipse(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        for facets in sizes.ellipse_facets:
-            for said, noise in cases.NOISES.items():
-                for torsion in cases.TORSIONS_M:
-                    for drift in (True, False):
-                        measured = [
-                            cases.ellipse(name, facets, noise, torsion, sizes.touches, rng, drift=drift)
-                            for rng in _chances(sizes, seed, i)
-                        ]
-                        error = "with the model's error" if drift else "without"
-                        case = f"{facets:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
-                        # Without it the ellipse, which allows for it, holds more.
-                        bounds = {"inside": (92.0, 98.0)} if drift else {}
-                        yield from _rows("ellipse", name, case, sizes, measured, bounds)
-
-
-def _error(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
-    for i, name in enumerate(names):
-        for torsion in cases.TORSIONS_M:
-            for force in cases.FORCES_N:
-                measured = [
-                    cases.errors(name, sizes.facets, force, torsion, sizes.touches, rng)
-                    for rng in _chances(sizes, seed, i)
-                ]
-                case = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
-                yield from _rows("error", name, case, sizes, measured, {})
-
-
 def _pruning(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
     for i, name in enumerate(names):
         found = cases.pruning(name, _PRUNED_FACETS, sizes.pruned, np.random.default_rng((seed, i)))
@@ -294,49 +284,5 @@ def _pruning(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
         yield Row("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
 
 
-_MEASURES: dict[str, Callable[[Sequence[str], Sizes, int], Iterable[Row]]] = {
-    "fin": _fin,
-    "region": _region,
-    "pull": _pull,
-    "two touches": _two,
-    "one touch": _one,
-    "reliability": _reliability,
-    "ellipse": _ellipse,
-    "error": _error,
-    "pruning": _pruning,
-}
-
-
-def _rows(
-    part: str,
-    name: str,
-    case: str,
-    sizes: Sizes,
-    measured: Sequence[Measured],
-    bounds: Mapping[str, tuple[float | None, float | None]],
-) -> Iterator[Row]:
-    """Sum up what several seeds gave: shares as %."""
-    for figure in measured[0]:
-        length = figure.endswith("mean")
-        values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
-        middle = (float(values.mean()), float(values.min()), float(values.max()))
-        unit = "mm" if length else "%"
-        yield Row(
-            part,
-            title_of(name),
-            case,
-            figure,
-            unit,
-            sizes.touches,
-            *middle,
-            *bounds.get(figure, (None, None)),
-        )
-
-
 def _chances(sizes: Sizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
     return (np.random.default_rng((seed, *place, i)) for i in range(sizes.seeds))
-
-
-def _bundled(names: Sequence[str]) -> list[str]:
-    """Return the probes whose lens is known."""
-    return [name for name in names if name in PROBE_NAMES]

@@ -26,9 +26,9 @@ from benchmarks.reproduce.dynamic_tables import (
     table_one,
     table_two,
 )
+from benchmarks.reproduce.tilt_bound import tilt_bound
 
 from contactbench import assets
-from contactbench.pipeline.control.bounds import tilt_bound
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
 from contactbench.pipeline.control.settings import ControlSettings, Variant
 from contactbench.pipeline.errors import InputError

@@ -18,8 +18,8 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.filtering import KalmanFilter, LowPass
 from contactbench.pipeline.simulation.scenes import PressScene, depth_for, hand_motion
 from contactbench.pipeline.simulation.sensor_model import SensorModel
+from contactbench.pipeline.study.control_rig import RATE_HZ, WARM_S, draw_sensor
 from contactbench.pipeline.study.marker_touches import model_of, truth_of
-from contactbench.pipeline.study.paper_setup import RATE_HZ, WARM_S, draw_bench
 from contactbench.pipeline.study.report import Figure, Report, Sheet
 
 if TYPE_CHECKING:
@@ -55,13 +55,13 @@ class Slide:
 
 def slide(name: str, facets: int, seconds: float, seed: int, progress: Callable[[int, int], None]) -> Slide:
     """Press, read and locate; a sample per reading of the sensor."""
-    bench = draw_bench(seed)
+    bench = draw_sensor(seed)
     motion = _hand(truth_of(name), seed)
     contacts, points = _pressed(name, round(seconds * RATE_HZ), motion, progress)
     count = len(contacts)
     R_WS = np.broadcast_to(np.eye(3), (count, 3, 3))  # the phantom moves, the probe stands
     times = WARM_S + np.arange(count) / RATE_HZ
-    weight = bench.truth.predict(R_WS) - bench.settings.bias
+    weight = bench.weight(R_WS)
     model = SensorModel(bench.settings, np.random.default_rng([seed, 4]))
     net = bench.calibration.model.compensate(R_WS, model.read(times, weight + contacts).wrenches)
     sigma = np.sqrt(bench.settings.noise**2 + bench.settings.resolution**2 / 12)

@@ -28,8 +28,8 @@ from contactbench import assets
 from contactbench.pipeline.contact import Reason
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.virtual.markers import markers
+from contactbench.pipeline.study.control_rig import POSES, draw_sensor
 from contactbench.pipeline.study.marker_touches import ACROSS, ANGLES, IN_PLANE, PERPENDICULAR, press_markers
-from contactbench.pipeline.study.paper_setup import POSES, draw_bench
 from contactbench.pipeline.study.report import Figure, Report
 
 if TYPE_CHECKING:
@@ -80,7 +80,7 @@ def measure(
 
     benches = []
     for seed in range(seeds):
-        benches.append(draw_bench(seed))
+        benches.append(draw_sensor(seed))
         step()
     results = []
     for name in names:

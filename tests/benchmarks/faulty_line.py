@@ -1,4 +1,4 @@
-"""Faults of a sensor, by a script: what a controller must survive, on its way from the sensor to it."""
+"""Faults on the line from a sensor to a controller, by a script."""
 
 from __future__ import annotations
 

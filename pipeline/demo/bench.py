@@ -92,10 +92,6 @@ def run(
     progress : callable, optional
         Told what is being done, in a few words.
 
-    Returns
-    -------
-    DemoReport
-
     Raises
     ------
     InputError

@@ -39,21 +39,11 @@ Image = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Body:
-    """One image to render.
+    """One image to render."""
 
-    Attributes
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    view : View
-        How to look at it.
-    pixels : int
-        Width of the image; the height follows from the view.
-    """
-
-    probe: str
-    view: View
-    pixels: int
+    probe: str  # one of assets.PROBE_NAMES
+    view: View  # how to look at it
+    pixels: int  # width of the image; the height follows from the view
 
 
 class PictureError(InputError):

@@ -53,39 +53,25 @@ _APART = 1.0
 
 @dataclass(frozen=True)
 class CheckResult:
-    """
-    The verification of one probe, and its bundle.
+    """The verification of one probe, and its bundle."""
 
-    Attributes
-    ----------
-    markers, touches : int
-        Markers with an accepted touch, and accepted touches.
-    rejected : tuple of str
-        Touches that were not accepted, each with the reason.
-    mean_mm, max_mm : float or None
-        Errors of accepted touches; None: there is none.
-    failed : tuple of str
-        Why the verification failed; empty if it passed.
-    refused : str or None
-        Why the bundle was not exported or may not be run; None: it is sound and verified, or was not tried.
-    samples, located : int
-        Readings that went through the bundle, and those with a contact that is sure.
-    compared : int
-        Accepted touches for which the bundle had a sure contact at the moment of their decision.
-    apart_mm, sigma_mm : float or None
-        How far these contacts are from the verification's, on average, and how far the bundle says it may be off.
-    """
-
+    # markers, touches: markers with an accepted touch, and accepted touches
     markers: int
     touches: int
-    rejected: tuple[str, ...]
+    rejected: tuple[str, ...]  # touches that were not accepted, each with the reason
+    # mean_mm, max_mm: errors of accepted touches; None: there is none
     mean_mm: float | None
     max_mm: float | None
-    failed: tuple[str, ...]
+    failed: tuple[str, ...]  # why the verification failed; empty if it passed
+    # why the bundle was not exported or may not be run; None: it is sound and verified, or was not tried
     refused: str | None
+    # samples, located: readings that went through the bundle, and those with a contact that is sure
     samples: int = 0
     located: int = 0
+    # accepted touches for which the bundle had a sure contact at the moment of their decision
     compared: int = 0
+    # apart_mm, sigma_mm: how far these contacts are from the verification's, on average, and how far the
+    # bundle says it may be off
     apart_mm: float | None = None
     sigma_mm: float | None = None
 
@@ -158,10 +144,8 @@ def check(folder: Path, name: str, tool: Tool) -> CheckResult:
 
     Parameters
     ----------
-    folder : Path
     name : str
         One of assets.PROBE_NAMES.
-    tool : Tool
 
     Raises
     ------

@@ -67,10 +67,8 @@ def write_marked(file: Path, rows: Sequence[tuple[float, int, float]], moments: 
 
     Parameters
     ----------
-    file : Path
     rows : sequence of (time, marker, tilt)
         s, from 1, degrees.
-    moments : sequence of Moment
     """
     columns = ("t", "marker", "tilt", "x", "y", "z", "nx", "ny", "nz", *_CHANNELS, "k")
     cells = (

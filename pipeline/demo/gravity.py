@@ -18,31 +18,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class GravityResult:
-    """How the calibration did.
+    """How the calibration did."""
 
-    Attributes
-    ----------
-    poses : int
-        Found in the recording.
-    mass, mass_sigma, true_mass : float
-        kg.
-    contact_error_mm : float
-        The calibration's share of the contact error, worst 1 sigma.
-    verdict : str
-    bumped, named : tuple of str
-        Poses that were bumped, and that the calibration named.
-    far : float
-        Squared distance of the parameters from the truth, over what 95 % of calibrations stay within.
-    """
-
-    poses: int
+    poses: int  # found in the recording
+    # mass, mass_sigma, true_mass: kg
     mass: float
     mass_sigma: float
     true_mass: float
-    contact_error_mm: float
+    contact_error_mm: float  # the calibration's share of the contact error, worst 1 sigma
     verdict: str
+    # bumped, named: poses that were bumped, and that the calibration named
     bumped: tuple[str, ...]
     named: tuple[str, ...]
+    # squared distance of the parameters from the truth, over what 95 % of calibrations stay within
     far: float
 
     @property
@@ -72,8 +60,6 @@ def calibrate_folder(
 
     Parameters
     ----------
-    folder : Path
-    truth : GravityModel
     bumped : tuple of str
         Names of the poses that were bumped.
     """

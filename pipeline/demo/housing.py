@@ -38,29 +38,18 @@ _R_SP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 @dataclass(frozen=True)
 class MeshResult:
-    """How the preparation did.
+    """How the preparation did."""
 
-    Attributes
-    ----------
-    facets_before, facets : int
-        Of the housing's file, and of the probe.
-    openings : int
-        That were closed.
-    invented_share : float
-        Of the probe's area.
-    deviation_mm, true_size_mm : float
-        What 95 % of the probe's head stay within of the design, and the probe's length.
-    closed : bool
-        Whether it is one closed surface that faces outwards.
-    """
-
+    # facets_before, facets: of the housing's file, and of the probe
     facets_before: int
     facets: int
-    openings: int
-    invented_share: float
+    openings: int  # that were closed
+    invented_share: float  # of the probe's area
+    # deviation_mm, true_size_mm: what 95 % of the probe's head stay within of the design, and the probe's
+    # length
     deviation_mm: float
     true_size_mm: float
-    closed: bool
+    closed: bool  # whether it is one closed surface that faces outwards
 
     @property
     def verified(self) -> bool:

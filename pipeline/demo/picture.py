@@ -58,24 +58,12 @@ _AXES = (("x", "#d55e00"), ("y", "#009e73"), ("z", "#0072b2"))
 
 @dataclass(frozen=True, eq=False)
 class Located:
-    """What to draw on one probe.
+    """What to draw on one probe."""
 
-    Attributes
-    ----------
-    probe : str
-        One of assets.PROBE_NAMES.
-    batch : Batch
-        Answers, S, m.
-    points : (n, 3)
-        True points, S, m.
-    mean_mm : float or None
-        Mean error for the title.
-    """
-
-    probe: str
-    batch: Batch
-    points: NDArray[np.float64]
-    mean_mm: float | None
+    probe: str  # one of assets.PROBE_NAMES
+    batch: Batch  # answers, S, m
+    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    mean_mm: float | None  # mean error for the title
 
 
 def draw(located: Sequence[Located], pixels_per_inch: int = 100) -> bytes:

@@ -28,21 +28,12 @@ _STARTED_NS = 1_700_000_000 * 10**9  # any day, but always the same: the same se
 
 @dataclass(eq=False)
 class Tape:
-    """
-    What a perfect sensor and the robot would say, sample by sample.
+    """What a perfect sensor and the robot would say, sample by sample."""
 
-    Attributes
-    ----------
-    times : list of float
-        s.
-    readings : list of (6,)
-        Contact, weight and inertia, S.
-    R_WS : list of (3, 3)
-    """
-
-    times: list[float] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)  # s
+    # list of (6,): Contact, weight and inertia, S
     readings: list[NDArray[np.float64]] = field(default_factory=list)
-    R_WS: list[NDArray[np.float64]] = field(default_factory=list)
+    R_WS: list[NDArray[np.float64]] = field(default_factory=list)  # list of (3, 3)
 
     @property
     def end(self) -> float:

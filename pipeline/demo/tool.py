@@ -30,19 +30,10 @@ _USE_TILT = np.radians(45.0)
 
 @dataclass(frozen=True, eq=False)
 class Tool:
-    """
-    A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright.
+    """A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright."""
 
-    Attributes
-    ----------
-    load : GravityModel
-        Weight in the world W, centre of mass, and biases of the cold sensor.
-    R_BW : (3, 3)
-        What the robot does not know: half a degree from the identity.
-    """
-
-    load: GravityModel
-    R_BW: NDArray[np.float64]
+    load: GravityModel  # weight in the world W, centre of mass, and biases of the cold sensor
+    R_BW: NDArray[np.float64]  # (3, 3) what the robot does not know: half a degree from the identity
 
     @cached_property
     def settings(self) -> SensorSettings:

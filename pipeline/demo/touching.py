@@ -51,47 +51,23 @@ _FACING = 0.85  # cos 32°: the whole of the convex face, little of the rounding
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
-    """
-    Touches whose raw readings are in a folder's recording.csv, with the truth; one row each.
+    """Touches whose raw readings are in a folder's recording.csv, with the truth; one row each."""
 
-    Attributes
-    ----------
-    points : (n, 3)
-        True points, S, m.
-    where : (n,) str
-        The part that each is on, or how it was pressed.
-    R_WS : (n, 3, 3)
-    times : (n,) or None
-        When the filter's answer counts, s; None where every reading is a touch.
-    slipped : int
-        How many came to no rest and are left out.
-    """
-
-    points: NDArray[np.float64]
-    where: NDArray[np.str_]
-    R_WS: NDArray[np.float64]
+    points: NDArray[np.float64]  # (n, 3) True points, S, m
+    where: NDArray[np.str_]  # (n,) str The part that each is on, or how it was pressed
+    R_WS: NDArray[np.float64]  # (n, 3, 3)
+    # (n,) or None When the filter's answer counts, s; None where every reading is a touch
     times: NDArray[np.float64] | None = None
-    slipped: int = 0
+    slipped: int = 0  # how many came to no rest and are left out
 
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """
-    What locating made of touches.
+    """What locating made of touches."""
 
-    Attributes
-    ----------
-    noise : WrenchNoise
-        Of what was located: the sensor's, and what the calibration leaves uncertain.
-    wrenches : (n, 6)
-        What was located, S, N and N·m.
-    batch : Batch
-        contactbench's answers.
-    """
-
-    noise: WrenchNoise
-    wrenches: NDArray[np.float64]
-    batch: Batch
+    noise: WrenchNoise  # of what was located: the sensor's, and what the calibration leaves uncertain
+    wrenches: NDArray[np.float64]  # (n, 6) what was located, S, N and N·m
+    batch: Batch  # contactbench's answers
 
 
 def press_markers(folder: Path, name: str, tool: Tool, truth: Truth, rng: np.random.Generator) -> Pressed:

@@ -13,21 +13,14 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class View:
-    """A look at the probe with +z of S upwards on paper.
+    """A look at the probe with +z of S upwards on paper."""
 
-    Attributes
-    ----------
-    focal : (x, y, z)
-        Point of S in the middle of the paper, m.
-    azimuth, elevation : float
-        Where the camera is, degrees: azimuth from -y towards +x, elevation above the flange plane.
-    width, height : float
-        What the paper shows, mm.
-    """
-
-    focal: tuple[float, float, float]
+    focal: tuple[float, float, float]  # (x, y, z) point of S in the middle of the paper, m
+    # azimuth, elevation: where the camera is, degrees: azimuth from -y towards +x, elevation above the
+    # flange plane
     azimuth: float
     elevation: float
+    # width, height: what the paper shows, mm
     width: float
     height: float
 

@@ -41,11 +41,8 @@ def weigh_on_bench(folder: Path, tool: Tool, truth: Truth, rng: np.random.Genera
 
     Parameters
     ----------
-    folder : Path
-    tool : Tool
     truth : Truth
         The probe.
-    rng : numpy.random.Generator
 
     Returns
     -------

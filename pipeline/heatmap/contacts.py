@@ -44,51 +44,25 @@ _POINTS = Wording(
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """
-    Contacts as arrays; n of them.
+    """Contacts as arrays; n of them."""
 
-    Attributes
-    ----------
-    points : (n, 3)
-        S, m.
-    seconds : (n,)
-        How long each stands for: until the next sample, at most five usual steps.
-    sigmas : (n,)
-        Largest standard deviation of each point, m; NaN: unknown.
-    forces : (n,) or None
-        |F|, N; None: unknown.
-    duration : float
-        Of the whole recording, s.
-    left_out : dict of str to int
-        Samples without a contact, by reason.
-    notes : tuple of str
-        Sentences.
-    counted : {"samples", "touches"}
-        What one of them is.
-    known_errors : (n,) or None
-        Distance to the marker that was touched, m; None: not known by itself.
-    settled : (n,) or None
-        Where the force was steady; None: not known.
-    times : (n,) or None
-        s since the recording's first sample, or the start of the first touch; None: not known.
-    confidences : (n,) or None
-        How sure each place is, 0 to 1; None: not known.
-    noise : WrenchNoise or None
-        Of a sample, with what the calibration leaves uncertain; None: the contacts came with theirs.
-    """
-
-    points: NDArray[np.float64]
+    points: NDArray[np.float64]  # (n, 3) S, m
+    # (n,) how long each stands for: until the next sample, at most five usual steps
     seconds: NDArray[np.float64]
-    sigmas: NDArray[np.float64]
-    forces: NDArray[np.float64] | None
-    duration: float
-    left_out: dict[str, int]
-    notes: tuple[str, ...] = ()
-    counted: str = "samples"
+    sigmas: NDArray[np.float64]  # (n,) largest standard deviation of each point, m; NaN: unknown
+    forces: NDArray[np.float64] | None  # (n,) or None |F|, N; None: unknown
+    duration: float  # of the whole recording, s
+    left_out: dict[str, int]  # samples without a contact, by reason
+    notes: tuple[str, ...] = ()  # sentences
+    counted: str = "samples"  # what one of them is
+    # (n,) or None Distance to the marker that was touched, m; None: not known by itself
     known_errors: NDArray[np.float64] | None = None
-    settled: NDArray[np.bool_] | None = None
+    settled: NDArray[np.bool_] | None = None  # (n,) or None Where the force was steady; None: not known
+    # of a sample, with what the calibration leaves uncertain; None: the contacts came with theirs
     noise: WrenchNoise | None = None
+    # (n,) or None s since the recording's first sample, or the start of the first touch; None: not known
     times: NDArray[np.float64] | None = None
+    # (n,) or None How sure each place is, 0 to 1; None: not known
     confidences: NDArray[np.float64] | None = None
 
     @property
@@ -184,13 +158,10 @@ def locate_recording(
 
     Parameters
     ----------
-    file : path
     probe : Probe
         In S.
-    model : GravityModel
     noise : WrenchNoise, optional
         Of a sample; measured in the recording by default. What the calibration leaves uncertain is added.
-    gates : Gates, optional
     R_ES : (3, 3), optional
         Orientation of the sensor in the flange.
     delay : float

@@ -44,22 +44,11 @@ _INK, _TRACK, _BAR = (34, 34, 34), (222, 224, 228), (0, 90, 156)
 
 @dataclass(frozen=True)
 class FilmSettings:
-    """
-    How contacts are shown through time.
+    """How contacts are shown through time."""
 
-    Attributes
-    ----------
-    speed : float
-        Seconds of the recording in a second of the film, 0.1 to 50.
-    window : float or None
-        s: only the last seconds are shown; None: what was touched stays.
-    pixels : int
-        Width of each of the two looks.
-    """
-
-    speed: float = 1.0
-    window: float | None = None
-    pixels: int = 400
+    speed: float = 1.0  # seconds of the recording in a second of the film, 0.1 to 50
+    window: float | None = None  # s: only the last seconds are shown; None: what was touched stays
+    pixels: int = 400  # width of each of the two looks
 
     def check(self) -> None:
         """Refuse what makes no film; HeatmapError."""
@@ -125,10 +114,8 @@ def write_film(
     ----------
     file : Path
         Ends in .mp4 or .gif.
-    playback : Playback
     selection : Selection
         Its time window is what the film runs through.
-    settings : FilmSettings, optional
     progress, cancelled : callable, optional
         Gets the share that is done; says whether to stop.
 

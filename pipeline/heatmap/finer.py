@@ -38,7 +38,6 @@ def finer(probe: Probe, edge: float = EDGE) -> Probe:
 
     Parameters
     ----------
-    probe : Probe
     edge : float
         The longest edge, m; longer where there would be more than 100,000 facets.
 

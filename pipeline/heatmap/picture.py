@@ -52,7 +52,6 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
 
     Parameters
     ----------
-    heatmap : Heatmap
     pixels : int
         Width of each of the two looks.
     note : str

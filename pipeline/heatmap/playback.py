@@ -41,39 +41,20 @@ _PAUSE = 0.5  # s without a contact: the next one is another touch
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """
-    A heatmap at one moment.
+    """A heatmap at one moment."""
 
-    Attributes
-    ----------
-    values : (v,)
-        In `unit`; NaN: no data.
-    unit : str
-    contacts : int
-        How many are in it.
-    """
-
-    values: NDArray[np.float64]
+    values: NDArray[np.float64]  # (v,) in `unit`; NaN: no data
     unit: str
-    contacts: int
+    contacts: int  # how many are in it
 
 
 @dataclass(frozen=True)
 class Value:
-    """
-    What a frame says of one place.
+    """What a frame says of one place."""
 
-    Attributes
-    ----------
-    value : float
-        In `unit`; NaN: no data.
-    plus_minus : float
-        1 sigma, in `unit`: of a density, by the number of touches behind it; of a mean, the spread of what it is
-        the mean of; of a peak, the sensor's noise; NaN: unknown.
-    unit : str
-    """
-
-    value: float
+    value: float  # in `unit`; NaN: no data
+    # 1 sigma, in `unit`: of a density, by the number of touches behind it; of a mean, the spread of what it
+    # is the mean of; of a peak, the sensor's noise; NaN: unknown
     plus_minus: float
     unit: str
 
@@ -87,7 +68,6 @@ class Playback:
 
     Parameters
     ----------
-    probe : Probe
     contacts : Contacts
         In order of time; see `in_order`.
     bandwidth : float, optional

@@ -32,32 +32,18 @@ OUTSIDE_TIME, OUTSIDE_FORCE = "outside the time window", "outside the force rang
 
 @dataclass(frozen=True)
 class Selection:
-    """
-    What to show of contacts.
-
-    Attributes
-    ----------
-    quantity : str
-    normalisation : str
-        Of a density.
-    bandwidth : float or None
-        Standard deviation of the Gaussian, m; None: that of the contacts.
-    start, end : float or None
-        Window of time, s, both ends in it; None: no limit.
-    least_force, most_force : float or None
-        Range of |F|, N, both ends in it; None: no limit.
-    by_confidence : bool
-        Each contact counts as much as its place is sure.
-    """
+    """What to show of contacts."""
 
     quantity: Quantity = "density"
-    normalisation: Normalisation = "contacts"
-    bandwidth: float | None = None
+    normalisation: Normalisation = "contacts"  # of a density
+    bandwidth: float | None = None  # standard deviation of the Gaussian, m; None: that of the contacts
+    # start, end: window of time, s, both ends in it; None: no limit
     start: float | None = None
     end: float | None = None
+    # least_force, most_force: range of |F|, N, both ends in it; None: no limit
     least_force: float | None = None
     most_force: float | None = None
-    by_confidence: bool = False
+    by_confidence: bool = False  # each contact counts as much as its place is sure
 
     @property
     def timed(self) -> bool:

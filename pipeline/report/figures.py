@@ -81,11 +81,8 @@ def draw(
     ----------
     touches : sequence of TouchFigure
         Accepted ones.
-    per_marker : sequence of Summary
     views : sequence of MarkerView
         The markers whose scatter is shown.
-    limits : Limits
-    diagnosis : Diagnosis or None
     """
     repeated = [each for each in per_marker if each.touches >= FEWEST_REPEATS and each.scatter_mm is not None]
     with _style():

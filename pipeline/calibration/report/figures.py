@@ -103,7 +103,6 @@ def draw(calibration: Calibration, sigmas: NDArray[np.float64] | None, noise: st
 
     Parameters
     ----------
-    calibration : Calibration
     sigmas : (6,) or None
         Noise to add to the calibration's share on the map, N and N·m; None: no map.
     noise : str

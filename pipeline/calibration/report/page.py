@@ -79,7 +79,6 @@ def write_report(
 
     Parameters
     ----------
-    calibration : Calibration
     file : path
         Appears as a whole; what was there stays until then.
     title : str

@@ -16,8 +16,7 @@ from contactbench.pipeline.calibration.files.capture_file import is_recording
 from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points
-from contactbench.pipeline.heatmap.touched import touches_of
+from contactbench.pipeline.heatmap.contacts import locate_recording, read_contacts, read_points, touches_of
 from contactbench.pipeline.heatmap.windowing import in_order
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 from contactbench.pipeline.mesh.sidecar import load_probe_file

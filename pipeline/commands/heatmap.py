@@ -106,7 +106,7 @@ def found_contacts(
         return read_contacts(files.contacts, wrenches)
     if wrenches is not None:
         raise typer.BadParameter("--wrenches is for a CSV file of contacts; a verification has forces.")
-    from contactbench.pipeline.heatmap.touched import touches_of
+    from contactbench.pipeline.heatmap.contacts import touches_of
     from contactbench.pipeline.report.making import check_sources, sha256_of
     from contactbench.pipeline.report.reading import read_verification
 

@@ -52,32 +52,62 @@ class Bells:
         self._source_of, middles = _cells(probe, nearest, faces, _CELL * bandwidth)
         _, self._faces, self._middles = index.closest(middles)
 
-    def spread(self, weights: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the density (v,) of weights (n,), in units of a weight per m²; its integral is their sum."""
-        spread: NDArray[np.float64] = self._bells.T @ self._gathered(weights)
+    def spread(
+        self, weights: NDArray[np.float64], rows: NDArray[np.intp] | None = None
+    ) -> NDArray[np.float64]:
+        """
+        Return the density (v,) of weights (n,), in units of a weight per m²; its integral is their sum.
+
+        With `rows` (k,), the weights (k,) are those of these contacts, and only they count; so too below.
+        """
+        spread: NDArray[np.float64] = self._matrix @ np.bincount(
+            self._sources(rows), weights, minlength=len(self._faces)
+        )
         return spread
 
-    def mean(self, values: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
+    def mean(
+        self,
+        values: NDArray[np.float64],
+        weights: NDArray[np.float64],
+        rows: NDArray[np.intp] | None = None,
+    ) -> NDArray[np.float64]:
         """Return the mean (v,) of values (n,) under the bells; NaN beyond their reach."""
-        total = self.spread(weights)
+        total = self.spread(weights, rows)
         with np.errstate(invalid="ignore", divide="ignore"):
-            mean = self.spread(weights * values) / total
+            mean = self.spread(weights * values, rows) / total
         # A mean lies among its values; so far out in the bells rounding may say otherwise.
         return np.where(total > 0, np.clip(mean, values.min(initial=0), values.max(initial=0)), np.nan)
 
-    def peak(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def peak(self, values: NDArray[np.float64], rows: NDArray[np.intp] | None = None) -> NDArray[np.float64]:
         """Return the largest value (v,) within one bandwidth, and at the corners of its facet; else NaN."""
         largest = np.full(len(self._faces), -np.inf)
-        np.maximum.at(largest, self._source_of, values)
-        peak = np.full(len(self.areas), -np.inf)
+        np.maximum.at(largest, self._sources(rows), values)
+        sources, vertices, begins = self._near
+        peak = np.full(len(self.areas), np.nan)
+        found = np.maximum.reduceat(largest[sources], begins)
+        peak[vertices] = np.where(np.isfinite(found), found, np.nan)
+        return peak
+
+    def at(self, vertex: int, rows: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Return how high the bell of each of these contacts (k,) is at a vertex, 1/m²."""
+        begin, end = self._matrix.indptr[vertex : vertex + 2]
+        heights = np.zeros(len(self._faces))
+        heights[self._matrix.indices[begin:end]] = self._matrix.data[begin:end]
+        return np.asarray(heights[self._sources(rows)])
+
+    def _sources(self, rows: NDArray[np.intp] | None) -> NDArray[np.intp]:
+        return self._source_of if rows is None else self._source_of[rows]
+
+    @cached_property
+    def _near(self) -> tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.intp]]:
+        """Sources within one bandwidth in the order of the vertices, these vertices, and where each one's begin."""
         rows, vertices, distances = self._reached
         near = distances <= self._bandwidth
-        np.maximum.at(peak, vertices[near], largest[rows[near]])
-        np.maximum.at(peak, self._probe.faces[self._faces], largest[:, None])
-        return np.where(np.isfinite(peak), peak, np.nan)
-
-    def _gathered(self, weights: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.asarray(np.bincount(self._source_of, weights, minlength=len(self._faces)), dtype=np.float64)
+        corners = self._probe.faces[self._faces]
+        sources = np.concatenate([rows[near], np.repeat(np.arange(len(corners)), 3)])
+        vertices = np.concatenate([vertices[near], corners.ravel()])
+        order = np.argsort(vertices, kind="stable")
+        return sources[order], *np.unique(vertices[order], return_index=True)
 
     @cached_property
     def _reached(self) -> tuple[NDArray[np.intp], NDArray[np.int32], NDArray[np.float64]]:
@@ -93,18 +123,18 @@ class Bells:
         return np.repeat(np.arange(len(found)), counts), vertices, distances
 
     @cached_property
-    def _bells(self) -> csr_array:
-        """(sources, vertices) 1/m²; a row's integral over the surface is 1."""
+    def _matrix(self) -> csr_array:
+        """(vertices, sources) 1/m²; a column's integral over the surface is 1."""
         rows, vertices, distances = self._reached
         heights = np.exp(-0.5 * (distances / self._bandwidth) ** 2)
         lost = np.flatnonzero(np.bincount(rows, minlength=len(self._faces)) == 0)
         corners = self._probe.faces[self._faces[lost]]
-        shares = _barycentric(self._probe, corners, self._middles[lost])
+        shares = barycentric(self._probe.vertices[corners], self._middles[lost])
         rows, vertices = np.append(rows, np.repeat(lost, 3)), np.append(vertices, corners.ravel())
         heights = np.append(heights, (shares / self.areas[corners]).ravel())
         integrals = np.bincount(rows, heights * self.areas[vertices], minlength=len(self._faces))
         shape = (len(self._faces), len(self.areas))
-        return csr_array((heights / integrals[rows], (rows, vertices)), shape=shape)
+        return csr_array((heights / integrals[rows], (rows, vertices)), shape=shape).T.tocsr()
 
 
 def vertex_areas(probe: Probe) -> NDArray[np.float64]:
@@ -115,11 +145,9 @@ def vertex_areas(probe: Probe) -> NDArray[np.float64]:
     )
 
 
-def _barycentric(
-    probe: Probe, corners: NDArray[np.int32], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the weights (n, 3) of points (n, 3) on facets with these corners (n, 3)."""
-    a, b, c = np.moveaxis(probe.vertices[corners], 1, 0)
+def barycentric(corners: NDArray[np.float64], points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the weights (n, 3) of points (n, 3) on facets with these corners (n, 3, 3); none is negative."""
+    a, b, c = np.moveaxis(corners, 1, 0)
     normal = np.cross(b - a, c - a)
     parts = [np.cross(c - b, points - b), np.cross(a - c, points - c), np.cross(b - a, points - a)]
     shares = np.clip(np.column_stack([np.einsum("ij,ij->i", part, normal) for part in parts]), 0.0, None)

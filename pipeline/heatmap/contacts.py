@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from contactbench.pipeline.calibration import GravityModel
     from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.recording.tracks import FlangeTrack, WrenchTrack
+    from contactbench.pipeline.verification.figures import Verification
 
 # At these the point is surely where the wrench says.
 USED = ("ok", "vertex", "by_region")
@@ -140,6 +141,33 @@ def read_points(file: Path) -> NDArray[np.float64]:
             return 1e-3 * np.concatenate([rows.numbers for rows in table])
     except (OSError, ValueError) as error:
         raise _unread(file, error) from error
+
+
+def touches_of(verification: Verification) -> Contacts:
+    """
+    Return a verification's accepted touches, with their distances to the marker; `left_out` counts the others.
+
+    Raises
+    ------
+    HeatmapError
+        No touch was accepted.
+    """
+    used = [t for t in verification.touches if t.accepted and t.point_mm and t.distance_mm is not None]
+    if not used:
+        raise HeatmapError("the verification has no accepted touch: see its reasons, and touch again.")
+    starts = np.array([t.start_s for t in verification.touches])
+    ends = np.array([t.time_s for t in verification.touches])
+    return Contacts(
+        points=1e-3 * np.array([t.point_mm for t in used], dtype=np.float64),
+        seconds=np.array([max(t.time_s - t.start_s, 0.0) for t in used]),
+        sigmas=1e-3 * np.array([np.nan if t.predicted_mm is None else t.predicted_mm for t in used]),
+        forces=np.array([t.force_N for t in used]),
+        duration=float(ends.max() - starts.min()),
+        left_out=dict(verification.rejected),
+        counted="touches",
+        times=np.array([t.time_s for t in used]) - float(starts.min()),
+        known_errors=1e-3 * np.array([t.distance_mm for t in used], dtype=np.float64),
+    )
 
 
 def locate_recording(

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.heatmap.heatmap import Heatmap
+    from contactbench.pipeline.mesh import Probe
 
 _ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides are seen
 _MARGIN = 1.25  # of the touched part's size
@@ -74,7 +75,10 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
             axes = figure.add_axes(
                 (column * side / size[0], low / size[1], side / size[0], _HIGH * side / size[1])
             )
-            axes.imshow(render(heatmap, look, pixels), extent=(-0.5, 0.5, -_HIGH / 2, _HIGH / 2))
+            axes.imshow(
+                SurfaceView(heatmap.probe, look, pixels).drawn(heatmap),
+                extent=(-0.5, 0.5, -_HIGH / 2, _HIGH / 2),
+            )
             axes.set_axis_off()
             axes.set(xlim=(-0.5, 0.5), ylim=(-_HIGH / 2, _HIGH / 2))
             _triad(axes, look)
@@ -124,45 +128,44 @@ def _look(touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: fl
     return Look(middle, right, up, toward, width)
 
 
-def render(heatmap: Heatmap, look: Look, pixels: int) -> NDArray[np.uint8]:
-    """Return the surface on white as one sees it, `pixels` wide: (height, pixels, 3)."""
-    probe, rows = heatmap.probe, round(_HIGH * pixels)
-    step = look.width / (_SMOOTHING * pixels)
-    across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
-    x, y = np.meshgrid(step * across, -step * down)
-    eye = look.middle + 4.0 * probe.size * look.toward
-    origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
-    directions = np.broadcast_to(-look.toward, origins.shape)
-    t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, np.ascontiguousarray(directions))
-    hit = faces >= 0
-    image = np.ones((len(origins), 3))
-    points = origins[hit] - t[hit, None] * look.toward
-    image[hit] = _seen(heatmap, look, probe.faces[faces[hit]], points)
-    blocks = image.reshape(rows, _SMOOTHING, pixels, _SMOOTHING, 3).mean(axis=(1, 3))
-    return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
+class SurfaceView:
+    """A look at a probe: which facet lies under each pixel, and how it is lit, found once; `pixels` wide."""
 
+    def __init__(self, probe: Probe, look: Look, pixels: int) -> None:
+        rows = round(_HIGH * pixels)
+        step = look.width / (_SMOOTHING * pixels)
+        across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
+        x, y = np.meshgrid(step * across, -step * down)
+        eye = look.middle + 4.0 * probe.size * look.toward
+        origins = eye + x.reshape(-1, 1) * look.right + y.reshape(-1, 1) * look.up
+        directions = np.ascontiguousarray(np.broadcast_to(-look.toward, origins.shape))
+        t, faces = SurfaceIndex(probe.vertices, probe.faces).first_hit(origins, directions)
+        self._hit = faces >= 0
+        self._shape = (rows, _SMOOTHING, pixels, _SMOOTHING, 3)
+        self._corners = probe.faces[faces[self._hit]]
+        points = origins[self._hit] - t[self._hit, None] * look.toward
+        a, b, c = np.moveaxis(probe.vertices[self._corners], 1, 0)
+        normal = np.cross(b - a, c - a)
+        double = np.einsum("ij,ij->i", normal, normal)
+        v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
+        w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
+        self._shares = np.column_stack([1 - v - w, v, w])[..., None]
+        lit = (self._shares * vertex_normals(probe)[self._corners]).sum(axis=1)
+        lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
+        light = np.asarray(_LIGHT) @ np.stack([look.right, look.up, look.toward])
+        self._bright = np.clip(lit @ light, 0.0, 1.0)
 
-def _seen(
-    heatmap: Heatmap, look: Look, corners: NDArray[np.int32], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Return the colour (k, 3) of points on facets: interpolated and lit, data less than the rest."""
-    probe = heatmap.probe
-    a, b, c = np.moveaxis(probe.vertices[corners], 1, 0)
-    normal = np.cross(b - a, c - a)
-    double = np.einsum("ij,ij->i", normal, normal)
-    v = np.einsum("ij,ij->i", np.cross(a - c, points - c), normal) / double
-    w = np.einsum("ij,ij->i", np.cross(b - a, points - a), normal) / double
-    shares = np.column_stack([1 - v - w, v, w])[..., None]
-    base = (shares * colours(heatmap)[corners]).sum(axis=1)
-    lit = (shares * vertex_normals(probe)[corners]).sum(axis=1)
-    lit /= np.maximum(np.linalg.norm(lit, axis=1, keepdims=True), 1e-12)
-    light = np.asarray(_LIGHT) @ np.stack([look.right, look.up, look.toward])
-    bright = np.clip(lit @ light, 0.0, 1.0)
-    known = (shares[..., 0] * heatmap.known[corners]).sum(axis=1)
-    # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
-    shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
-    lit_colour: NDArray[np.float64] = np.clip(base * shade[:, None], 0.0, 1.0)
-    return lit_colour
+    def drawn(self, heatmap: Heatmap, largest: float | None = None) -> NDArray[np.uint8]:
+        """Return the surface on white as one sees it, (height, pixels, 3); `largest` has the last colour."""
+        base = (self._shares * colours(heatmap, largest)[self._corners]).sum(axis=1)
+        known = (self._shares[..., 0] * heatmap.known[self._corners]).sum(axis=1)
+        # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
+        bright = self._bright
+        shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
+        image = np.ones((len(self._hit), 3))
+        image[self._hit] = np.clip(base * shade[:, None], 0.0, 1.0)
+        blocks = image.reshape(self._shape).mean(axis=(1, 3))
+        return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
 
 
 def _triad(axes: Any, look: Look) -> None:

@@ -15,8 +15,8 @@ from contactbench.pipeline.contact import Gates
 from contactbench.pipeline.control.content import controller_of
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.settings import ControlSettings
-from contactbench.pipeline.demo.files import write_bytes
 from contactbench.pipeline.demo.tool import RATE_HZ, SENSOR_MODEL
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.recording.replay import Replay
@@ -34,7 +34,6 @@ if TYPE_CHECKING:
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.runtime import Answer
     from contactbench.pipeline.verification import Verification
-    from contactbench.pipeline.verification.figures import TouchFigure
 
 BUNDLE = "runtime"
 WRITTEN = ("markers.csv", "verification.json", "report.html", "contacts.jsonl")
@@ -153,7 +152,7 @@ def check(folder: Path, name: str, tool: Tool) -> CheckResult:
         A file cannot be read or written.
     """
     clear(folder)
-    write_bytes(folder / "markers.csv", _marked(name).to_bytes())
+    write_file(folder / "markers.csv", _marked(name).to_bytes())
     try:
         found = _verify(folder)
     except MarkerError as error:  # the mesh is somewhere else: that is a finding too
@@ -163,7 +162,7 @@ def check(folder: Path, name: str, tool: Tool) -> CheckResult:
     made = {role: folder / file for role, file in _INPUTS.items() if role in ("probe", "calibration")}
     inputs = {"verification": folder / "verification.json", **made}
     page = report(inputs, {"name": "report.html", "operator": _OPERATOR}, created.isoformat())
-    write_bytes(folder / "report.html", page["report.html"])
+    write_file(folder / "report.html", page["report.html"])
     judged = _judged(found)
     if judged.failed:
         return judged
@@ -202,7 +201,7 @@ def _marked(name: str) -> MarkerSet:
 def _verify(folder: Path) -> Verification:
     given = VerificationParameters(name="verification.json", windows=(_WINDOW_N,), samples=_SAMPLES)
     found = verify_files({role: folder / file for role, file in _INPUTS.items()}, given)
-    write_bytes(folder / given.name, found.to_bytes())
+    write_file(folder / given.name, found.to_bytes())
     return found
 
 
@@ -217,11 +216,6 @@ def _judged(found: Verification) -> CheckResult:
         found.verdict.reasons,
         None,
     )
-
-
-def _listed(touch: TouchFigure) -> str:
-    where = "" if touch.marker is None else f" of marker {touch.marker}"
-    return f"touch {touch.number}{where} ({touch.reason})"
 
 
 def _settings(tool: Tool, probe: Path) -> ExportSettings:
@@ -244,7 +238,7 @@ def _settings(tool: Tool, probe: Path) -> ExportSettings:
 def _through(config: RuntimeConfig, folder: Path, found: Verification, judged: CheckResult) -> CheckResult:
     """Run the touches through the bundle, and compare its contacts with those that were verified."""
     answers = _answers(config, folder / "touches.mcap")
-    write_bytes(folder / "contacts.jsonl", b"".join(answer.line for answer in answers))
+    write_file(folder / "contacts.jsonl", b"".join(answer.line for answer in answers))
     sure = [answer for answer in answers if answer.contact is not None and answer.contact.accepted]
     judged = replace(judged, samples=len(answers), located=len(sure))
     at = {round(answer.time * RATE_HZ): answer for answer in sure}

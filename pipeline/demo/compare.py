@@ -100,11 +100,6 @@ def compare_methods(
     return errors, notes
 
 
-def settled(batch: Batch) -> NDArray[np.bool_]:
-    """Tell which answers give a point without doubt, (n,)."""
-    return batch.accepted
-
-
 def errors_mm(batch: Batch, points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Distance from the true points (n, 3), mm, (n,); NaN without an answer."""
     return np.asarray(np.linalg.norm(batch.points - points, axis=1) * 1e3)
@@ -119,7 +114,7 @@ def _errors(
     rows: NDArray[np.intp],
     median_us: float | None,
 ) -> MethodErrors:
-    sure = rows[settled(batch)[rows]]
+    sure = rows[batch.accepted[rows]]
     error = errors_mm(batch, points)[sure]
     mean, p95, largest, bound, ratio = _statistics(error, covariances[sure])
     return MethodErrors(

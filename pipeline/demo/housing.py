@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.files import write_bytes
+from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.kernel import SurfaceIndex
 from contactbench.pipeline.mesh.engines import EngineError
 from contactbench.pipeline.mesh.probe import Probe
@@ -84,7 +84,7 @@ def prepare_probe(folder: Path, name: str) -> MeshResult:
         A file cannot be written.
     """
     design, T_SP = _design(name)
-    write_bytes(folder / "housing.stl", _housing(name))
+    write_file(folder / "housing.stl", _housing(name))
     try:
         # From here on only the file counts: what works here works for files from elsewhere.
         content, openings = _prepare(folder / "housing.stl", name, T_SP)

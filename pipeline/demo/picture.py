@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.body import Body, PictureError, render_bodies
-from contactbench.pipeline.demo.compare import errors_mm, settled
-from contactbench.pipeline.demo.view import View
+from contactbench.pipeline.demo.body import Body, PictureError, View, render_bodies
+from contactbench.pipeline.demo.compare import errors_mm
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -144,7 +143,7 @@ def _tip(probe: str) -> float:
 def _choose(one: Located) -> list[int]:
     """Rows of settled contacts that the camera sees, spread out: each the farthest from those before it."""
     view = _close(one.probe)
-    rows = np.flatnonzero(settled(one.batch))
+    rows = np.flatnonzero(one.batch.accepted)
     rows = rows[:: 1 + len(rows) // _TRIED]
     facing = one.batch.normals[rows] @ view.toward > _FACING
     rows = rows[facing & _unhidden(one, view, rows)]

@@ -19,7 +19,8 @@ from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.recording import read_recording
 from contactbench.pipeline.recording.convert import write_csv as convert_to_csv
 from contactbench.pipeline.simulation import Touches, draw_touches
-from contactbench.pipeline.simulation.scenes import Press, TouchScene
+from contactbench.pipeline.simulation.scenes import TouchScene
+from contactbench.pipeline.simulation.scenes.touch import draw_press
 from contactbench.pipeline.simulation.sensor_model import SensorModel
 from contactbench.pipeline.simulation.virtual.markers import markers
 
@@ -37,11 +38,8 @@ if TYPE_CHECKING:
 FACE, HEAD = "face", "head"
 TILTS = (0.0, 30.0)  # degrees between the force and the inward normal
 
-_FORCE_N = (8.0, 10.0)
 _HELD_S = 0.5  # seven time constants of the filter
 _PAUSE_S = 1.5
-_TORSION_M = 0.0003  # N·m per N: torsional friction of a patch of 1.5 mm
-_MOST_TORSION_M = 0.0006  # more would turn the tip
 
 _FACE_SHARE = 0.7
 # The face lies at most 12 mm below the tip (the convex one is curved), the head reaches 40 mm down.
@@ -87,7 +85,7 @@ def press_markers(folder: Path, name: str, tool: Tool, truth: Truth, rng: np.ran
     for place, R_WS in zip(places, orientations_in_use(len(places), rng), strict=True):
         number, marker, tilt = place
         scene = TouchScene(truth, marker, payload=tool.payload, R_WS=R_WS)
-        scene.press(_drawn(tilt, rng))
+        scene.press(draw_press(rng, tilt))
         if scene.settle() is None:
             continue
         start = tape.end + _PAUSE_S if tape.times else 0.0
@@ -153,12 +151,6 @@ def read_wrenches(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]
 
 
 _TIP_FACETS = 2_000
-
-
-def _drawn(tilt: float, rng: np.random.Generator) -> Press:
-    force, azimuth = rng.uniform(*_FORCE_N), rng.uniform(0.0, 360.0)
-    arm = float(np.clip(_TORSION_M * rng.standard_normal(), -_MOST_TORSION_M, _MOST_TORSION_M))
-    return Press(force, tilt, azimuth, arm * force)
 
 
 def _pressed(rows: list[tuple[float, int, float]], moments: list[Moment], slipped: int) -> Pressed:

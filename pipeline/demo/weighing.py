@@ -1,7 +1,8 @@
-"""Weighing the tool: on the virtual bench, which leaves a recording, or by formula where there is no physics."""
+"""Weighing the tool, on the virtual bench or by formula where there is no physics, and the calibration out of it."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cache
 from math import ceil, pi
 from typing import TYPE_CHECKING
@@ -9,10 +10,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from contactbench.pipeline.calibration import PoseNoise
+from contactbench.pipeline.calibration import Calibration, GravityModel, Level, PoseNoise, calibrate
+from contactbench.pipeline.calibration.files.calibration_file import Source, save_calibration
 from contactbench.pipeline.calibration.files.capture_file import capture_recording
-from contactbench.pipeline.calibration.files.pose_csv import write_poses
+from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_poses
 from contactbench.pipeline.calibration.reachable import by_hand
+from contactbench.pipeline.calibration.report.page import write_report
 from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.demo.tape import STEP_S, Tape
 from contactbench.pipeline.simulation.scenes import BenchScene
@@ -102,3 +105,74 @@ def _turning_time(before: NDArray[np.float64], after: NDArray[np.float64]) -> fl
     """Return how long a turn takes, s; in whole samples, so that the tape and the scene stay together."""
     angle = float(Rotation.from_matrix(before.T @ after).magnitude())
     return max(0.5, STEP_S * ceil(angle / _TURN_RAD_S / STEP_S))
+
+
+# ---- the calibration --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class GravityResult:
+    """How the calibration did."""
+
+    poses: int  # found in the recording
+    # mass, mass_sigma, true_mass: kg
+    mass: float
+    mass_sigma: float
+    true_mass: float
+    contact_error_mm: float  # the calibration's share of the contact error, worst 1 sigma
+    verdict: str
+    # bumped, named: poses that were bumped, and that the calibration named
+    bumped: tuple[str, ...]
+    named: tuple[str, ...]
+    # squared distance of the parameters from the truth, over what 95 % of calibrations stay within
+    far: float
+
+    @property
+    def verified(self) -> bool:
+        """Whether the bumped poses were named and the truth is where the calibration says, or nearly."""
+        return self.verdict != Level.REFUSE and self.bumped == self.named and self.far < _TOO_FAR
+
+    def sentence(self, probe: str) -> str:
+        """Say it in words."""
+        named = ", ".join(self.named) or "none"
+        found = (
+            f"{probe}: weighed in {self.poses} poses (bumped: {', '.join(self.bumped)}; named: {named}):"
+            f" {self.mass:.4f} ± {self.mass_sigma:.4f} kg (true {self.true_mass:.4f}). The calibration is"
+            f" {self.verdict}: it adds up to {self.contact_error_mm:.2f} mm (1 sigma) to a contact point"
+        )
+        return f"{found}." if self.verified else f"{found}. FAILED: it is not what its uncertainty says."
+
+
+_TOO_FAR = 2.0  # times the 95 % limit: once in 100,000
+
+
+def calibrate_folder(
+    folder: Path, truth: GravityModel, bumped: tuple[str, ...]
+) -> tuple[Calibration, GravityResult]:
+    """
+    Write calibration.json and calibration.html: what calibrating makes of poses.csv.
+
+    Parameters
+    ----------
+    bumped : tuple of str
+        Names of the poses that were bumped.
+    """
+    poses = read_poses(folder / "poses.csv").poses
+    calibration = calibrate(poses)
+    source = Source.of(folder / "poses.csv")
+    save_calibration(calibration, folder / "calibration.json", source=source)
+    write_report(calibration, folder / "calibration.html", source=source)
+    off = calibration.model.vector - truth.vector
+    far = float(off @ np.linalg.solve(calibration.covariance, off))
+    result = GravityResult(
+        len(poses),
+        calibration.mass,
+        calibration.model.mass_sigma,
+        truth.mass,
+        1e3 * calibration.contact_error,
+        calibration.verdict.level.value,
+        bumped,
+        tuple(rejection.name for rejection in calibration.rejected),
+        far / calibration.ellipsoid(0.95),
+    )
+    return calibration, result

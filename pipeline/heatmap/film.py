@@ -217,7 +217,7 @@ class _Page:
     def __init__(self, playback: Playback, whole: Heatmap, settings: FilmSettings, largest: float) -> None:
         pixels = settings.pixels
         self._head = 2 * round(_HEAD * pixels / 2)
-        self._high = round(picture._HIGH * pixels)
+        self._high = round(picture.HIGH * pixels)
         foot = round(_FOOT * pixels)
         height = self._head + self._high + foot
         self._page = _background(whole, largest, pixels, (2 * pixels, height + height % 2))

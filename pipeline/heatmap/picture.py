@@ -28,7 +28,7 @@ _ELEVATION = 32.0  # degrees above the flange plane: both the tip and the sides 
 _MARGIN = 1.25  # of the touched part's size
 _LEAST_M = 0.03  # shown, at least
 _LONG = 1.3  # a touched part this much longer than wide is shown lengthwise
-_HIGH = 0.78  # of the width
+HIGH = 0.78  # of the width
 _SMOOTHING = 2  # rays per pixel and axis
 _LIGHT = (-0.35, 0.55, 0.76)  # right, up, toward the eye
 _INK, _FAINT = "#222222", "#595959"
@@ -65,7 +65,7 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
 
     first, second = looks(heatmap)
     side, low, high = 4.0, 1.15, 0.55 if legend else 0.25
-    size = (2 * side, _HIGH * side + low + high)
+    size = (2 * side, HIGH * side + low + high)
     style: dict[Any, Any] = {"font.family": ["DejaVu Sans"], "font.size": 11.0, "text.parse_math": False}
     with mpl.rc_context(style), warnings.catch_warnings():
         # A name in letters that the font lacks is drawn as boxes; that is no matter for a warning by Python.
@@ -73,14 +73,14 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
         figure = Figure(figsize=size, dpi=pixels / side)
         for column, look in enumerate((first, second)):
             axes = figure.add_axes(
-                (column * side / size[0], low / size[1], side / size[0], _HIGH * side / size[1])
+                (column * side / size[0], low / size[1], side / size[0], HIGH * side / size[1])
             )
             axes.imshow(
                 SurfaceView(heatmap.probe, look, pixels).drawn(heatmap),
-                extent=(-0.5, 0.5, -_HIGH / 2, _HIGH / 2),
+                extent=(-0.5, 0.5, -HIGH / 2, HIGH / 2),
             )
             axes.set_axis_off()
-            axes.set(xlim=(-0.5, 0.5), ylim=(-_HIGH / 2, _HIGH / 2))
+            axes.set(xlim=(-0.5, 0.5), ylim=(-HIGH / 2, HIGH / 2))
             _triad(axes, look)
         if legend:
             words = f"{heatmap.title} on {heatmap.probe.name}"
@@ -122,7 +122,7 @@ def _look(touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: fl
     right = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
     up = np.cross(toward, right)
     flat = (touched - middle) @ np.column_stack([right, up])
-    width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, _HIGH]).max()))
+    width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, HIGH]).max()))
     centre = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
     middle = middle + centre[0] * right + centre[1] * up
     return Look(middle, right, up, toward, width)
@@ -132,7 +132,7 @@ class SurfaceView:
     """A look at a probe: which facet lies under each pixel, and how it is lit, found once; `pixels` wide."""
 
     def __init__(self, probe: Probe, look: Look, pixels: int) -> None:
-        rows = round(_HIGH * pixels)
+        rows = round(HIGH * pixels)
         step = look.width / (_SMOOTHING * pixels)
         across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
         x, y = np.meshgrid(step * across, -step * down)
@@ -157,9 +157,15 @@ class SurfaceView:
 
     def drawn(self, heatmap: Heatmap, largest: float | None = None) -> NDArray[np.uint8]:
         """Return the surface on white as one sees it, (height, pixels, 3); `largest` has the last colour."""
-        base = (self._shares * colours(heatmap, largest)[self._corners]).sum(axis=1)
         known = (self._shares[..., 0] * heatmap.known[self._corners]).sum(axis=1)
         # Data keep their colours, so that they can be read off the scale; the form of the rest shows by shade.
+        return self._lit((self._shares * colours(heatmap, largest)[self._corners]).sum(axis=1), known)
+
+    def plain(self, colour: tuple[float, float, float]) -> NDArray[np.uint8]:
+        """Return the surface in one colour, sRGB, 0 to 1; see `drawn`."""
+        return self._lit(np.array([colour]), np.zeros(1))
+
+    def _lit(self, base: NDArray[np.float64], known: NDArray[np.float64]) -> NDArray[np.uint8]:
         bright = self._bright
         shade = (0.62 + 0.38 * bright) * (1 - known) + (0.86 + 0.14 * bright) * known
         image = np.ones((len(self._hit), 3))
@@ -170,7 +176,7 @@ class SurfaceView:
 
 def _triad(axes: Any, look: Look) -> None:
     """Draw the axes of S in the lower left corner."""
-    origin = np.array([-0.41, 0.09 - _HIGH / 2])
+    origin = np.array([-0.41, 0.09 - HIGH / 2])
     for letter, axis in zip("xyz", np.eye(3), strict=True):
         along = 0.075 * np.array([axis @ look.right, axis @ look.up])
         if np.linalg.norm(along) < 0.02:

@@ -13,7 +13,7 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation.scenes import Press, TouchScene, Truth
-from contactbench.pipeline.simulation.scenes.touch import along
+from contactbench.pipeline.simulation.scenes.touch import along, draw_press
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -23,11 +23,8 @@ if TYPE_CHECKING:
     from contactbench.pipeline.simulation.scenes import Moment
 
 TRUE_FACETS = 20_000
-FORCE_N = (8.0, 10.0)
 PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", "30° in plane", "30° across"
 ANGLES = {PERPENDICULAR: (0.0, 0.0), IN_PLANE: (30.0, 0.0), ACROSS: (30.0, 90.0)}
-_TORSION_M = 0.0003  # N·m per N: torsional friction of a patch of 1.5 mm
-_MOST_TORSION_M = 0.0006  # more would turn the tip
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +136,7 @@ def press_markers(
             rng = np.random.default_rng([seed, 3, assets.PROBE_NAMES.index(name), number])
             for angle, (tilt, azimuth) in enumerate(ANGLES.values()):
                 for repeat in range(repeats):
-                    moment = station.touch(_drawn(rng, tilt, azimuth))
+                    moment = station.touch(draw_press(rng, tilt, azimuth))
                     rows.append(row((seed, number + 1, angle, repeat), station.scene.marker_S, moment))
         progress()
     pressed = stack(rows)
@@ -154,9 +151,3 @@ def row(index: tuple[int, int, int, int], target: NDArray[np.float64], moment: M
 def stack(rows: Sequence[tuple[object, ...]]) -> Touched:
     """Put rows together."""
     return Touched(*(np.array(column) for column in zip(*rows, strict=True)))
-
-
-def _drawn(rng: np.random.Generator, tilt: float, azimuth: float) -> Press:
-    force = rng.uniform(*FORCE_N)
-    arm = float(np.clip(_TORSION_M * rng.standard_normal(), -_MOST_TORSION_M, _MOST_TORSION_M))
-    return Press(force, tilt, azimuth, arm * force)

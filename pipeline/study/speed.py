@@ -13,8 +13,8 @@ from contactbench import assets
 from contactbench.pipeline.contact import ContactSolver, Reason, WrenchNoise, methods
 from contactbench.pipeline.contact.wrench_axis import EmbreeAxis
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
+from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.pages import table
 from contactbench.pipeline.study.sweep.judging import bound_of
 from contactbench.pipeline.timing import Timing, time_calls
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from contactbench.pipeline.contact.methods import Method
+    from contactbench.pipeline.mesh import Probe
     from contactbench.pipeline.simulation import Touches
 
 DEFAULT_FACETS = (500, 1_000, 20_000, 100_000)
@@ -184,7 +185,7 @@ def run(
     differences = 0
     for count in facets:
         progress(f"{count:,} facets")
-        body = _probe(probe, count)
+        body = model_of(probe, count)
         rows += _compiled_rows(body, noise, truth, wrenches, sliding)
         rows += _python_rows(body, noise, wrenches, sliding, rounds)
         if stream:
@@ -221,11 +222,6 @@ def _followed(accepted: NDArray[np.bool_], points: NDArray[np.float64], recent: 
     misses = rows - 1 - before
     known = (before >= 0) & (misses <= recent)
     return np.where(known[:, None], points[np.maximum(before, 0)], np.nan)
-
-
-def _probe(name: str, facets: int) -> Probe:
-    vertices, faces = assets.make(name, facets)
-    return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
 
 
 def _compiled_rows(

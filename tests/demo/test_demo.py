@@ -16,8 +16,8 @@ from contactbench.pipeline.calibration.files.calibration_file import load_calibr
 from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS
 from contactbench.pipeline.demo import bench, body, compare, gravity, housing, picture, report, tool, touching
+from contactbench.pipeline.demo.body import View
 from contactbench.pipeline.demo.report import LIMIT
-from contactbench.pipeline.demo.view import View
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
 from contactbench.pipeline.mesh.engines import EngineError

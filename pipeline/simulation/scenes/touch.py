@@ -33,6 +33,9 @@ STEP_S = 0.0005
 PATCH_M = 0.005  # how much of the surface a tip can reach that slips
 _SETTLED_MPS = 5e-5
 _LONGEST_S = 3.0
+FORCE_N = (8.0, 10.0)
+_TORSION_M = 0.0003  # N·m per N: torsional friction of a patch of 1.5 mm
+_MOST_TORSION_M = 0.0006  # more would turn the tip
 
 
 class TouchScene(Scene):
@@ -102,6 +105,14 @@ class TouchScene(Scene):
             if self.data.ncon and speed < _SETTLED_MPS:
                 return self.moment()
         return None
+
+
+def draw_press(rng: np.random.Generator, tilt: float, azimuth: float | None = None) -> Press:
+    """Draw the force, 8 to 10 N, and the torsion of a press so tilted, degrees; the azimuth too, if it is left out."""
+    force = rng.uniform(*FORCE_N)
+    bearing = rng.uniform(0.0, 360.0) if azimuth is None else azimuth
+    arm = float(np.clip(_TORSION_M * rng.standard_normal(), -_MOST_TORSION_M, _MOST_TORSION_M))
+    return Press(force, tilt, bearing, arm * force)
 
 
 def along(normal_S: NDArray[np.float64]) -> NDArray[np.float64]:

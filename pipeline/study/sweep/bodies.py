@@ -15,9 +15,10 @@ from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.sidecar import load_probe_file
+from contactbench.pipeline.study.marker_touches import model_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -70,8 +71,7 @@ def body_of(name: str) -> Body:
 def mesh_of(name: str, facets: int) -> Probe:
     """Return the mesh of about so many facets that contacts are located on; InputError."""
     if name in assets.PROBE_NAMES:
-        vertices, faces = assets.make(name, facets)
-        return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
+        return model_of(name, facets)
     from contactbench.pipeline.mesh.simplify import Count, simplify
 
     probe = _file(name)
@@ -85,7 +85,7 @@ def packed_mesh(name: str) -> dict[str, str]:
     return {key: base64.b64encode(zlib.compress(a.tobytes(), 9)).decode() for key, a in arrays.items()}
 
 
-def unpacked_mesh(packed: dict[str, str]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+def unpacked_mesh(packed: Mapping[str, str]) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Return vertices (n, 3), S, m, and faces (m, 3) of a packed mesh; ValueError if it is none."""
     parts = {key: zlib.decompress(base64.b64decode(text)) for key, text in packed.items()}
     vertices = np.frombuffer(parts["vertices"], "<f4").reshape(-1, 3).astype(np.float64)

@@ -95,14 +95,10 @@ def test_unknown_and_missing_studies_are_named(tmp_path):
 
 
 def test_touches_that_went_astray_are_drawn(rows, small):
-    pytest.importorskip("pyvista")
     lines = astray(rows, read_results(small).about["meshes"])
     assert lines, "some answer on 300 facets is astray"
     assert all(panel.title.startswith(("contactbench", "wrench_axis")) for line in lines for panel in line)
-    image = draw(lines)
-    if not image:
-        pytest.skip("nothing to render with")
-    assert image.startswith(b"\x89PNG")
+    assert draw(lines).startswith(b"\x89PNG")
     assert draw([]) == b""
 
 

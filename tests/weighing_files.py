@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from contactbench.pipeline.calibration import GravityModel, PoseNoise
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.simulation.weighing import Weighing, draw_load, weigh
+from contactbench.pipeline.simulation.loads import Weighing, draw_load, weigh
 
 TRUTH = GravityModel(
     np.array([0.0, 0.0, -6.1]),

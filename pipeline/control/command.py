@@ -12,13 +12,13 @@ from contactbench.pipeline.errors import InputError
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.inverse import Step
-    from contactbench.pipeline.control.sensing import Sensed
-    from contactbench.pipeline.control.states import Change, State
+    from contactbench.pipeline.control.intake import Sensed
+    from contactbench.pipeline.control.inverse import JointStep
+    from contactbench.pipeline.control.states import ControlState, StateChange
 
 
 @dataclass(frozen=True, eq=False)
-class Mount:
+class SensorMount:
     """
     How the sensor sits on the flange.
 
@@ -49,15 +49,15 @@ class Mount:
 
 
 @dataclass(frozen=True, eq=False)
-class Command:
+class ControlCommand:
     """What a step decided."""
 
     q: NDArray[np.float64]  # (n,) Set-point of the joints at the end of the period
-    state: State
-    change: Change | None  # what changed in this step, and why
+    state: ControlState
+    change: StateChange | None  # what changed in this step, and why
     twist: NDArray[np.float64]  # (6,) wanted velocity of the tip and angular velocity, in B, m/s and rad/s
     force: float  # pressing force, N; NaN without a fresh sample
     # (2,) contact minus wanted contact along S's x and y, m; NaN where it is not known
     offset: NDArray[np.float64]
     sensed: Sensed
-    step: Step  # what the arm makes of the twist
+    step: JointStep  # what the arm makes of the twist

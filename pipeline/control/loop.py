@@ -11,7 +11,7 @@ import numpy as np
 
 from contactbench.pipeline.control.arms import CartesianMount
 from contactbench.pipeline.control.axes import cross
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.control.trace import STATES, Trace
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError
@@ -21,14 +21,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.control.arms import Arm
-    from contactbench.pipeline.control.command import Command
+    from contactbench.pipeline.control.command import ControlCommand
     from contactbench.pipeline.control.controller import Controller
-    from contactbench.pipeline.simulation.scenes import Moment, MovedScene
+    from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment
     from contactbench.pipeline.simulation.sensor_model import SensorModel
 
 WARM_S = 3600.0  # a sensor is used warm
 _LONGEST_S = 3600.0
-Watch = Callable[["Command", "Loop"], bool | None]
+Watch = Callable[["ControlCommand", "Loop"], bool | None]
 Line = Callable[[WrenchSample], WrenchSample | None]
 
 
@@ -74,14 +74,14 @@ class Loop:
         self._begin = scene.time
         self._rows: list[dict[str, Any]] = []
 
-    def step(self) -> Command:
+    def step(self) -> ControlCommand:
         """
         Go on by one period: read, decide, and give the servo its set-point.
 
         Raises
         ------
         PhysicsError
-            See `Scene.step`.
+            See `PhysicsScene.step`.
         """
         self._periods += 1
         end = self._begin + self._periods * self._period
@@ -127,7 +127,7 @@ class Loop:
         )
         return self._line(sample) if self._line else sample, moment.force
 
-    def _note(self, command: Command, peak: float, took: tuple[float, float]) -> None:
+    def _note(self, command: ControlCommand, peak: float, took: tuple[float, float]) -> None:
         scene = self.scene
         moment = scene.moment()
         contact = moment.contact
@@ -165,7 +165,7 @@ class Loop:
         return float((point - p_BP) @ R_BP[:, 2]), float(np.arctan2(x, z)), float(np.arctan2(-y, z))
 
 
-def _shift(moment: Moment) -> float:
+def _shift(moment: SceneMoment) -> float:
     """Return how far the wrench's axis passes from the point of contact, m: |F x torsion n| / |F|², NaN in the air."""
     force = moment.contact[:3]
     size2 = float(force @ force)
@@ -204,7 +204,7 @@ def run_loop(
     InputError
         A time is out of range.
     PhysicsError
-        See `Scene.step`.
+        See `PhysicsScene.step`.
     """
     if not 0 < seconds <= _LONGEST_S:
         raise InputError(f"closed loop: {seconds} s: give a time above 0, up to {_LONGEST_S:g} s.")
@@ -215,6 +215,6 @@ def run_loop(
             controller.stop()
         command = loop.step()
         ended = watch is not None and bool(watch(command, loop))
-        if ended or command.state is State.SAFE:
+        if ended or command.state is ControlState.SAFE:
             break
     return loop.trace()

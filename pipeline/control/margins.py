@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from contactbench.pipeline.control.admittance import Admittance
-from contactbench.pipeline.control.following import Follower
+from contactbench.pipeline.control.follower import Follower
 from contactbench.pipeline.control.settings import LEFT, TO_TIP_M, TOOL_KG, Variant
 from contactbench.pipeline.errors import InputError
 
@@ -29,7 +29,7 @@ _MOST = 1e3
 
 
 @dataclass(frozen=True)
-class Loop:
+class LoopModel:
     """One loop, in the path that it controls: m along the axis, or rad about one."""
 
     gain: float  # 1/s: speed per path that is missing, in the steady state
@@ -65,7 +65,7 @@ def loop_of(
     *,
     assumed: float | None = None,
     unknown: float = LEFT,
-) -> Loop:
+) -> LoopModel:
     """
     Return a loop of a controller on tissue.
 
@@ -112,7 +112,7 @@ def loop_of(
         drive, smoothing = force, settings.smoothing
         lever = TO_TIP_M if aware else TO_TIP_M**2 / real  # by the lean of the force, or by the place
         felt = unknown * TOOL_KG * lever / force
-    common = Loop(
+    common = LoopModel(
         gain=drive * real / damping,
         settling=mass / damping,
         spring=spring / damping,
@@ -127,7 +127,7 @@ def loop_of(
     return replace(common, gain=wanted, ratio=real / believed, bandwidth=bandwidth, smoothing=smoothing)
 
 
-def margins(loop: Loop) -> Margins:
+def margins(loop: LoopModel) -> Margins:
     """
     Return the margins of a loop, from its discrete-time response L(exp(i w T)).
 
@@ -164,7 +164,7 @@ def sweep(
     ]
 
 
-def response(loop: Loop, w: NDArray[np.float64]) -> NDArray[np.complex128]:
+def response(loop: LoopModel, w: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Return L at angular frequencies (n,), rad/s."""
     T = loop.period
     late = np.exp(-1j * w * T)  # z^-1
@@ -189,7 +189,7 @@ def response(loop: Loop, w: NDArray[np.float64]) -> NDArray[np.complex128]:
 
 
 def _controller(
-    loop: Loop, w: NDArray[np.float64]
+    loop: LoopModel, w: NDArray[np.float64]
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128] | float]:
     """Return speed per path that is missing, and speed that is led by per path that is seen, at w."""
     T = loop.period

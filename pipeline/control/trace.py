@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.states import State
+from contactbench.pipeline.control.states import ControlState
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.control.states import Change
+    from contactbench.pipeline.control.states import StateChange
 
-STATES = tuple(State)
+STATES = tuple(ControlState)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Trace:
     # (n,) how long the processor worked for it, s: without what else ran on the machine. These two are all
     # that is not the same each time.
     step_cpu_s: NDArray[np.float64]
-    changes: tuple[Change, ...] = ()
+    changes: tuple[StateChange, ...] = ()
 
     def __len__(self) -> int:
         return len(self.time)
@@ -59,7 +59,7 @@ class Trace:
         cut = {each.name: getattr(self, each.name)[rows] for each in fields(self) if each.name != "changes"}
         return replace(self, **cut)
 
-    def was(self, state: State) -> NDArray[np.bool_]:
+    def was(self, state: ControlState) -> NDArray[np.bool_]:
         """Return when it was in a state, (n,)."""
         return np.asarray(self.state == STATES.index(state))
 
@@ -69,7 +69,7 @@ class Trace:
         return np.asarray(np.arctan(np.linalg.norm(np.tan(self.angles), axis=1)))
 
     @property
-    def ended(self) -> State:
+    def ended(self) -> ControlState:
         """The state at the end."""
         return STATES[int(self.state[-1])]
 

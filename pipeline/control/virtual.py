@@ -22,7 +22,7 @@ from contactbench.pipeline.simulation.scenes import (
     PlatformScene,
     ServoSettings,
     Tissue,
-    Truth,
+    TrueSurface,
 )
 from contactbench.pipeline.simulation.sensor_model import SensorModel, SensorSettings
 
@@ -118,7 +118,7 @@ def _scene(
     tissue: Tissue,
     motion: PlatformMotion | None,
 ) -> MovedScene:
-    truth, part = Truth(config.probe), config.model.controller
+    truth, part = TrueSurface(config.probe), config.model.controller
     period = ControlSettings.period if part is None else part.period_s
     if address == ROBOTS[0]:
         servo = ServoSettings(period=period)

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench import assets
-from contactbench.pipeline.demo.checking import check, clear
 from contactbench.pipeline.demo.compare import compare_methods
 from contactbench.pipeline.demo.files import write_csv
+from contactbench.pipeline.demo.gravity import calibrate_folder, weigh_by_formula, weigh_on_bench
 from contactbench.pipeline.demo.housing import MeshResult, prepare_probe
-from contactbench.pipeline.demo.picture import Located, PictureError, draw
+from contactbench.pipeline.demo.picture import LocatedProbe, PictureError, draw
 from contactbench.pipeline.demo.report import DemoReport, ProbeResult, ours
 from contactbench.pipeline.demo.tool import draw_tool
-from contactbench.pipeline.demo.touching import draw_points, locate_folder, press_markers
-from contactbench.pipeline.demo.weighing import calibrate_folder, weigh_by_formula, weigh_on_bench
+from contactbench.pipeline.demo.touches import draw_points, locate_folder, press_markers
+from contactbench.pipeline.demo.verification import check, clear
 from contactbench.pipeline.durable import make_folder, write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import load_probe
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.demo.compare import MethodErrors
-    from contactbench.pipeline.demo.tool import Tool
-    from contactbench.pipeline.demo.touching import Found, Pressed
-    from contactbench.pipeline.demo.weighing import GravityResult
+    from contactbench.pipeline.demo.gravity import GravityResult
+    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.demo.touches import LocatedTouches, Pressed
     from contactbench.pipeline.mesh import Probe
 
     Prepared = tuple[MeshResult | None, str | None]
@@ -51,7 +51,7 @@ class _Job:
     name: str
     folder: Path
     seed: int
-    tool: Tool
+    tool: DemoTool
     calibration: Calibration
     gravity: GravityResult
     pressed: Pressed | None
@@ -167,7 +167,7 @@ def _locate(
     touches: int,
     notes: list[str],
     progress: Callable[[str], None],
-) -> tuple[ProbeResult, Located]:
+) -> tuple[ProbeResult, LocatedProbe]:
     """Locate the touches as ``contactbench locate`` would, and compare all methods."""
     progress(f"{job.name}: preparing the mesh")
     mesh, note = prepared.result()
@@ -192,20 +192,20 @@ def _locate(
     region = int(np.count_nonzero(probe.region))
     result = ProbeResult(job.name, len(probe.faces), region, touched, drawn, job.gravity, mesh, checked)
     if job.pressed is None:
-        return result, Located(job.name, found_drawn.batch, points.points, ours(drawn).mean_mm)
-    return result, Located(job.name, found.batch, job.pressed.points, ours(touched).mean_mm)
+        return result, LocatedProbe(job.name, found_drawn.batch, points.points, ours(drawn).mean_mm)
+    return result, LocatedProbe(job.name, found.batch, job.pressed.points, ours(touched).mean_mm)
 
 
 def _compare(
     job: _Job, probe: Probe, folder: Path, pressed: Pressed, said: list[str]
-) -> tuple[tuple[MethodErrors, ...], Found]:
+) -> tuple[tuple[MethodErrors, ...], LocatedTouches]:
     found = locate_folder(folder, probe, job.calibration, job.tool, pressed)
     errors, left_out = compare_methods(probe, found.noise, found.wrenches, pressed.points, pressed.where)
     said += left_out
     return tuple(errors), found
 
 
-def _draw(file: Path, located: Sequence[Located], notes: list[str]) -> Path | None:
+def _draw(file: Path, located: Sequence[LocatedProbe], notes: list[str]) -> Path | None:
     try:
         write_file(file, draw(located))
     except PictureError as error:

@@ -39,7 +39,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class View:
+class PaperView:
     """A look at the probe with +z of S upwards on paper."""
 
     focal: tuple[float, float, float]  # (x, y, z) point of S in the middle of the paper, m
@@ -75,11 +75,11 @@ class View:
 
 
 @dataclass(frozen=True)
-class Body:
+class BodyOrder:
     """One image to render."""
 
     probe: str  # one of assets.PROBE_NAMES
-    view: View  # how to look at it
+    view: PaperView  # how to look at it
     pixels: int  # width of the image; the height follows from the view
 
 
@@ -87,12 +87,12 @@ class PictureError(InputError):
     """No picture can be drawn on this machine; the message says what to install."""
 
 
-def render_bodies(bodies: Sequence[Body]) -> list[Image]:
+def render_bodies(bodies: Sequence[BodyOrder]) -> list[Image]:
     """Render bundled probes on white, their contact regions tinted.
 
     Parameters
     ----------
-    bodies : sequence of Body
+    bodies : sequence of BodyOrder
         What to render.
 
     Returns
@@ -122,7 +122,7 @@ def render_bodies(bodies: Sequence[Body]) -> list[Image]:
             ) from error
 
 
-def _render(body: Body) -> Image:
+def _render(body: BodyOrder) -> Image:
     import pyvista as pv
 
     view = body.view
@@ -155,7 +155,9 @@ def _rgb(colour: str) -> list[int]:
 
 def _main() -> None:
     orders = json.load(sys.stdin)
-    images = [_render(Body(order["probe"], View(**order["view"]), order["pixels"])) for order in orders]
+    images = [
+        _render(BodyOrder(order["probe"], PaperView(**order["view"]), order["pixels"])) for order in orders
+    ]
     np.savez(sys.argv[1], *images)
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.simulation import Touches
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 
 _CHANNELS = ("fx", "fy", "fz", "mx", "my", "mz")
@@ -44,7 +44,9 @@ def write_truth(file: Path, touches: Touches, where: Sequence[str]) -> None:
     write_csv(file, ("t", "x", "y", "z", "nx", "ny", "nz", "k", "where"), rows)
 
 
-def write_marked(file: Path, rows: Sequence[tuple[float, int, float]], moments: Sequence[Moment]) -> None:
+def write_marked(
+    file: Path, rows: Sequence[tuple[float, int, float]], moments: Sequence[SceneMoment]
+) -> None:
     """
     Write the truth about touches of markers.
 

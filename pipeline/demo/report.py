@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from contactbench.pipeline.demo.checking import CheckResult
     from contactbench.pipeline.demo.compare import MethodErrors
+    from contactbench.pipeline.demo.gravity import GravityResult
     from contactbench.pipeline.demo.housing import MeshResult
-    from contactbench.pipeline.demo.weighing import GravityResult
+    from contactbench.pipeline.demo.verification import CheckResult
 
 # Noise alone gives a mean error of 0.9 times the bound, and the facets add little; a wrong sign, frame or unit
 # gives many times it. The mean, because one rare wrong facet would rule the root mean square of few touches.

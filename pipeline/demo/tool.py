@@ -10,9 +10,9 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.calibration import GravityModel
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.scenes.physics import Payload
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.simulation.weighing import LoadedSensor, draw_load
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,7 +27,7 @@ _USE_TILT = np.radians(45.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Tool(LoadedSensor):
+class DemoTool(LoadedSensor):
     """A probe with its holder on a warm sensor, on a robot whose base B stands not quite upright."""
 
     # what the robot does not know: half a degree from the identity
@@ -52,10 +52,10 @@ class Tool(LoadedSensor):
         return Payload(self.load.mass, self.load.centre_of_mass_S)
 
 
-def draw_tool(rng: np.random.Generator) -> Tool:
+def draw_tool(rng: np.random.Generator) -> DemoTool:
     """Draw a load and biases."""
     tilt = Rotation.from_rotvec(_BASE_TILT * np.array([0.6, -0.8, 0.0])).as_matrix()
-    return Tool(draw_load(rng, _MASS), R_BW=tilt)
+    return DemoTool(draw_load(rng, _MASS), R_BW=tilt)
 
 
 def orientations_in_use(count: int, rng: np.random.Generator) -> NDArray[np.float64]:

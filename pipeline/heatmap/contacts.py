@@ -11,7 +11,7 @@ from contactbench.pipeline.contact import ContactSolver, Gates, WrenchNoise
 from contactbench.pipeline.contact.contact_csv import HEADER, REASONS
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.judging import measured_noise, settled, usual_step, with_calibration
+from contactbench.pipeline.heatmap.samples import measured_noise, settled, usual_step, with_calibration
 from contactbench.pipeline.tables import TableReader, Wording
 
 if TYPE_CHECKING:

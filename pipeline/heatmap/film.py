@@ -19,7 +19,7 @@ from contactbench.pipeline.durable import scratch_beside, sync_folder
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.heatmap import picture
 from contactbench.pipeline.heatmap.heatmap import HeatmapError
-from contactbench.pipeline.heatmap.windowing import empty_words
+from contactbench.pipeline.heatmap.selection import empty_words
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.heatmap.heatmap import Heatmap
     from contactbench.pipeline.heatmap.playback import Playback
-    from contactbench.pipeline.heatmap.windowing import Selection
+    from contactbench.pipeline.heatmap.selection import Selection
 
 SUFFIXES = (".mp4", ".gif")
 SLOWEST, FASTEST = 0.1, 50.0  # times the real speed

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args
 import numpy as np
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.heatmap.bells import REACH, Bells, vertex_areas
+from contactbench.pipeline.heatmap.surface_kde import REACH, Bells, vertex_areas
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.bells import vertex_normals
 from contactbench.pipeline.heatmap.colours import MAP, NO_DATA, colours
+from contactbench.pipeline.heatmap.surface_kde import vertex_normals
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ _NICE = np.array([1.0, 2.0, 5.0])
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class PictureLook:
     """An orthographic look: its middle in S (m), unit vectors right, up and toward the eye, and its width (m)."""
 
     middle: NDArray[np.float64]
@@ -93,7 +93,7 @@ def encode_png(heatmap: Heatmap, *, pixels: int = 520, note: str = "", legend: b
     return data.getvalue()
 
 
-def looks(heatmap: Heatmap) -> tuple[Look, Look]:
+def looks(heatmap: Heatmap) -> tuple[PictureLook, PictureLook]:
     """Return two looks at the part with data, from the side that has most of it and from the opposite one."""
     probe, known = heatmap.probe, heatmap.known
     touched = probe.vertices[known]
@@ -116,7 +116,9 @@ def _longest(flat: NDArray[np.float64]) -> tuple[NDArray[np.float64], float]:
     return longest, float(np.sqrt(values[1] / max(values[0], 1e-12 * values[1]))) if values[1] > 0 else 1.0
 
 
-def _look(touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: float, low: float) -> Look:
+def _look(
+    touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: float, low: float
+) -> PictureLook:
     e = np.radians(low * _ELEVATION)
     toward = np.array([np.sin(azimuth) * np.cos(e), -np.cos(azimuth) * np.cos(e), np.sin(e)])
     right = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
@@ -125,13 +127,13 @@ def _look(touched: NDArray[np.float64], middle: NDArray[np.float64], azimuth: fl
     width = max(_LEAST_M, _MARGIN * float((np.ptp(flat, axis=0) / [1.0, HIGH]).max()))
     centre = 0.5 * (flat.min(axis=0) + flat.max(axis=0))
     middle = middle + centre[0] * right + centre[1] * up
-    return Look(middle, right, up, toward, width)
+    return PictureLook(middle, right, up, toward, width)
 
 
 class SurfaceView:
     """A look at a probe: which facet lies under each pixel, and how it is lit, found once; `pixels` wide."""
 
-    def __init__(self, probe: Probe, look: Look, pixels: int) -> None:
+    def __init__(self, probe: Probe, look: PictureLook, pixels: int) -> None:
         rows = round(HIGH * pixels)
         step = look.width / (_SMOOTHING * pixels)
         across, down = (np.arange(_SMOOTHING * n) + 0.5 - 0.5 * _SMOOTHING * n for n in (pixels, rows))
@@ -174,7 +176,7 @@ class SurfaceView:
         return np.asarray(np.rint(255 * blocks), dtype=np.uint8)
 
 
-def _triad(axes: Any, look: Look) -> None:
+def _triad(axes: Any, look: PictureLook) -> None:
     """Draw the axes of S in the lower left corner."""
     origin = np.array([-0.41, 0.09 - HIGH / 2])
     for letter, axis in zip("xyz", np.eye(3), strict=True):
@@ -191,7 +193,7 @@ def _triad(axes: Any, look: Look) -> None:
         axes.text(*place, letter, ha="center", va="center", color=_INK, fontsize=10)
 
 
-def _ruler(figure: Any, look: Look, size: tuple[float, float], side: float) -> None:
+def _ruler(figure: Any, look: PictureLook, size: tuple[float, float], side: float) -> None:
     """Draw a length for scale beside the colours; both looks have the same."""
     length = _nice(0.15 * 1e3 * look.width)
     share = 1e-3 * length / look.width * side / size[0]

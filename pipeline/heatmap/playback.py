@@ -14,8 +14,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.bells import Bells, barycentric
-from contactbench.pipeline.heatmap.finer import drawing_of
 from contactbench.pipeline.heatmap.heatmap import (
     Heatmap,
     HeatmapError,
@@ -26,7 +24,9 @@ from contactbench.pipeline.heatmap.heatmap import (
     scale_of,
     unit_of,
 )
-from contactbench.pipeline.heatmap.windowing import Selection, force_mask, shown, weights_of
+from contactbench.pipeline.heatmap.selection import Selection, force_mask, shown, weights_of
+from contactbench.pipeline.heatmap.subdivide import drawing_of
+from contactbench.pipeline.heatmap.surface_kde import Bells, barycentric
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -39,7 +39,7 @@ _PAUSE = 0.5  # s without a contact: the next one is another touch
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class HeatmapFrame:
     """A heatmap at one moment."""
 
     values: NDArray[np.float64]  # (v,) in `unit`; NaN: no data
@@ -95,7 +95,7 @@ class Playback:
 
     # ---- frames ----------------------------------------------------------------------------------
 
-    def frame(self, selection: Selection) -> Frame:
+    def frame(self, selection: Selection) -> HeatmapFrame:
         """
         Return what a selection looks like; its bandwidth is not looked at.
 
@@ -104,11 +104,11 @@ class Playback:
         rows, values = self._chosen(selection)
         quantity, unit = selection.quantity, unit_of(selection.quantity, selection.normalisation)
         if not len(rows):
-            return Frame(np.full(len(self.probe.vertices), np.nan), unit, 0)
+            return HeatmapFrame(np.full(len(self.probe.vertices), np.nan), unit, 0)
         # A peak has no weights, but what cannot be weighed is refused.
         weights = self._weights(rows, selection) if quantity == "density" else self._counts(rows, selection)
         picked = None if values is None else values[rows]
-        return Frame(quantity_at(self._bells, quantity, weights, picked, rows), unit, len(rows))
+        return HeatmapFrame(quantity_at(self._bells, quantity, weights, picked, rows), unit, len(rows))
 
     def heatmap(self, selection: Selection) -> Heatmap:
         """Return a frame as a heatmap, to be drawn."""
@@ -149,7 +149,7 @@ class Playback:
             )
         return self._tops[key]
 
-    def at(self, selection: Selection, frame: Frame, face: int, point: NDArray[np.float64]) -> Value:
+    def at(self, selection: Selection, frame: HeatmapFrame, face: int, point: NDArray[np.float64]) -> Value:
         """Return what a frame of a selection says at a point (3,) of a facet, S, m."""
         corners = self.probe.faces[face]
         values = frame.values[corners]

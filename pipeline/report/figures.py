@@ -19,7 +19,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
-from contactbench.pipeline.report.text import printable
+from contactbench.pipeline.page import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -58,7 +58,7 @@ _MOST_NAMES = 30
 
 
 @dataclass(frozen=True)
-class Figures:
+class VerificationFigures:
     """SVG elements; empty where there is nothing to draw. `scatter` has one for each row of markers."""
 
     markers: str
@@ -74,7 +74,7 @@ def draw(
     views: Sequence[MarkerView],
     limits: Limits,
     diagnosis: Diagnosis | None,
-) -> Figures:
+) -> VerificationFigures:
     """Draw all pictures of a report.
 
     Parameters
@@ -88,7 +88,7 @@ def draw(
     with _style():
         rows = [views[i : i + COLUMNS] for i in range(0, len(views), COLUMNS)]
         reach = max([1.15e3 * limits.max_m, *(1.15 * float(np.abs(v.flat_mm).max()) for v in views)])
-        return Figures(
+        return VerificationFigures(
             _svg(_markers(per_marker, limits), "m", "Errors by marker") if per_marker else "",
             _svg(_force(touches, limits), "f", "Error by contact force") if touches else "",
             tuple(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.heatmap import Heatmap, heatmap
-from contactbench.pipeline.heatmap.finer import drawing_of
+from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.kernel import SurfaceIndex
 
 if TYPE_CHECKING:

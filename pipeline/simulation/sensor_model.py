@@ -120,7 +120,7 @@ def preset(name: str) -> SensorSettings:
 
 
 @dataclass(frozen=True, eq=False)
-class Readings:
+class SensorReadings:
     """What the sensor gave."""
 
     wrenches: NDArray[np.float64]  # (n, 6) S, N and N·m
@@ -168,7 +168,7 @@ class SensorModel:
         drift = self.settings.drift * (self.temperature(time)[0] - self.settings.ambient)
         self._offset = -self.settings.crosstalk @ np.asarray(wrench, dtype=np.float64) - drift
 
-    def read(self, times: ArrayLike, wrenches: ArrayLike) -> Readings:
+    def read(self, times: ArrayLike, wrenches: ArrayLike) -> SensorReadings:
         """
         Read true wrenches.
 
@@ -190,4 +190,4 @@ class SensorModel:
             np.round(given[:, stepped] / settings.resolution[stepped]) * settings.resolution[stepped]
         )
         saturated: NDArray[np.bool_] = np.any(np.abs(given) >= settings.limit, axis=1)
-        return Readings(np.clip(given, -settings.limit, settings.limit), saturated, temperatures)
+        return SensorReadings(np.clip(given, -settings.limit, settings.limit), saturated, temperatures)

@@ -182,7 +182,7 @@ def run(
     Exit code 1: a cell could not be computed. The presets hard, ablation and rivals are no sweeps: they run
     `study stability`, `study ablation` and `study rivals`, where more can be chosen.
     """
-    from contactbench.pipeline.study.sweep.plan import Plan, preset_plan
+    from contactbench.pipeline.study.sweep.plan import SweepPlan, preset_plan
     from contactbench.pipeline.study.sweep.run import run as sweep
 
     if (study is None) == (preset is None):
@@ -204,7 +204,7 @@ def run(
         else:
             rivals(**common)
         return
-    plan = (preset_plan(str(preset)) if study is None else Plan.read(study)).changed(
+    plan = (preset_plan(str(preset)) if study is None else SweepPlan.read(study)).changed(
         probe or (), touches, seed
     )
     command = _typed(
@@ -345,7 +345,7 @@ def ablation(
     from contactbench.pipeline.study.ablation.verdicts import about_choices
     from contactbench.pipeline.study.pages import publish
 
-    sizes = _sized(study.QUICK if quick else study.Sizes(), probes=probe, scenes=scene, seeds=seeds)
+    sizes = _sized(study.QUICK if quick else study.ConfidenceSizes(), probes=probe, scenes=scene, seeds=seeds)
     make_folder(out)
     rows = study.run(sizes, seed=seed, progress=say)
     command = _typed("ablation", quick=quick, probe=probe, scene=scene, seeds=sizes.seeds, seed=seed)
@@ -378,7 +378,7 @@ def rivals(
     from contactbench.pipeline.study.rivals import run as study
     from contactbench.pipeline.study.rivals.rows import duels
 
-    sizes = _sized(study.QUICK if quick else study.Sizes(), probes=probe, rounds=rounds)
+    sizes = _sized(study.QUICK if quick else study.ConfidenceSizes(), probes=probe, rounds=rounds)
     make_folder(out)
     rows = study.run(sizes, seed=seed, progress=say)
     command = _typed("rivals", quick=quick, probe=probe, rounds=sizes.rounds, seed=seed)
@@ -449,7 +449,7 @@ def confidence(
     from contactbench.pipeline.study.confidence import study
     from contactbench.pipeline.study.pages import publish
 
-    sizes = _sized(study.QUICK if quick else study.Sizes(), touches=touches, seeds=seeds)
+    sizes = _sized(study.QUICK if quick else study.ConfidenceSizes(), touches=touches, seeds=seeds)
     report = study.run(tuple(probe or PROBE_NAMES), sizes, seed=seed, progress=say)
     if out:
         command = _typed(

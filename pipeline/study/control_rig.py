@@ -11,14 +11,14 @@ import numpy as np
 from contactbench.pipeline.calibration import Calibration, PoseSample, calibrate
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.control.command import Mount
+from contactbench.pipeline.control.command import SensorMount
 from contactbench.pipeline.control.controller import Controller
 from contactbench.pipeline.control.foundation import Foundation
+from contactbench.pipeline.control.intake import SampleIntake
 from contactbench.pipeline.control.loop import Rig, arm_of
-from contactbench.pipeline.control.sensing import Intake
+from contactbench.pipeline.simulation.loads import LoadedSensor, draw_load
 from contactbench.pipeline.simulation.scenes import ArmScene, Payload, PlatformScene, Tissue
 from contactbench.pipeline.simulation.sensor_model import SensorModel
-from contactbench.pipeline.simulation.weighing import LoadedSensor, draw_load
 from contactbench.pipeline.study.marker_touches import model_of, truth_of
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def make_rig(
     )
     model = model_of(probe, FACETS)
     noise = bench.settings.wrench_noise
-    intake = Intake(model, bench.calibration.model, noise, method=method, stale=settings.stale)
-    mount = Mount(world.R_ES, world.p_ES_E)
+    intake = SampleIntake(model, bench.calibration.model, noise, method=method, stale=settings.stale)
+    mount = SensorMount(world.R_ES, world.p_ES_E)
     controller = Controller(settings, arm_of(world), model, intake, mount, world.start)
     return Rig(world, controller, SensorModel(bench.settings, np.random.default_rng([seed, 3])))

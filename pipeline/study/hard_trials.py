@@ -20,14 +20,14 @@ from contactbench.pipeline.contact import (
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study import hard_meshes as hm
 from contactbench.pipeline.study.hard_judge import Judge
-from contactbench.pipeline.study.hard_meshes import Body, Bools, Drawn, Float
+from contactbench.pipeline.study.hard_meshes import Bools, Drawn, Float, SolidBody
 
 if TYPE_CHECKING:
     from rich.table import Table
 
 
 @dataclass(frozen=True)
-class Outcome:
+class HardOutcome:
     """What one method made of a case."""
 
     answered: float  # share of tries that got a point, `ambiguous` ones included
@@ -52,7 +52,7 @@ class Rule:
     wrong: float = 1.0
     reasons: tuple[Reason, ...] | None = None  # the only reasons allowed
 
-    def faults(self, outcome: Outcome) -> tuple[str, ...]:
+    def faults(self, outcome: HardOutcome) -> tuple[str, ...]:
         """Return what is wrong with an outcome, in words; nothing when it passes."""
         low, high = self.answered
         allowed = None if self.reasons is None else {r.name for r in self.reasons}
@@ -74,7 +74,7 @@ class Rule:
 
 
 @dataclass(frozen=True)
-class Case:
+class HardCase:
     """One hard case, as it went."""
 
     # name, what, expectation: in words
@@ -82,8 +82,8 @@ class Case:
     what: str
     tries: int  # wrenches
     expectation: str
-    contactbench: Outcome
-    algorithm1: Outcome
+    contactbench: HardOutcome
+    algorithm1: HardOutcome
     # whether contactbench kept the rule. Algorithm 1 is shown, not judged.
     passed: bool
     faults: tuple[str, ...] = ()  # what was wrong
@@ -100,7 +100,7 @@ Check = Callable[[methods.Method, Batch], Bools]
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class HardTrial:
     """A case before it is tried."""
 
     name: str
@@ -117,21 +117,23 @@ class Trial:
     # facets were turned over on purpose: an answer counts as flagged when the mesh's health says so
     known_bad_mesh: bool = False
 
-    def run(self) -> Case:
+    def run(self) -> HardCase:
         """Try both methods and judge."""
         ours = self._outcome(self.method())
         theirs = self._outcome(methods.algorithm1(self.probe, self.noise, self.gates))
         faults = (
             self.rule.faults(ours) if len(self.drawn) else ("no wrench fits the case: give more samples",)
         )
-        return Case(self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults)
+        return HardCase(
+            self.name, self.what, len(self.drawn), self.rule.words, ours, theirs, not faults, faults
+        )
 
     def method(self) -> methods.Method:
         """Return the solver that is tried."""
         solver = ContactSolver(self.probe, self.noise, self.gates, self.model)
         return methods.Method("contactbench", solver.locate, solver.locate_batch, solver)
 
-    def _outcome(self, method: methods.Method) -> Outcome:
+    def _outcome(self, method: methods.Method) -> HardOutcome:
         batch = method.locate_batch(self.drawn.wrenches)
         error = 1e3 * np.linalg.norm(batch.points - self.drawn.points, axis=1)
         far = error > self.tolerance_mm
@@ -141,7 +143,7 @@ class Trial:
         codes, counts = np.unique(batch.reasons, return_counts=True)
         known = error[np.isfinite(error)]
         tries = max(1, len(self.drawn))
-        return Outcome(
+        return HardOutcome(
             float(np.isfinite(batch.points[:, 0]).sum() / tries),
             float(known.mean()) if len(known) else None,
             float(known.max()) if len(known) else None,
@@ -166,7 +168,7 @@ def refused(*reasons: Reason) -> Rule:
     )
 
 
-def certified(body: Body, wrenches: Float) -> Check:
+def certified(body: SolidBody, wrenches: Float) -> Check:
     """Refuse points that are not the exact solution where they say (a convex body has only one)."""
 
     def check(_: methods.Method, batch: Batch) -> Bools:
@@ -220,7 +222,7 @@ def within(drawn: Drawn) -> Check:
     return check
 
 
-def like(base: Trial, move: Callable[[Float], Float], size: float) -> Check:
+def like(base: HardTrial, move: Callable[[Float], Float], size: float) -> Check:
     """Refuse answers that are not those of another trial, moved, to 1e-9 of the body's size."""
 
     def check(method: methods.Method, batch: Batch) -> Bools:
@@ -245,7 +247,7 @@ class HardCasesReport:
     # samples, seed: as given to :func:`run`
     samples: int
     seed: int
-    cases: list[Case]
+    cases: list[HardCase]
 
     @property
     def passed(self) -> bool:
@@ -282,7 +284,7 @@ class HardCasesReport:
 _COLUMNS = ("case", "tries", "answered", "largest error, mm", "wrong, not flagged", "verdict")
 
 
-def _figures(case: Case, stroke: str) -> tuple[str, str, str]:
+def _figures(case: HardCase, stroke: str) -> tuple[str, str, str]:
     both = (case.contactbench, case.algorithm1)
     return (
         stroke.join(f"{100 * o.answered:.4g} %" for o in both),
@@ -291,5 +293,5 @@ def _figures(case: Case, stroke: str) -> tuple[str, str, str]:
     )
 
 
-def _verdict(case: Case) -> str:
+def _verdict(case: HardCase) -> str:
     return "passed" if case.passed else "; ".join(case.faults)

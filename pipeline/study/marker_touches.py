@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from contactbench import assets
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
-from contactbench.pipeline.simulation.scenes import Press, TouchScene, Truth
+from contactbench.pipeline.simulation.scenes import TipPress, TouchScene, TrueSurface
 from contactbench.pipeline.simulation.scenes.touch import along, draw_press
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 TRUE_FACETS = 20_000
 PERPENDICULAR, IN_PLANE, ACROSS = "perpendicular", "30° in plane", "30° across"
@@ -52,9 +52,9 @@ class Touched:
 
 
 @cache
-def truth_of(name: str) -> Truth:
+def truth_of(name: str) -> TrueSurface:
     """Return a bundled probe as it really is."""
-    return Truth(Probe.from_arrays(*assets.make(name, TRUE_FACETS), name=name))
+    return TrueSurface(Probe.from_arrays(*assets.make(name, TRUE_FACETS), name=name))
 
 
 @cache
@@ -64,7 +64,7 @@ def model_of(name: str, facets: int) -> Probe:
     return Probe.from_arrays(vertices, faces, assets.contact_region(name, vertices, faces), name=name)
 
 
-class Station:
+class MarkerStation:
     """
     The tip above one marker, ready to press it again and again.
 
@@ -81,7 +81,7 @@ class Station:
         self._where = self.scene.marker_S
         self._normal = truth.nearest(self._where)[1]
 
-    def touch(self, press: Press) -> Moment:
+    def touch(self, press: TipPress) -> SceneMoment:
         """
         Lift, press, and wait until it rests.
 
@@ -114,7 +114,7 @@ def press_markers(
     progress: Callable[[], None] = lambda: None,
 ) -> Touched:
     """
-    Press every marker at every angle, with forces and torsions drawn for each seed and repeat.
+    TipPress every marker at every angle, with forces and torsions drawn for each seed and repeat.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def press_markers(
     """
     rows = []
     for number, marker_S in enumerate(markers_S):
-        station = Station(name, marker_S)
+        station = MarkerStation(name, marker_S)
         for seed in range(seeds):
             rng = np.random.default_rng([seed, 3, assets.PROBE_NAMES.index(name), number])
             for angle, (tilt, azimuth) in enumerate(ANGLES.values()):
@@ -143,7 +143,9 @@ def press_markers(
     return pressed.where(np.argsort(pressed.seeds, kind="stable"))
 
 
-def row(index: tuple[int, int, int, int], target: NDArray[np.float64], moment: Moment) -> tuple[object, ...]:
+def row(
+    index: tuple[int, int, int, int], target: NDArray[np.float64], moment: SceneMoment
+) -> tuple[object, ...]:
     """Return one touch as a row for `stack`."""
     return (*index, target, moment.point_S, moment.normal_S, moment.contact, held(moment.contact))
 

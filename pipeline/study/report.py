@@ -155,7 +155,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Report:
+class StudyReport:
     """All figures of a study."""
 
     title: str

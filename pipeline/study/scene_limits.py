@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.simulation.scenes import Moment, MovedScene, Truth
+    from contactbench.pipeline.simulation.scenes import MovedScene, SceneMoment, TrueSurface
 
 FORCE_N = 7.0
 MOTIONS = {
@@ -79,7 +79,7 @@ class Effect:
 
 
 @dataclass(frozen=True)
-class Inertia:
+class RideInertia:
     """What a sensor reads beside contact and weight; largest: N, and the mm by which it moves a contact of 7 N."""
 
     motion: str
@@ -95,7 +95,7 @@ class SceneReport:
     probe: str
     period: float
     effects: list[Effect]
-    inertia: list[Inertia]
+    inertia: list[RideInertia]
     real_time: dict[str, float]
 
     def to_json(self) -> dict[str, Any]:
@@ -129,7 +129,7 @@ class SceneReport:
 
 
 @dataclass(frozen=True)
-class Change:
+class SceneChange:
     """What a changed scene is compared with, how to make it, and how many places feel its tissue."""
 
     against: str
@@ -137,19 +137,19 @@ class Change:
     places: int = PLACES
 
 
-def changes(truth: Truth) -> dict[str, Change]:
+def changes(truth: TrueSurface) -> dict[str, SceneChange]:
     """Return each scene by what is changed in it."""
 
-    def platform(friction: float = Tissue.friction, places: int = PLACES, **given: Any) -> Change:
+    def platform(friction: float = Tissue.friction, places: int = PLACES, **given: Any) -> SceneChange:
         tissue = Tissue(friction=friction)
-        return Change(
+        return SceneChange(
             AS_IT_IS,
             lambda **more: PlatformScene(truth, tissue=tissue, places=places, **more, **given),
             places,
         )
 
-    def arm(against: str = ARM, **given: Any) -> Change:
-        return Change(against, lambda **more: ArmScene(truth, **more, **given))
+    def arm(against: str = ARM, **given: Any) -> SceneChange:
+        return SceneChange(against, lambda **more: ArmScene(truth, **more, **given))
 
     return {
         AS_IT_IS: platform(),
@@ -197,7 +197,7 @@ def run(
     known = changes(truth)
     chosen = list(known) if only is None else _with_bases(only, known)
     effects: list[Effect] = []
-    inertia: list[Inertia] = []
+    inertia: list[RideInertia] = []
     factors: dict[str, float] = {}
     for motion in motions:
         rides: dict[str, Ride] = {}
@@ -211,7 +211,7 @@ def run(
                 effects.append(_effect(motion, change, each.against, rides))
             if change in (AS_IT_IS, ARM):
                 most = rides[change].inertia.max(axis=0)
-                inertia.append(Inertia(motion, change, float(most[0]), float(most[1])))
+                inertia.append(RideInertia(motion, change, float(most[0]), float(most[1])))
     return SceneReport(probe, period, effects, inertia, factors)
 
 
@@ -222,7 +222,7 @@ def ride(
     period: float,
     depth: float,
     *,
-    seen: Callable[[Moment], None] = lambda _: None,
+    seen: Callable[[SceneMoment], None] = lambda _: None,
 ) -> tuple[Ride, float]:
     """
     Move a probe beside a phantom for a period and a quarter; return what was met, and simulated over real time.
@@ -258,7 +258,7 @@ def ride(
     ), scene.time / spent
 
 
-def _row(scene: MovedScene, moment: Moment) -> list[float]:
+def _row(scene: MovedScene, moment: SceneMoment) -> list[float]:
     angles = np.degrees(scene.angles())
     # Of the payload, as MuJoCo has it: what is read beside contact and weight is inertia.
     body = scene.model.body("probe").id
@@ -277,7 +277,7 @@ def _row(scene: MovedScene, moment: Moment) -> list[float]:
     ]
 
 
-def _with_bases(only: Sequence[str], known: dict[str, Change]) -> list[str]:
+def _with_bases(only: Sequence[str], known: dict[str, SceneChange]) -> list[str]:
     wanted = set(only)
     for change in only:
         base = known[change].against

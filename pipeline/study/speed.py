@@ -16,7 +16,7 @@ from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import add_noise, draw_slide, draw_touches
 from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.pages import table
-from contactbench.pipeline.study.sweep.judging import bound_of
+from contactbench.pipeline.study.sweep.scores import bound_of
 from contactbench.pipeline.timing import Timing, time_calls
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ _PAST_M, _MISSED = 1e-6, 1e30  # behind a hit the next ray begins; Embree's dist
 
 
 @dataclass(frozen=True)
-class Row:
+class SpeedRow:
     """One method on one mesh."""
 
     # method, language: ``C++``: compiled solves in a batch; ``Python``: one call at a time; ``Python,
@@ -61,7 +61,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Target:
+class SpeedTarget:
     """A figure to reach: measured against its limit."""
 
     name: str
@@ -88,8 +88,8 @@ class SpeedReport:
     probe: str
     seed: int
     touches: int
-    rows: list[Row]
-    targets: list[Target]
+    rows: list[SpeedRow]
+    targets: list[SpeedTarget]
     stream_samples: int
     stream_differences: int
 
@@ -181,7 +181,7 @@ def run(
     truth = draw_touches(assets.surface(probe), touches, rng, above=0.02)
     wrenches = add_noise(truth.wrenches, noise, rng)
     sliding = add_noise(draw_slide(assets.surface(probe), max(stream, 20_000), rng).wrenches, noise, rng)
-    rows: list[Row] = []
+    rows: list[SpeedRow] = []
     differences = 0
     for count in facets:
         progress(f"{count:,} facets")
@@ -230,7 +230,7 @@ def _compiled_rows(
     truth: Touches,
     wrenches: NDArray[np.float64],
     sliding: NDArray[np.float64],
-) -> list[Row]:
+) -> list[SpeedRow]:
     rows = []
     bound = bound_of(truth, np.sqrt(np.diag(noise.covariance)))
     for name in ("algorithm1", "iterative", "scan", "contactbench"):
@@ -243,7 +243,7 @@ def _compiled_rows(
         if name == "contactbench":
             method.engine.time_tracking(sliding[:1_000])
             tracking = Timing.of(method.engine.time_tracking(sliding[:20_000]))
-            rows.append(Row("contactbench, tracking", "C++", len(probe.faces), tracking))
+            rows.append(SpeedRow("contactbench, tracking", "C++", len(probe.faces), tracking))
     return rows
 
 
@@ -255,14 +255,14 @@ def _scored(
     truth: Touches,
     wrenches: NDArray[np.float64],
     bound: NDArray[np.float64],
-) -> Row:
+) -> SpeedRow:
     batch = method.locate_batch(wrenches)
     error = np.linalg.norm(batch.points - truth.points, axis=1)
     seen = np.isfinite(error)
     settled = batch.accepted
     limit = np.sqrt(np.mean(bound[settled]))
     mm = 1e3 * error[seen]
-    return Row(
+    return SpeedRow(
         method.name,
         language,
         len(probe.faces),
@@ -278,7 +278,7 @@ def _scored(
 
 def _python_rows(
     probe: Probe, noise: WrenchNoise, wrenches: NDArray[np.float64], sliding: NDArray[np.float64], rounds: int
-) -> list[Row]:
+) -> list[SpeedRow]:
     solver = ContactSolver(probe, noise)
     cold, stream = list(wrenches[:5_000]), list(sliding[:20_000])
     calls: dict[str, tuple[Callable[[Any], object], Sequence[Any]]] = {
@@ -301,10 +301,12 @@ def _python_rows(
         together["embree, first hit"] = (lambda ray: trace(ray[0], ray[1]), many)
         together["embree, every hit"] = (lambda ray: every_hit(axis, ray[0], ray[1]), many)
     size = len(probe.faces)
-    rows = [Row(name, "Python", size, timing) for name, timing in time_calls(calls, rounds=rounds).items()]
+    rows = [
+        SpeedRow(name, "Python", size, timing) for name, timing in time_calls(calls, rounds=rounds).items()
+    ]
     for name, timing in time_calls(together, rounds=rounds, block=2).items():
         each = Timing(timing.median / _TOGETHER, timing.p99 / _TOGETHER)
-        rows.append(Row(name, _BATCH, size, each))
+        rows.append(SpeedRow(name, _BATCH, size, each))
     return rows
 
 
@@ -333,7 +335,7 @@ def every_hit(
     return np.concatenate(rays), np.concatenate(distances)
 
 
-def _targets(rows: Sequence[Row], facets: Sequence[int]) -> list[Target]:
+def _targets(rows: Sequence[SpeedRow], facets: Sequence[int]) -> list[SpeedTarget]:
     median = {(r.method, r.language, i): r.timing.median for r, i in _indexed(rows, facets)}
     targets = []
     for count in facets:
@@ -341,31 +343,37 @@ def _targets(rows: Sequence[Row], facets: Sequence[int]) -> list[Target]:
         if embree:
             cold = median["contactbench", "Python", count] / embree
             tracking = median["contactbench, tracking", "Python", count] / embree
-            targets.append(Target(f"locate over one Embree ray, from Python, {count:,} facets", cold, 1.5))
-            targets.append(Target(f"track over one Embree ray, from Python, {count:,} facets", tracking, 0.7))
+            targets.append(
+                SpeedTarget(f"locate over one Embree ray, from Python, {count:,} facets", cold, 1.5)
+            )
+            targets.append(
+                SpeedTarget(f"track over one Embree ray, from Python, {count:,} facets", tracking, 0.7)
+            )
         ratio = median["algorithm1", "C++", count] / median["contactbench", "C++", count]
         limit = {500: 30.0, 20_000: 400.0}.get(count)
         if limit:
             targets.append(
-                Target(f"Algorithm 1 over contactbench, C++, {count:,} facets", ratio, limit, at_least=True)
+                SpeedTarget(
+                    f"Algorithm 1 over contactbench, C++, {count:,} facets", ratio, limit, at_least=True
+                )
             )
     if 1_000 in facets and 100_000 in facets:
         for method, limit in (("contactbench", 6.0), ("contactbench, tracking", 2.5)):
             for language in ("C++", "Python"):
                 growth = median[method, language, 100_000] / median[method, language, 1_000]
                 targets.append(
-                    Target(f"growth of {method} from 1k to 100k facets, {language}", growth, limit)
+                    SpeedTarget(f"growth of {method} from 1k to 100k facets, {language}", growth, limit)
                 )
     for r, count in _indexed(rows, facets):
         if r.method.startswith("contactbench") and r.language != _BATCH:
             spread = r.timing.p99 / r.timing.median
             targets.append(
-                Target(f"p99 over median of {r.method}, {r.language}, {count:,} facets", spread, 4.0)
+                SpeedTarget(f"p99 over median of {r.method}, {r.language}, {count:,} facets", spread, 4.0)
             )
     return targets
 
 
-def _indexed(rows: Sequence[Row], facets: Sequence[int]) -> list[tuple[Row, int]]:
+def _indexed(rows: Sequence[SpeedRow], facets: Sequence[int]) -> list[tuple[SpeedRow, int]]:
     """Pair each row with the requested facet count its mesh came nearest to."""
     return [(r, min(facets, key=lambda count: abs(count - r.facets))) for r in rows]
 
@@ -388,7 +396,7 @@ _COLUMNS = (
 _TARGETS = ("figure", "measured", "target", "")
 
 
-def _cells(row: Row) -> list[str]:
+def _cells(row: SpeedRow) -> list[str]:
     def number(value: float | None, digits: str = ".2f") -> str:
         return "" if value is None else format(value, digits)
 

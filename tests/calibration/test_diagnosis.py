@@ -30,7 +30,7 @@ from contactbench.pipeline.calibration.diagnosis.diagnose import diagnose
 from contactbench.pipeline.calibration.diagnosis.prior import Prior
 from contactbench.pipeline.calibration.diagnosis.rereadings import RawOrientations
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import draw_load, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 # ---- what residuals do not tell ------------------------------------------------------------------
 

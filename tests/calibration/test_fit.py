@@ -21,7 +21,7 @@ from contactbench.pipeline.calibration.observability import observe
 from contactbench.pipeline.calibration.poses import Stack, stack
 from contactbench.pipeline.calibration.reml import NoisePrior, fit_with_noise
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.weighing import draw_load, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 NOTHING = np.zeros(6)
 

@@ -12,7 +12,7 @@ from weighing_files import draw_noise
 from contactbench.pipeline.calibration import PoseNoise, calibrate
 from contactbench.pipeline.calibration.model import cross_matrix
 from contactbench.pipeline.calibration.observability import WEAK, observe
-from contactbench.pipeline.simulation.weighing import draw_load, weigh
+from contactbench.pipeline.simulation.loads import draw_load, weigh
 
 DOWN = np.array([0.0, 0.0, -1.0])
 

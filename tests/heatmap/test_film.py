@@ -10,11 +10,11 @@ import pytest
 from PIL import Image, ImageSequence
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.heatmap import HeatmapError, film, picture
+from contactbench.pipeline.heatmap import HeatmapError, picture
 from contactbench.pipeline.heatmap.contacts import Contacts
 from contactbench.pipeline.heatmap.film import FilmSettings, frames, moments, write_film
 from contactbench.pipeline.heatmap.playback import Playback
-from contactbench.pipeline.heatmap.windowing import Selection
+from contactbench.pipeline.heatmap.selection import Selection
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.mesh.engines.errors import Cancelled
 

@@ -89,8 +89,8 @@ def test_report_is_plain_data(report):
 
 
 def test_targets_are_judged_both_ways():
-    assert speed.Target("a", 2.0, 1.0).met is False
-    assert speed.Target("a", 2.0, 1.0, at_least=True).met is True
+    assert speed.SpeedTarget("a", 2.0, 1.0).met is False
+    assert speed.SpeedTarget("a", 2.0, 1.0, at_least=True).met is True
 
 
 @pytest.mark.parametrize(

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.simulation.scenes.physics import Truth
+    from contactbench.pipeline.simulation.scenes.physics import TrueSurface
 
 _THICKNESS_M = 0.002
 _FACING = 1e-3  # facets that look away from the one that is touched are its other side
 _MOST_PIECES = 4_000
 
 
-def facets_near(truth: Truth, point_S: NDArray[np.float64], radius: float) -> NDArray[np.intp]:
+def facets_near(truth: TrueSurface, point_S: NDArray[np.float64], radius: float) -> NDArray[np.intp]:
     """
     Return the facets within a radius, m, of a point on the surface, and on its side.
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from contactbench.pipeline.simulation.scenes.motion import Motion, hand_motion
-from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, Truth, new_spec
+from contactbench.pipeline.simulation.scenes.physics import OTHER, Payload, TrueSurface, new_spec
 from contactbench.pipeline.simulation.scenes.tissue import (
     PLACES,
     Tissue,
@@ -33,7 +33,7 @@ class PressScene(TissueScene):
     """
     A probe upright on its sensor, and a phantom above it that comes down.
 
-    A contact of some area has no one point. `Moment.point_S` is where its line of action - through the centroid of
+    A contact of some area has no one point. `SceneMoment.point_S` is where its line of action - through the centroid of
     the forces, along their sum - leaves the true surface: the centroid of a bulged area lies inside the probe, and
     with friction the nearest point to it is not on that line. Contact location without noise, on the true mesh, is
     0.17 mm (T-shape), 0.08 mm (linear) and 0.03 mm (convex) off it, RMS: the forces of an area also twist about axes
@@ -41,7 +41,7 @@ class PressScene(TissueScene):
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
     payload : Payload, optional
     tissue : Tissue, optional
     motion : Motion, optional
@@ -59,7 +59,7 @@ class PressScene(TissueScene):
 
     def __init__(
         self,
-        truth: Truth,
+        truth: TrueSurface,
         *,
         payload: Payload | None = None,
         tissue: Tissue | None = None,

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import Press
+from contactbench.pipeline.simulation.scenes import TipPress
 from contactbench.pipeline.simulation.scenes.bench import MOST_BUMP_N, MOST_LEVER_M
 
 if TYPE_CHECKING:
@@ -61,13 +61,13 @@ class TurnTo:
 
 
 @dataclass(frozen=True)
-class Touch:
+class TouchCommand:
     """Press a tip on a place of the probe."""
 
     name: ClassVar[str] = "touch"
     marker: int | None = None  # number of a marker, from 1
     point_S: Three | None = None  # or a place in S, m: the nearest point of the surface is pressed
-    # force, tilt, azimuth, torsion: as for `Press`: N, degrees, degrees, N·m
+    # force, tilt, azimuth, torsion: as for `TipPress`: N, degrees, degrees, N·m
     force: float = 9.0
     tilt: float = 0.0
     azimuth: float = 0.0
@@ -87,9 +87,9 @@ class Touch:
         _check_seconds(self)
 
     @property
-    def press(self) -> Press:
+    def press(self) -> TipPress:
         """How the tip presses."""
-        return Press(self.force, self.tilt, self.azimuth, self.torsion)
+        return TipPress(self.force, self.tilt, self.azimuth, self.torsion)
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class Warm:
 
 
 @dataclass(frozen=True)
-class Rezero:
+class SecretRezero:
     """Zero the sensor behind everybody's back: nothing but the truth tells."""
 
     name: ClassVar[str] = "rezero"
@@ -149,9 +149,9 @@ class End:
     name: ClassVar[str] = "end"
 
 
-Command = TurnTo | Touch | Release | Bump | Warm | Rezero | End
+Command = TurnTo | TouchCommand | Release | Bump | Warm | SecretRezero | End
 _COMMANDS: Final[dict[str, type[Any]]] = {
-    kind.name: kind for kind in (TurnTo, Touch, Release, Bump, Warm, Rezero, End)
+    kind.name: kind for kind in (TurnTo, TouchCommand, Release, Bump, Warm, SecretRezero, End)
 }
 
 

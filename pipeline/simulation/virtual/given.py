@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from contactbench.pipeline.simulation.virtual.commands import Command, Rezero
+from contactbench.pipeline.simulation.virtual.commands import Command, SecretRezero
 
 if TYPE_CHECKING:
     from contactbench.pipeline.devices.sample import FlangeSample, WrenchSample
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Done:
     @property
     def secret(self) -> bool:
         """Whether nobody but the truth may tell of it."""
-        return isinstance(self.command, Rezero)
+        return isinstance(self.command, SecretRezero)
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,6 @@ class Batch:
 
     wrenches: tuple[WrenchSample, ...] = ()
     flanges: tuple[FlangeSample, ...] = ()
-    truths: tuple[Moment, ...] = ()  # one for every wrench
+    truths: tuple[SceneMoment, ...] = ()  # one for every wrench
     done: tuple[Done, ...] = ()  # commands that took effect
     slips: tuple[Slip, ...] = ()  # touches that were found to press nothing

@@ -12,7 +12,7 @@ from contactbench.pipeline.contact.methods import make
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.simulation import add_noise, draw_touches
-from contactbench.pipeline.study.sweep.bodies import Body, MeshSurface, body_of, mesh_of
+from contactbench.pipeline.study.sweep.bodies import MeshSurface, TouchedBody, body_of, mesh_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -67,7 +67,7 @@ def ask(solver: ContactSolver, touches: Touches, wrenches: Float) -> Asked:
 
 
 def press(
-    body: Body,
+    body: TouchedBody,
     solver: ContactSolver,
     count: int,
     rng: np.random.Generator,
@@ -102,7 +102,7 @@ def mesh(name: str, facets: int, *, region: bool = False) -> Probe:
 def fin(thickness: float, noise: WrenchNoise, count: int, rng: np.random.Generator) -> Measured:
     """Press on the edge of a thin fin: beside it, the body behind it answers as well."""
     probe, edge = make_fin(thickness)
-    asked = press(Body(edge, 0.0), ContactSolver(probe, noise), count, rng, force=(5.0, 10.0))
+    asked = press(TouchedBody(edge, 0.0), ContactSolver(probe, noise), count, rng, force=(5.0, 10.0))
     return {
         "sure": float(asked.sure.mean()),
         "sure and over 10 mm off": float(np.mean(asked.sure & asked.off(ASTRAY_M))),

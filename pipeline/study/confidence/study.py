@@ -43,7 +43,7 @@ _FEW = 20  # answers: a bin of fewer says nothing
 
 
 @dataclass(frozen=True)
-class Sizes:
+class ConfidenceSizes:
     """How much is tried."""
 
     # touches, seeds: of each figure, and repetitions of it
@@ -54,11 +54,11 @@ class Sizes:
     pruned: int = 100_000  # wrenches of a probe that are compared with every facet one by one
 
 
-QUICK = Sizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
+QUICK = ConfidenceSizes(touches=400, seeds=2, facets=1_000, ellipse_facets=(500, 2_000), pruned=1_000)
 
 
 @dataclass(frozen=True)
-class Row:
+class ConfidenceRow:
     """One figure."""
 
     part: str  # a key of :data:`PARTS`
@@ -91,9 +91,9 @@ class ConfidenceReport:
     """Every figure."""
 
     names: tuple[str, ...]  # probes
-    sizes: Sizes
+    sizes: ConfidenceSizes
     seed: int
-    rows: tuple[Row, ...]
+    rows: tuple[ConfidenceRow, ...]
 
     @property
     def passed(self) -> bool:
@@ -133,7 +133,7 @@ class ConfidenceReport:
 
 def run(
     names: Sequence[str] = PROBE_NAMES,
-    sizes: Sizes | None = None,
+    sizes: ConfidenceSizes | None = None,
     *,
     seed: int = 0,
     progress: Callable[[str], None] = lambda _: None,
@@ -158,7 +158,7 @@ def run(
     if seed < 0:
         raise InputError(f"seed: {seed} is negative: give at least 0.")
     check(names)
-    sizes, rows = sizes or Sizes(), list[Row]()
+    sizes, rows = sizes or ConfidenceSizes(), list[ConfidenceRow]()
     tried = list(_cases(names, sizes))
     for part, title in PARTS.items():
         progress(title)
@@ -175,7 +175,7 @@ def run(
 
 
 @dataclass(frozen=True)
-class Case:
+class ConfidenceCase:
     """One thing that is tried with several seeds: its figures, and what the mean of each must keep."""
 
     part: str
@@ -185,7 +185,7 @@ class Case:
     measure: Callable[[np.random.Generator], Measured]
     bounds: Mapping[str, Bounds] = field(default_factory=dict)
 
-    def rows(self, sizes: Sizes, seed: int) -> Iterator[Row]:
+    def rows(self, sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
         """Sum up what several seeds gave: shares as %."""
         measured = [self.measure(rng) for rng in _chances(sizes, seed, *self.chance)]
         for figure in measured[0]:
@@ -193,28 +193,36 @@ class Case:
             values = np.array([one[figure] for one in measured]) * (1.0 if length else 100.0)
             middle = (float(values.mean()), float(values.min()), float(values.max()))
             unit, bounds = "mm" if length else "%", self.bounds.get(figure, (None, None))
-            yield Row(self.part, self.probe, self.name, figure, unit, sizes.touches, *middle, *bounds)
+            yield ConfidenceRow(
+                self.part, self.probe, self.name, figure, unit, sizes.touches, *middle, *bounds
+            )
 
 
-def _cases(names: Sequence[str], sizes: Sizes) -> Iterator[Case]:
+def _cases(names: Sequence[str], sizes: ConfidenceSizes) -> Iterator[ConfidenceCase]:
     """Give every case but the reliability and the pruning, which are no figures of several seeds."""
     count, facets = sizes.touches, sizes.facets
     wrong: dict[str, Bounds] = {"sure and over 10 mm off": (None, 0.1)}
     for i, thickness in enumerate(cases.FINS_M):
         for j, (said, noise) in enumerate(cases.NOISES.items()):
             name = f"{1e3 * thickness:g} mm, {said} noise"
-            yield Case("fin", "capsule", name, (i, j), partial(cases.fin, thickness, noise, count), wrong)
+            yield ConfidenceCase(
+                "fin", "capsule", name, (i, j), partial(cases.fin, thickness, noise, count), wrong
+            )
     for i, probe in enumerate(name for name in names if name in PROBE_NAMES):  # their lens is known
         measure = partial(cases.region, probe, facets, count)
-        yield Case("region", probe, "8 to 10 N", (i,), measure, {"sure, of these over 5 mm off": (None, 0.1)})
+        yield ConfidenceCase(
+            "region", probe, "8 to 10 N", (i,), measure, {"sure, of these over 5 mm off": (None, 0.1)}
+        )
         for (said, noise), region, pull in product(cases.NOISES.items(), (False, True), cases.PULLS_N):
             name = f"{pull:g} N, {said} noise, {'lens declared' if region else 'no region'}"
             pulled = partial(cases.pulled, probe, facets, noise, pull, count, region=region)
             # A pull of ten times the model's error is shown, not judged.
-            yield Case("pull", probe, name, (i,), pulled, wrong if pull == min(cases.PULLS_N) else {})
+            yield ConfidenceCase(
+                "pull", probe, name, (i,), pulled, wrong if pull == min(cases.PULLS_N) else {}
+            )
     for i, probe in enumerate(names):
         title = title_of(probe)
-        yield Case(
+        yield ConfidenceCase(
             "two touches", title, "forces 1:1 to 1:3", (i,), partial(cases.two, probe, facets, count),
             {"sure and over 5 mm from both": (None, 15.0)},
         )  # fmt: skip
@@ -224,7 +232,9 @@ def _cases(names: Sequence[str], sizes: Sizes) -> Iterator[Case]:
             name = f"torsion {1e3 * torsion:g} mm, {said} noise"
             single = partial(cases.single, probe, facets, noise, torsion, count)
             least = 95.0 if probe == "t-shape" else 98.0
-            yield Case("one touch", title, name, (i,), single, {"sure": (least, None)} if judged else {})
+            yield ConfidenceCase(
+                "one touch", title, name, (i,), single, {"sure": (least, None)} if judged else {}
+            )
         for size, (said, noise), torsion, drift in product(
             sizes.ellipse_facets, cases.NOISES.items(), cases.TORSIONS_M, (True, False)
         ):
@@ -232,15 +242,17 @@ def _cases(names: Sequence[str], sizes: Sizes) -> Iterator[Case]:
             name = f"{size:,} facets, torsion {1e3 * torsion:g} mm, {said} noise, {error}"
             ellipse = partial(cases.ellipse, probe, size, noise, torsion, count, drift=drift)
             # Without it the ellipse, which allows for it, holds more.
-            yield Case("ellipse", title, name, (i,), ellipse, {"inside": (92.0, 98.0)} if drift else {})
+            yield ConfidenceCase(
+                "ellipse", title, name, (i,), ellipse, {"inside": (92.0, 98.0)} if drift else {}
+            )
         for torsion, force in product(cases.TORSIONS_M, cases.FORCES_N):
             name = f"{force[0]:g} to {force[1]:g} N, torsion {1e3 * torsion:g} mm"
-            yield Case(
+            yield ConfidenceCase(
                 "error", title, name, (i,), partial(cases.errors, probe, facets, force, torsion, count)
             )
 
 
-def _reliability(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
+def _reliability(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
     for i, name in enumerate(names):
         for region in (False, True) if name in PROBE_NAMES else (False,):
             pairs = [
@@ -251,7 +263,7 @@ def _reliability(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]
             yield from bins(title_of(name), "lens declared" if region else "no region", stated, right)
 
 
-def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Row]:
+def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[ConfidenceRow]:
     """Compare stated confidence (n,) with what was right (n,): by its tenths, the last one split at 0.99."""
     from scipy.stats import binomtest
 
@@ -273,16 +285,16 @@ def bins(probe: str, case: str, stated: Float, right: Bools) -> Iterator[Row]:
             least, most = mean - 100 * _WITHIN, mean + 100 * _WITHIN
         figure = f"{RIGHT}, where {low:g} to {high:g} is {STATED}"
         sure = (100.0 * hits / count, 100.0 * interval.low, 100.0 * interval.high)
-        yield Row("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
+        yield ConfidenceRow("reliability", probe, case, figure, "%", count, *sure, least, most, mean)
 
 
-def _pruning(names: Sequence[str], sizes: Sizes, seed: int) -> Iterator[Row]:
+def _pruning(names: Sequence[str], sizes: ConfidenceSizes, seed: int) -> Iterator[ConfidenceRow]:
     for i, name in enumerate(names):
         found = cases.pruning(name, _PRUNED_FACETS, sizes.pruned, np.random.default_rng((seed, i)))
         differ = (float(found),) * 3
         case, figure = f"{_PRUNED_FACETS} facets", "answers that differ"
-        yield Row("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
+        yield ConfidenceRow("pruning", title_of(name), case, figure, "", sizes.pruned, *differ, at_most=0.0)
 
 
-def _chances(sizes: Sizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
+def _chances(sizes: ConfidenceSizes, seed: int, *place: int) -> Iterator[np.random.Generator]:
     return (np.random.default_rng((seed, *place, i)) for i in range(sizes.seeds))

@@ -14,7 +14,7 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise, methods
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation import draw_touches
 from contactbench.pipeline.study.ablation.effects import NOISES
-from contactbench.pipeline.study.ablation.locating import sigmas_of
+from contactbench.pipeline.study.ablation.location_choices import sigmas_of
 from contactbench.pipeline.study.marker_touches import model_of
 from contactbench.pipeline.study.rivals.rays import TRACERS, bare_ray
 from contactbench.pipeline.study.rivals.rows import (

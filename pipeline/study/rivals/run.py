@@ -19,7 +19,7 @@ _FEWEST, _MOST = 300, 200_000
 
 
 @dataclass(frozen=True)
-class Sizes:
+class RivalsSizes:
     """How much is measured."""
 
     probes: tuple[str, ...] = assets.PROBE_NAMES
@@ -38,10 +38,10 @@ class Sizes:
             raise InputError(f"--rounds {self.rounds}: give at least 1.")
 
 
-QUICK = Sizes(probes=("linear",), facets=(500,), touches=500, rounds=3)
+QUICK = RivalsSizes(probes=("linear",), facets=(500,), touches=500, rounds=3)
 
 
-def run(sizes: Sizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
+def run(sizes: RivalsSizes, *, seed: int = 0, progress: Callable[[str], None] = lambda _: None) -> list[Row]:
     """
     Measure everything that is installed.
 

@@ -30,7 +30,7 @@ _SHOWN = 1_500  # facets of a picture
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class TouchedBody:
     """A probe that is touched."""
 
     surface: Sampled  # as it truly is
@@ -58,13 +58,13 @@ class MeshSurface:
 
 
 @lru_cache(maxsize=_KEPT)
-def body_of(name: str) -> Body:
+def body_of(name: str) -> TouchedBody:
     """Return what is touched: a bundled probe's exact surface, or the file's own mesh; InputError."""
     if name in assets.PROBE_NAMES:
-        return Body(assets.surface(name), _ABOVE_M)
+        return TouchedBody(assets.surface(name), _ABOVE_M)
     probe = _file(name)
     low, high = probe.bounds
-    return Body(MeshSurface(probe), float(low[2] + 0.15 * (high[2] - low[2])))
+    return TouchedBody(MeshSurface(probe), float(low[2] + 0.15 * (high[2] - low[2])))
 
 
 @lru_cache(maxsize=_KEPT)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.study.sweep.pictures import astray, draw
-from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.plan import SweepPlan
 from contactbench.pipeline.study.sweep.run import faults_of
 from contactbench.pipeline.study.sweep.tables import speed_table, tables
 from contactbench.pipeline.study.sweep.targets import is_noisy, plain, usual
@@ -56,7 +56,7 @@ def make(results: Results, folder: Path) -> str:
     from contactbench.pipeline.study.sweep.plots import plots
 
     rows = list(results.rows)
-    plan = Plan.of(dict(results.about.get("plan", {})), "results")
+    plan = SweepPlan.of(dict(results.about.get("plan", {})), "results")
     pictures = plots(rows) | {"astray.png": draw(astray(rows, results.about.get("meshes", {})))}
     parts = [f"## Sweep: {plan.name}", _about(plan, len(rows))]
     for title, text in tables(rows):
@@ -77,7 +77,7 @@ def make(results: Results, folder: Path) -> str:
     return "\n\n".join(parts)
 
 
-def _about(plan: Plan, cells: int) -> str:
+def _about(plan: SweepPlan, cells: int) -> str:
     def of(values: tuple[object, ...]) -> str:
         return ", ".join(f"{value:g}" if isinstance(value, float) else str(value) for value in values)
 

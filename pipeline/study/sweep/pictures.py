@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.picture import HIGH, Look, SurfaceView
+from contactbench.pipeline.heatmap.picture import HIGH, PictureLook, SurfaceView
 from contactbench.pipeline.mesh import Probe
 from contactbench.pipeline.study.pages import STYLE, png
 from contactbench.pipeline.study.sweep.bodies import unpacked_mesh
@@ -109,7 +109,7 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
     axes.set_title(panel.title, fontsize=7)
 
 
-def _beside(probe: Probe, along: NDArray[np.float64]) -> Look:
+def _beside(probe: Probe, along: NDArray[np.float64]) -> PictureLook:
     """Look across the force, because both points lie near its line; a little from above."""
     across = np.cross(along, [0.0, 0.0, 1.0])
     if np.linalg.norm(across) < 1e-3:
@@ -118,4 +118,4 @@ def _beside(probe: Probe, along: NDArray[np.float64]) -> Look:
     toward /= np.linalg.norm(toward)
     right = np.cross([0.0, 0.0, 1.0], toward)
     right /= np.linalg.norm(right)
-    return Look(probe.bounds.mean(axis=0), right, np.cross(toward, right), toward, 1.5 * probe.size)
+    return PictureLook(probe.bounds.mean(axis=0), right, np.cross(toward, right), toward, 1.5 * probe.size)

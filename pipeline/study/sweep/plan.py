@@ -83,7 +83,7 @@ def _hash(values: dict[str, Any]) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-class Plan(BaseModel):
+class SweepPlan(BaseModel):
     """
     What a sweep varies: every combination is a cell.
 
@@ -166,15 +166,15 @@ class Plan(BaseModel):
 
     def changed(
         self, probes: Sequence[str] = (), touches: int | None = None, seed: int | None = None
-    ) -> Plan:
+    ) -> SweepPlan:
         """Return it with other probes, touches or seed, where they are given; InputError."""
         given = {"probes": tuple(probes) or None, "touches": touches, "seed": seed}
-        return Plan.of(
+        return SweepPlan.of(
             self.model_dump() | {name: value for name, value in given.items() if value is not None}
         )
 
     @classmethod
-    def read(cls, file: Path) -> Plan:
+    def read(cls, file: Path) -> SweepPlan:
         """
         Read a plan, TOML with the names of the attributes.
 
@@ -190,7 +190,7 @@ class Plan(BaseModel):
         return cls.of({"name": _plain(file.stem), **values}, str(file))
 
     @classmethod
-    def of(cls, values: dict[str, Any], where: str = "study") -> Plan:
+    def of(cls, values: dict[str, Any], where: str = "study") -> SweepPlan:
         """Return the plan of plain values; InputError that names the field."""
         try:
             return cls.model_validate(values)
@@ -262,8 +262,8 @@ PRESETS: dict[str, dict[str, Any]] = {
 }
 
 
-def preset_plan(name: str) -> Plan:
+def preset_plan(name: str) -> SweepPlan:
     """Return a plan by its name; InputError if there is none of that name."""
     if name not in PRESETS:
         raise InputError(f"--preset {name}: choose one of {', '.join(PRESETS)}.")
-    return Plan.of(PRESETS[name])
+    return SweepPlan.of(PRESETS[name])

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping
     from pathlib import Path
 
-    from contactbench.pipeline.study.sweep.plan import Cell, Plan
+    from contactbench.pipeline.study.sweep.plan import Cell, SweepPlan
 
 KIND = "sweep"  # of the results
 _TOGETHER = 24  # cells of a task: few enough that little is lost when it is cancelled
@@ -43,7 +43,7 @@ class Swept:
 
 
 def run(
-    plan: Plan,
+    plan: SweepPlan,
     out: Path,
     *,
     command: str = "contactbench study run",
@@ -110,7 +110,7 @@ def faults_of(rows: Iterable[Mapping[str, Any]]) -> list[str]:
     return [f"{', '.join(sorted(who))}: {reason}" for reason, who in found.items()]
 
 
-def _distinct(plan: Plan) -> tuple[list[Cell], tuple[str, ...]]:
+def _distinct(plan: SweepPlan) -> tuple[list[Cell], tuple[str, ...]]:
     """
     Return the cells of a plan, and which meshes a file cannot be made into, and why.
 
@@ -137,7 +137,7 @@ def _distinct(plan: Plan) -> tuple[list[Cell], tuple[str, ...]]:
     return [c for c in plan.cells() if some[c.probe][0] <= c.facets <= some[c.probe][1]], tuple(left_out)
 
 
-def _about(plan: Plan) -> dict[str, Any]:
+def _about(plan: SweepPlan) -> dict[str, Any]:
     """Return the plan without paths, and what the probes look like: pictures are made of the results alone."""
     named = plan.model_copy(update={"probes": tuple(map(label, plan.probes))})
     meshes = {label(probe): packed_mesh(probe) for probe in plan.probes}

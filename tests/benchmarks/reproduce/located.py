@@ -16,13 +16,13 @@ from contactbench.pipeline.calibration.contact_error import contact_sensitivity
 from contactbench.pipeline.contact import Reason, WrenchNoise
 from contactbench.pipeline.contact.methods import METHODS, make
 from contactbench.pipeline.errors import InputError
-from contactbench.pipeline.simulation.scenes import BenchScene, Press, Tip, TouchScene
+from contactbench.pipeline.simulation.scenes import BenchScene, Tip, TipPress, TouchScene
 from contactbench.pipeline.simulation.scenes.touch import STEP_S
 from contactbench.pipeline.study.control_rig import draw_sensor
 from contactbench.pipeline.study.marker_touches import (
     ANGLES,
     TRUE_FACETS,
-    Station,
+    MarkerStation,
     held,
     model_of,
     row,
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.contact import Batch
     from contactbench.pipeline.contact.methods import Method
-    from contactbench.pipeline.simulation.scenes import Moment
+    from contactbench.pipeline.simulation.scenes import SceneMoment
     from contactbench.pipeline.study.control_rig import CalibratedSensor
     from contactbench.pipeline.study.marker_touches import Touched
 
@@ -247,11 +247,11 @@ def by_force(
     name: str, facets: int, marker_S: NDArray[np.float64], benches: Sequence[CalibratedSensor], key: int
 ) -> list[ForceErrors]:
     """Press one marker at every angle with `FORCES_N`, and locate many readings of each touch."""
-    station = Station(name, marker_S)
+    station = MarkerStation(name, marker_S)
     found: list[ForceErrors] = []
     for index, (angle, (tilt, azimuth)) in enumerate(ANGLES.items()):
         for force in FORCES_N:
-            moment = station.touch(Press(force, tilt, azimuth))
+            moment = station.touch(TipPress(force, tilt, azimuth))
             rows = [
                 row((bench.seed, MARKER, index, repeat), station.scene.marker_S, moment)
                 for bench in benches
@@ -267,10 +267,10 @@ def force_errors(
     """Press every marker with `RISING_N`, and compare the filtered force with the true one."""
     rows = []
     for number, marker_S in enumerate(markers_S):
-        station = Station(name, marker_S)
+        station = MarkerStation(name, marker_S)
         for index, (tilt, azimuth) in enumerate(ANGLES.values()):
             for repeat, force in enumerate(RISING_N):
-                moment = station.touch(Press(force, tilt, azimuth))
+                moment = station.touch(TipPress(force, tilt, azimuth))
                 rows.append(row((0, number + 1, index, repeat), station.scene.marker_S, moment))
     touched = stack(rows)
     true = np.linalg.norm(touched.contacts[:, :3], axis=1)
@@ -477,13 +477,13 @@ class Effect:
 def effects(name: str, markers_S: NDArray[np.float64], bench: CalibratedSensor) -> list[Effect]:
     """Press some markers (n, 3) in the scene as it is, and in changed ones."""
     truth = truth_of(name)
-    makers: dict[str, Callable[[NDArray[np.float64], Press], Moment]] = {
+    makers: dict[str, Callable[[NDArray[np.float64], TipPress], SceneMoment]] = {
         "as it is": lambda at, press: _rested(TouchScene(truth, at), press),
         "half the time step": lambda at, press: _rested(TouchScene(truth, at, step=STEP_S / 2), press),
         "tip of 3 mm instead of 1.5": lambda at, press: _rested(TouchScene(truth, at, tip=Tip(0.003)), press),
         "on a wrist that yields": lambda at, press: _on_wrist(BenchScene(truth), at, press),
     }
-    presses = [Press(_SCENE_FORCE_N, tilt, azimuth) for tilt, azimuth in ANGLES.values()]
+    presses = [TipPress(_SCENE_FORCE_N, tilt, azimuth) for tilt, azimuth in ANGLES.values()]
     moments = {
         change: [make(at, press) for at in markers_S for press in presses] for change, make in makers.items()
     }
@@ -501,7 +501,7 @@ def effects(name: str, markers_S: NDArray[np.float64], bench: CalibratedSensor) 
     return found
 
 
-def _rested(scene: TouchScene, press: Press) -> Moment:
+def _rested(scene: TouchScene, press: TipPress) -> SceneMoment:
     scene.press(press)
     moment = scene.settle()
     if moment is None:
@@ -511,7 +511,7 @@ def _rested(scene: TouchScene, press: Press) -> Moment:
     return moment
 
 
-def _on_wrist(scene: BenchScene, marker_S: NDArray[np.float64], press: Press) -> Moment:
+def _on_wrist(scene: BenchScene, marker_S: NDArray[np.float64], press: TipPress) -> SceneMoment:
     scene.aim(marker_S)
     scene.press(press)
     scene.advance(_REST_S)

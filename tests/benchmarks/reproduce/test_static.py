@@ -31,7 +31,7 @@ from contactbench.pipeline.study.marker_touches import (
     held,
     press_markers,
 )
-from contactbench.pipeline.study.report import Figure, Report
+from contactbench.pipeline.study.report import Figure, StudyReport
 
 CAUSES = [
     Attributed(cause, (0.2,) * 3, (0.2,) * 3, (0.2,) * 3, (0.0,) * 3) for cause in ("none", FINE, "all")
@@ -49,11 +49,11 @@ def probe() -> ProbeResult:
     return locate_all("linear", 1_000, touched, [draw_sensor(0), draw_sensor(1)])
 
 
-def told(probe: ProbeResult) -> Report:
-    return Report("", {}, *judged([probe], CAUSES, None))
+def told(probe: ProbeResult) -> StudyReport:
+    return StudyReport("", {}, *judged([probe], CAUSES, None))
 
 
-def figure(report: Report, name: str) -> Figure:
+def figure(report: StudyReport, name: str) -> Figure:
     return next(each for each in report.figures if each.name == name)
 
 

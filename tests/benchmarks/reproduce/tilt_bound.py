@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from contactbench.pipeline.control.tilt import Reading, Tilt
+from contactbench.pipeline.control.tilt import Tilt, TiltReading
 
 if TYPE_CHECKING:
     from contactbench.pipeline.control.foundation import Foundation
@@ -48,7 +48,7 @@ def tilt_bound(
     found = []
     for gain in (press.gain_y, press.gain_x):
         axis = Tilt(*settings.lean, left / force)
-        reading = Reading(0.0, 0.0, gain, foundation.height, *sigmas)
+        reading = TiltReading(0.0, 0.0, gain, foundation.height, *sigmas)
         for _ in range(round(_SECONDS / settings.period)):
             axis.update(reading, settings.period)
         found.append(axis.sigma(reading))

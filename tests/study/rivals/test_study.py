@@ -11,7 +11,7 @@ from contactbench.pipeline.study.pages import make_page
 from contactbench.pipeline.study.results import write_results
 from contactbench.pipeline.study.rivals import place
 from contactbench.pipeline.study.rivals.rows import FAMILY, OURS
-from contactbench.pipeline.study.rivals.run import KIND, Sizes, run
+from contactbench.pipeline.study.rivals.run import KIND, RivalsSizes, run
 
 pytest.importorskip("pyarrow")
 
@@ -20,7 +20,7 @@ pytest.importorskip("pyarrow")
 def rows():
     patch = pytest.MonkeyPatch()
     patch.setattr(place, "_FEW", 20)
-    short = Sizes(probes=("linear",), facets=(500,), touches=200, rounds=1)
+    short = RivalsSizes(probes=("linear",), facets=(500,), touches=200, rounds=1)
     found = run(short)
     patch.undo()
     return found
@@ -66,7 +66,7 @@ def test_the_page_is_made_from_the_file_alone(rows, tmp_path):
 )
 def test_wrong_sizes_are_named(change, said):
     with pytest.raises(InputError, match=said):
-        Sizes(**change)
+        RivalsSizes(**change)
 
 
 def winner(row):

@@ -7,13 +7,13 @@ import numpy as np
 from contactbench.pipeline.contact import ContactSolver, Gates, Reason, TouchModel, WrenchNoise
 from contactbench.pipeline.study.sweep.bodies import mesh_of, packed_mesh, unpacked_mesh
 from contactbench.pipeline.study.sweep.cell import gates_for, touches_of
-from contactbench.pipeline.study.sweep.judging import bound_of, judged
 from contactbench.pipeline.study.sweep.noise import FILTERS, believed, deviations
-from contactbench.pipeline.study.sweep.plan import Plan
+from contactbench.pipeline.study.sweep.plan import SweepPlan
+from contactbench.pipeline.study.sweep.scores import bound_of, judged
 
 
 def test_the_bound_is_what_the_solver_states_on_a_fine_mesh():
-    [cell] = Plan(probes=("convex",), angles=(30.0,), methods=("contactbench",), touches=300).cells()
+    [cell] = SweepPlan(probes=("convex",), angles=(30.0,), methods=("contactbench",), touches=300).cells()
     touches, _ = touches_of(cell)
     # Of a method that knows nothing but the sensor's noise: any torsion, the mesh as it is, no model error.
     ignorant = TouchModel(torsion_arm=1.0, model_error=WrenchNoise(0.0, 0.0), mesh_curved=False)

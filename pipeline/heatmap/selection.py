@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.heatmap.finer import drawing_of
 from contactbench.pipeline.heatmap.heatmap import (
     HeatmapError,
     Normalisation,
@@ -19,6 +18,7 @@ from contactbench.pipeline.heatmap.heatmap import (
     default_bandwidth,
     heatmap,
 )
+from contactbench.pipeline.heatmap.subdivide import drawing_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

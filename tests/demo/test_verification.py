@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from contactbench.pipeline.config.runtime import RuntimeConfig
-from contactbench.pipeline.demo import bench, checking
-from contactbench.pipeline.demo.checking import CheckResult, check
-from contactbench.pipeline.demo.tool import Tool, draw_tool
+from contactbench.pipeline.demo import bench, verification
+from contactbench.pipeline.demo.tool import DemoTool, draw_tool
+from contactbench.pipeline.demo.verification import CheckResult, check
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.recording import read_recording
 
@@ -28,7 +28,7 @@ GOOD = CheckResult(15, 30, (), 0.1, 0.3, (), None, 3000, 2990, 30, 0.1, 0.2)
 
 
 @pytest.fixture
-def tool() -> Tool:
+def tool() -> DemoTool:
     return draw_tool(bench._chance(SEED, "convex", 0))
 
 
@@ -43,7 +43,7 @@ def folder(benched: demo.DemoReport, tmp_path: Path) -> Path:
 @pytest.fixture
 def no_report(monkeypatch: pytest.MonkeyPatch) -> None:
     """Most tests are about the bundle: drawing the report takes most of the time."""
-    monkeypatch.setattr(checking, "report", lambda *_: {"report.html": b"<!doctype html>"})
+    monkeypatch.setattr(verification, "report", lambda *_: {"report.html": b"<!doctype html>"})
 
 
 def contacts_of(folder: Path) -> list[dict[str, Any]]:
@@ -115,10 +115,10 @@ def test_the_bundle_finds_the_verified_points_and_the_true_ones(benched: demo.De
 
 
 def test_with_a_given_time_every_byte_is_the_same(
-    folder: Path, tool: Tool, monkeypatch: pytest.MonkeyPatch
+    folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "1700000000")
-    names = (*checking.WRITTEN, *(f"runtime/{name}" for name in checking.KNOWN))
+    names = (*verification.WRITTEN, *(f"runtime/{name}" for name in verification.KNOWN))
     runs = []
     for _ in range(2):
         assert check(folder, "convex", tool).verified
@@ -132,11 +132,11 @@ def test_with_a_given_time_every_byte_is_the_same(
 
 @pytest.mark.usefixtures("no_report")
 def test_contacts_that_are_off_make_no_bundle(
-    folder: Path, tool: Tool, monkeypatch: pytest.MonkeyPatch, benched: demo.DemoReport
+    folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch, benched: demo.DemoReport
 ) -> None:
     shutil.copytree(benched.out / "convex" / "runtime", folder / "runtime")
-    honest = checking.markers
-    monkeypatch.setattr(checking, "markers", lambda name: honest(name) + [0.0012, 0.0012, 0.0])
+    honest = verification.markers
+    monkeypatch.setattr(verification, "markers", lambda name: honest(name) + [0.0012, 0.0012, 0.0])
     result = check(folder, "convex", tool)
     assert not result.verified
     assert any("the mean error is" in reason for reason in result.failed)
@@ -149,18 +149,18 @@ def test_contacts_that_are_off_make_no_bundle(
 
 @pytest.mark.usefixtures("no_report")
 def test_markers_off_the_probe_are_a_finding(
-    folder: Path, tool: Tool, monkeypatch: pytest.MonkeyPatch
+    folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    honest = checking.markers
-    monkeypatch.setattr(checking, "markers", lambda name: honest(name) + [0.0, 0.0, 0.02])
+    honest = verification.markers
+    monkeypatch.setattr(verification, "markers", lambda name: honest(name) + [0.0, 0.0, 0.02])
     result = check(folder, "convex", tool)
     assert not result.verified
     assert "verification FAILED on 0 markers" in result.sentence("convex")
 
 
 @pytest.mark.usefixtures("no_report")
-def test_rejected_touches_are_listed(folder: Path, tool: Tool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(checking, "_WINDOW_N", (8.0, 9.5))
+def test_rejected_touches_are_listed(folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(verification, "_WINDOW_N", (8.0, 9.5))
     result = check(folder, "convex", tool)
     assert result.rejected
     assert result.touches + len(result.rejected) == 2 * MARKERS
@@ -170,7 +170,7 @@ def test_rejected_touches_are_listed(folder: Path, tool: Tool, monkeypatch: pyte
 
 @pytest.mark.usefixtures("no_report")
 def test_a_bundle_that_is_changed_on_its_way_is_refused(
-    folder: Path, tool: Tool, monkeypatch: pytest.MonkeyPatch
+    folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     honest = RuntimeConfig.write
 
@@ -189,12 +189,12 @@ def test_a_bundle_that_is_changed_on_its_way_is_refused(
 
 @pytest.mark.usefixtures("no_report")
 def test_a_refused_calibration_is_not_exported(
-    folder: Path, tool: Tool, monkeypatch: pytest.MonkeyPatch
+    folder: Path, tool: DemoTool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object, **__: object) -> Any:
-        raise checking.UnverifiedError(("The calibration is refused: too few poses.",))
+        raise verification.UnverifiedError(("The calibration is refused: too few poses.",))
 
-    monkeypatch.setattr(checking, "export_from_files", refuse)
+    monkeypatch.setattr(verification, "export_from_files", refuse)
     result = check(folder, "convex", tool)
     assert result.refused == "The calibration is refused: too few poses."
     assert not result.verified
@@ -211,13 +211,13 @@ def test_a_bundle_that_locates_elsewhere_fails() -> None:
 def test_what_cannot_be_removed_is_named(tmp_path: Path) -> None:
     (tmp_path / "report.html").mkdir()
     with pytest.raises(InputError, match=r"report\.html: it cannot be removed"):
-        checking.clear(tmp_path)
+        verification.clear(tmp_path)
 
 
 def test_clearing_leaves_what_is_not_ours(tmp_path: Path) -> None:
     (tmp_path / "runtime").mkdir()
     for name in ("runtime/planes.csv", "runtime/notes.txt", "markers.csv", "mine.csv"):
         (tmp_path / name).write_text("x", encoding="utf-8")
-    checking.clear(tmp_path)
+    verification.clear(tmp_path)
     left = {str(file.relative_to(tmp_path)) for file in tmp_path.rglob("*") if file.is_file()}
     assert left == {"runtime/notes.txt", "mine.csv"}

@@ -11,24 +11,24 @@ import numpy as np
 
 from contactbench import assets
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
-from contactbench.pipeline.control.loop import run_loop
-from contactbench.pipeline.control.margins import AXES
-from contactbench.pipeline.control.settings import Variant
-from contactbench.pipeline.control.states import State
-from contactbench.pipeline.control.tuning import (
-    Row,
+from contactbench.pipeline.control.gains import (
+    MarginRow,
     Tuned,
-    Wanted,
+    WantedMargins,
     rows_of,
     settings_content,
     spread_of,
     tune,
 )
+from contactbench.pipeline.control.loop import run_loop
+from contactbench.pipeline.control.margins import AXES
+from contactbench.pipeline.control.settings import Variant
+from contactbench.pipeline.control.states import ControlState
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.simulation.scenes import Tissue
 from contactbench.pipeline.study.control_rig import SCENES, foundation_of, make_rig
 from contactbench.pipeline.study.pages import png
-from contactbench.pipeline.study.report import Figure, Report, Sheet
+from contactbench.pipeline.study.report import Figure, Sheet, StudyReport
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -44,7 +44,7 @@ class TuningResult:
     """Gains, and the report of how they did: what is judged are presses on tissue that rests."""
 
     tuned: Tuned
-    report: Report
+    report: StudyReport
 
     def to_json(self) -> dict[str, Any]:
         """Return plain data for ``--json``."""
@@ -62,7 +62,7 @@ def run(
     scene: str = "platform",
     variant: Variant = Variant.PLAIN,
     force: float = 7.0,
-    wanted: Wanted | None = None,
+    wanted: WantedMargins | None = None,
     seed: int = 0,
     progress: Callable[[int, int], None] = lambda _done, _total: None,
 ) -> TuningResult:
@@ -116,7 +116,7 @@ def run(
         swing = float(np.degrees(last.angles.std(axis=0).max()))
         subject = f"{foundation.at(force, each).stiffness:,.0f} N/m"
         figures += [
-            Figure(subject, "tracked at the end", float(trace.ended is State.TRACK), "", 1),
+            Figure(subject, "tracked at the end", float(trace.ended is ControlState.TRACK), "", 1),
             Figure(
                 subject,
                 "largest force, of the wanted",
@@ -141,7 +141,7 @@ def run(
         "margins.png": _draw(rows, tuned.wanted),
     }
     sheets = (_gains(tuned), _margins(rows))
-    return TuningResult(tuned, Report("control tune", told, tuple(figures), (note,), sheets, files))
+    return TuningResult(tuned, StudyReport("control tune", told, tuple(figures), (note,), sheets, files))
 
 
 def _gains(tuned: Tuned) -> Sheet:
@@ -158,7 +158,7 @@ def _gains(tuned: Tuned) -> Sheet:
     return Sheet("gains", "Gains (SI units)", columns, rows)
 
 
-def _margins(rows: Sequence[Row]) -> Sheet:
+def _margins(rows: Sequence[MarginRow]) -> Sheet:
     columns = ("loop", "stiffness N/m", "stable", "gain margin", "phase margin deg", "crossover rad/s")
     cells = tuple(
         (
@@ -174,7 +174,7 @@ def _margins(rows: Sequence[Row]) -> Sheet:
     return Sheet("margins", "Margins against stiffness", columns, cells)
 
 
-def _draw(rows: Sequence[Row], wanted: Wanted) -> bytes:
+def _draw(rows: Sequence[MarginRow], wanted: WantedMargins) -> bytes:
     """Draw both margins of all loops against stiffness, as a PNG image."""
     figure = import_module("matplotlib.figure").Figure(figsize=(12, 5), dpi=100, layout="constrained")
     left, right = figure.subplots(1, 2)

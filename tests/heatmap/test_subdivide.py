@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from benchmarks.preparation.shapes import bundled
 
-from contactbench.pipeline.heatmap.finer import drawing_of, finer
+from contactbench.pipeline.heatmap.subdivide import drawing_of, finer
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from contactbench.pipeline.control.content import controller_of, limits_of
+from contactbench.pipeline.control.bundle import controller_of, limits_of
 from contactbench.pipeline.control.margins import AXES, Axis, Margins, loop_of, margins
 from contactbench.pipeline.control.settings import USUAL_GAIN, ControlSettings, Variant
 from contactbench.pipeline.errors import InputError
@@ -29,7 +29,7 @@ _USED = 5  # stiffnesses for which margins are asked
 
 
 @dataclass(frozen=True)
-class Wanted:
+class WantedMargins:
     """
     What gains must leave.
 
@@ -61,7 +61,7 @@ class Wanted:
 
 
 @dataclass(frozen=True)
-class Row:
+class MarginRow:
     """The margins of one loop on tissue of one modulus (N/m³) and stiffness at the wanted force (N/m)."""
 
     modulus: float
@@ -76,7 +76,7 @@ class Tuned:
 
     settings: ControlSettings
     modulus: float  # that they were chosen for, N/m³
-    wanted: Wanted
+    wanted: WantedMargins
     reached: dict[str, str]  # for each loop, what stopped its gain
 
 
@@ -85,7 +85,7 @@ def tune(
     modulus: float,
     *,
     variant: Variant = Variant.AWARE,
-    wanted: Wanted | None = None,
+    wanted: WantedMargins | None = None,
     desired_force: float = 7.0,
     servo_lag: float = 0.0,
 ) -> Tuned:
@@ -110,7 +110,7 @@ def tune(
     InputError
         A number is out of range, or even the slowest loop leaves too little.
     """
-    wanted = wanted or Wanted()
+    wanted = wanted or WantedMargins()
     base = replace(ControlSettings(), variant=variant, servo_lag=servo_lag)
     search = _Search(foundation, modulus, wanted, desired_force, base)
     for axis in AXES:
@@ -122,7 +122,12 @@ class _Search:
     """The loops one after the other: they do not touch each other."""
 
     def __init__(
-        self, foundation: Foundation, modulus: float, wanted: Wanted, force: float, base: ControlSettings
+        self,
+        foundation: Foundation,
+        modulus: float,
+        wanted: WantedMargins,
+        force: float,
+        base: ControlSettings,
     ) -> None:
         self._foundation, self._modulus, self._wanted, self._force = foundation, modulus, wanted, force
         self._base = base
@@ -192,11 +197,11 @@ def spread_of(modulus: float, spread: float, count: int = _USED) -> list[float]:
     return [float(each) for each in modulus * np.geomspace(1 / spread, spread, count)]
 
 
-def rows_of(tuned: Tuned, foundation: Foundation, count: int = 9) -> list[Row]:
+def rows_of(tuned: Tuned, foundation: Foundation, count: int = 9) -> list[MarginRow]:
     """Return the margins of all loops against the stiffness of the tissue."""
     force = tuned.settings.desired_force
     return [
-        Row(
+        MarginRow(
             modulus,
             foundation.at(force, modulus).stiffness,
             axis,

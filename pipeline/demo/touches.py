@@ -13,7 +13,7 @@ from contactbench.pipeline.contact import ContactSolver, WrenchNoise
 from contactbench.pipeline.contact.stream import locate_file
 from contactbench.pipeline.contact.wrench_csv import WrenchReader
 from contactbench.pipeline.demo.files import write_marked, write_recording, write_truth, write_wrenches
-from contactbench.pipeline.demo.tape import STEP_S, Tape
+from contactbench.pipeline.demo.tape import STEP_S, DemoTape
 from contactbench.pipeline.demo.tool import RATE_HZ, WARM_S, orientations_in_use
 from contactbench.pipeline.filtering import KalmanFilter
 from contactbench.pipeline.recording import read_recording
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
 
     from contactbench.pipeline.calibration import Calibration
     from contactbench.pipeline.contact import Batch
-    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.demo.tool import DemoTool
     from contactbench.pipeline.mesh import Probe
-    from contactbench.pipeline.simulation.scenes import Moment, Truth
+    from contactbench.pipeline.simulation.scenes import SceneMoment, TrueSurface
 
 FACE, HEAD = "face", "head"
 TILTS = (0.0, 30.0)  # degrees between the force and the inward normal
@@ -60,7 +60,7 @@ class Pressed:
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class LocatedTouches:
     """What locating made of touches."""
 
     noise: WrenchNoise  # of what was located: the sensor's, and what the calibration leaves uncertain
@@ -68,7 +68,9 @@ class Found:
     batch: Batch  # contactbench's answers
 
 
-def press_markers(folder: Path, name: str, tool: Tool, truth: Truth, rng: np.random.Generator) -> Pressed:
+def press_markers(
+    folder: Path, name: str, tool: DemoTool, truth: TrueSurface, rng: np.random.Generator
+) -> Pressed:
     """
     Press every marker of a probe, straight and at 30 degrees: touches.mcap, recording.csv and truth.csv.
 
@@ -81,7 +83,7 @@ def press_markers(folder: Path, name: str, tool: Tool, truth: Truth, rng: np.ran
         MuJoCo is missing, or a file cannot be written.
     """
     places = [(number, place, tilt) for number, place in enumerate(markers(name), 1) for tilt in TILTS]
-    tape, rows, moments = Tape(), [], []
+    tape, rows, moments = DemoTape(), [], []
     for place, R_WS in zip(places, orientations_in_use(len(places), rng), strict=True):
         number, marker, tilt = place
         scene = TouchScene(truth, marker, payload=tool.payload, R_WS=R_WS)
@@ -98,7 +100,7 @@ def press_markers(folder: Path, name: str, tool: Tool, truth: Truth, rng: np.ran
     return _pressed(rows, moments, len(places) - len(rows))
 
 
-def draw_points(folder: Path, name: str, count: int, tool: Tool, rng: np.random.Generator) -> Pressed:
+def draw_points(folder: Path, name: str, count: int, tool: DemoTool, rng: np.random.Generator) -> Pressed:
     """
     Draw touches on the acoustic face, then anywhere on the head, by formula: recording.csv and truth.csv.
 
@@ -121,8 +123,8 @@ def draw_points(folder: Path, name: str, count: int, tool: Tool, rng: np.random.
 
 
 def locate_folder(
-    folder: Path, probe: Probe, calibration: Calibration, tool: Tool, pressed: Pressed
-) -> Found:
+    folder: Path, probe: Probe, calibration: Calibration, tool: DemoTool, pressed: Pressed
+) -> LocatedTouches:
     """
     Compensate recording.csv, filter it where touches are held, and locate: wrenches.csv and contacts.csv.
 
@@ -139,7 +141,7 @@ def locate_folder(
     solver = ContactSolver(probe, whole)
     locate_file(solver, file, folder / "contacts.csv")
     _, wrenches = read_wrenches(file)
-    return Found(whole, wrenches, solver.locate_batch(wrenches))
+    return LocatedTouches(whole, wrenches, solver.locate_batch(wrenches))
 
 
 def read_wrenches(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -153,7 +155,7 @@ def read_wrenches(file: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]
 _TIP_FACETS = 2_000
 
 
-def _pressed(rows: list[tuple[float, int, float]], moments: list[Moment], slipped: int) -> Pressed:
+def _pressed(rows: list[tuple[float, int, float]], moments: list[SceneMoment], slipped: int) -> Pressed:
     return Pressed(
         np.array([moment.point_S for moment in moments]),
         np.array([f"{tilt:g}°" for _, _, tilt in rows]),

@@ -5,7 +5,7 @@ import pytest
 
 from contactbench.pipeline.calibration import GravityModel
 from contactbench.pipeline.contact import Gates, WrenchNoise
-from contactbench.pipeline.control.sensing import Fault, Intake
+from contactbench.pipeline.control.intake import SampleIntake, SensingFault
 from contactbench.pipeline.devices.sample import Status, WrenchSample
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.marker_touches import model_of
@@ -17,7 +17,7 @@ DOWN = np.diag([1.0, -1.0, -1.0])
 
 @pytest.fixture
 def intake():
-    return Intake(model_of("convex", 1000), GRAVITY, WrenchNoise(), Gates())
+    return SampleIntake(model_of("convex", 1000), GRAVITY, WrenchNoise(), Gates())
 
 
 def sample(time, wrench=PRESSED, seed=None, **more):
@@ -86,7 +86,7 @@ def test_the_same_reading_again_and_again_is_a_sensor_that_hangs(intake):
     first = intake.take(1.0, [replace(same, time=0.985 + 0.005 * k) for k in range(4)], DOWN)
     assert first.fault is None
     then = intake.take(1.02, [replace(same, time=1.005 + 0.005 * k) for k in range(4)], DOWN)
-    assert then.fault is Fault.STUCK
+    assert then.fault is SensingFault.STUCK
     assert np.isnan(then.wrench).all()
     assert intake.take(1.04, four(1.04, 7), DOWN).fresh
 
@@ -95,12 +95,12 @@ def test_silence_is_stale_after_a_while(intake):
     intake.take(1.0, four(1.0), DOWN)
     soon = intake.take(1.02, [], DOWN)
     assert (soon.fault, soon.fresh) == (None, False)
-    assert intake.take(1.08, [], DOWN).fault is Fault.STALE
+    assert intake.take(1.08, [], DOWN).fault is SensingFault.STALE
     assert intake.take(1.10, four(1.10, 3), DOWN).fresh
 
 
 def test_nothing_yet_is_stale(intake):
-    assert intake.take(1.0, [], DOWN).fault is Fault.STALE
+    assert intake.take(1.0, [], DOWN).fault is SensingFault.STALE
 
 
 def test_old_samples_do_not_come_back(intake):
@@ -111,18 +111,18 @@ def test_old_samples_do_not_come_back(intake):
 def test_the_end_of_the_range_is_said_by_the_device_or_the_gates():
     samples = four(1.0)
     samples[3] = replace(samples[3], status=Status.OVERRANGE)
-    intake = Intake(model_of("convex", 1000), GRAVITY)
-    assert intake.take(1.0, samples, DOWN).fault is Fault.SATURATED
+    intake = SampleIntake(model_of("convex", 1000), GRAVITY)
+    assert intake.take(1.0, samples, DOWN).fault is SensingFault.SATURATED
     ends = Gates(saturation=(50.0, 50.0, 8.0, 5.0, 5.0, 5.0))
-    gated = Intake(model_of("convex", 1000), GRAVITY, None, ends)
+    gated = SampleIntake(model_of("convex", 1000), GRAVITY, None, ends)
     assert gated.take(1.0, four(1.0), DOWN).fresh
-    assert gated.take(1.02, [sample(1.02, wrench=3 * PRESSED)], DOWN).fault is Fault.SATURATED
+    assert gated.take(1.02, [sample(1.02, wrench=3 * PRESSED)], DOWN).fault is SensingFault.SATURATED
 
 
 @pytest.mark.parametrize("back", [0.5, np.nan])
 def test_a_clock_that_goes_back_is_not_believed(intake, back):
     intake.take(1.0, four(1.0), DOWN)
-    assert intake.take(back, four(1.02, 2), DOWN).fault is Fault.CLOCK
+    assert intake.take(back, four(1.02, 2), DOWN).fault is SensingFault.CLOCK
     assert intake.take(1.04, four(1.04, 3), DOWN).fresh
 
 
@@ -133,4 +133,4 @@ def test_the_noise_of_a_mean(intake):
 
 def test_there_must_be_such_a_method():
     with pytest.raises(InputError, match="no method"):
-        Intake(model_of("convex", 1000), GRAVITY, method="guess")
+        SampleIntake(model_of("convex", 1000), GRAVITY, method="guess")

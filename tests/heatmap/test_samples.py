@@ -14,7 +14,7 @@ from contactbench.pipeline.cli import app
 from contactbench.pipeline.contact import WrenchNoise
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
 from contactbench.pipeline.heatmap.contacts import touches_of
-from contactbench.pipeline.heatmap.judging import measured_noise, settled, with_calibration
+from contactbench.pipeline.heatmap.samples import measured_noise, settled, with_calibration
 from contactbench.pipeline.mesh.sidecar import save_probe_file
 
 

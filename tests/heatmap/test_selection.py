@@ -7,8 +7,7 @@ import pytest
 
 from contactbench.pipeline.heatmap import HeatmapError, heatmap
 from contactbench.pipeline.heatmap.contacts import Contacts
-from contactbench.pipeline.heatmap.finer import drawing_of
-from contactbench.pipeline.heatmap.windowing import (
+from contactbench.pipeline.heatmap.selection import (
     OUTSIDE_FORCE,
     OUTSIDE_TIME,
     Selection,
@@ -17,6 +16,7 @@ from contactbench.pipeline.heatmap.windowing import (
     shown,
     windowed,
 )
+from contactbench.pipeline.heatmap.subdivide import drawing_of
 from contactbench.pipeline.mesh import Probe
 
 

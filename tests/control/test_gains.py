@@ -8,14 +8,14 @@ import pytest
 
 from contactbench.pipeline.config.runtime.bench import ExportSettings
 from contactbench.pipeline.config.runtime.settings_file import with_file
-from contactbench.pipeline.control.content import settings_of
+from contactbench.pipeline.control.bundle import settings_of
 from contactbench.pipeline.control.foundation import USUAL_MODULUS
+from contactbench.pipeline.control.gains import WantedMargins, rows_of, settings_content, spread_of, tune
 from contactbench.pipeline.control.margins import AXES, loop_of, margins
 from contactbench.pipeline.control.settings import Variant
-from contactbench.pipeline.control.tuning import Wanted, rows_of, settings_content, spread_of, tune
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.study.control_rig import foundation_of
-from contactbench.pipeline.study.control_tuning import run
+from contactbench.pipeline.study.gain_trials import run
 
 
 @pytest.mark.parametrize("variant", list(Variant))
@@ -32,21 +32,21 @@ def test_margins_are_kept_on_all_tissue(probe, variant):
 
 
 def test_a_higher_gain_would_leave_less():
-    foundation, wanted = foundation_of("linear"), Wanted()
+    foundation, wanted = foundation_of("linear"), WantedMargins()
     tuned = tune(foundation, USUAL_MODULUS, variant=Variant.PLAIN, wanted=wanted)
     assert tuned.reached["force"] == "the margins"
     faster = tune(
         foundation,
         USUAL_MODULUS,
         variant=Variant.PLAIN,
-        wanted=Wanted(gain=wanted.gain / 1.3, phase=wanted.phase / 1.3),
+        wanted=WantedMargins(gain=wanted.gain / 1.3, phase=wanted.phase / 1.3),
     )
     assert faster.settings.force_gain > 1.05 * tuned.settings.force_gain
 
 
 def test_what_cannot_be_had_is_said():
     with pytest.raises(InputError, match="smaller spread"):
-        tune(foundation_of("linear"), USUAL_MODULUS, variant=Variant.PLAIN, wanted=Wanted(gain=90.0))
+        tune(foundation_of("linear"), USUAL_MODULUS, variant=Variant.PLAIN, wanted=WantedMargins(gain=90.0))
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_what_cannot_be_had_is_said():
 )
 def test_impossible_wishes_are_refused(wrong):
     with pytest.raises(InputError, match="tuning"):
-        Wanted(**wrong)
+        WantedMargins(**wrong)
 
 
 def test_rows_are_sorted_by_stiffness():

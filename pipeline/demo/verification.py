@@ -12,7 +12,7 @@ from contactbench.pipeline.config.runtime import ConfigError, RuntimeConfig, Unv
 from contactbench.pipeline.config.runtime.bench import ExportSettings, export_from_files
 from contactbench.pipeline.config.runtime.pack import KNOWN
 from contactbench.pipeline.contact import Gates
-from contactbench.pipeline.control.content import controller_of
+from contactbench.pipeline.control.bundle import controller_of
 from contactbench.pipeline.control.foundation import Foundation
 from contactbench.pipeline.control.settings import ControlSettings
 from contactbench.pipeline.demo.tool import RATE_HZ, SENSOR_MODEL
@@ -20,7 +20,7 @@ from contactbench.pipeline.durable import write_file
 from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.mesh.sidecar import load_probe_file
 from contactbench.pipeline.recording.replay import Replay
-from contactbench.pipeline.report.making import report
+from contactbench.pipeline.report.report_file import report
 from contactbench.pipeline.runtime import Run, RunError
 from contactbench.pipeline.runtime.run import check_runnable
 from contactbench.pipeline.simulation.virtual.markers import markers
@@ -30,7 +30,7 @@ from contactbench.pipeline.verification.result import VerificationParameters, ve
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from contactbench.pipeline.demo.tool import Tool
+    from contactbench.pipeline.demo.tool import DemoTool
     from contactbench.pipeline.devices.sample import WrenchSample
     from contactbench.pipeline.runtime import Answer
     from contactbench.pipeline.verification import Verification
@@ -132,7 +132,7 @@ def clear(folder: Path) -> None:
         ) from error
 
 
-def check(folder: Path, name: str, tool: Tool) -> CheckResult:
+def check(folder: Path, name: str, tool: DemoTool) -> CheckResult:
     """
     Verify the touches of markers, report on them, export a bundle, load it, and run the same touches through it.
 
@@ -218,7 +218,7 @@ def _judged(found: Verification) -> CheckResult:
     )
 
 
-def _settings(tool: Tool, probe: Path) -> ExportSettings:
+def _settings(tool: DemoTool, probe: Path) -> ExportSettings:
     usual = ControlSettings.for_probe(Foundation(load_probe_file(probe).probe))
     fx, fy, fz, mx, my, mz = tool.settings.limit.tolist()
     return ExportSettings(

@@ -17,7 +17,7 @@ from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.suggest import plan_poses
 from contactbench.pipeline.control.inertia import Inertia
 from contactbench.pipeline.simulation.sensor_model import preset
-from contactbench.pipeline.study.ablation.locating import SENSOR, sigmas_of
+from contactbench.pipeline.study.ablation.location_choices import SENSOR, sigmas_of
 from contactbench.pipeline.study.ablation.records import WEIGHT
 from contactbench.pipeline.timing import time_calls
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from contactbench.pipeline.calibration import GravityModel
-    from contactbench.pipeline.study.ablation.records import Record
+    from contactbench.pipeline.study.ablation.records import SceneRecord
 
 DRIFT, MOUNT, CROSSTALK = CHOICES = ("drift model", "mount rotation", "sensor crosstalk")
 INERTIA = "inertia of the tool"  # of what moves; see `effects`
@@ -49,7 +49,7 @@ class Read:
     turns: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 
-def read(choice: str, record: Record, amount: float, noise: float, rng: np.random.Generator) -> Read:
+def read(choice: str, record: SceneRecord, amount: float, noise: float, rng: np.random.Generator) -> Read:
     """
     Read a record with a sensor that is not perfect.
 
@@ -106,7 +106,9 @@ def crosstalk_of(percent: float) -> NDArray[np.float64]:
     return np.asarray(np.eye(6) + percent / 0.5 * pattern)
 
 
-def _crosstalk(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
+def _crosstalk(
+    record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator
+) -> Read:
     C = crosstalk_of(amount)
     back = np.linalg.inv(C)
     bias, noise = _bias(), _pose_noise()
@@ -121,7 +123,7 @@ def _crosstalk(record: Record, amount: float, drawn: NDArray[np.float64], rng: n
     )
 
 
-def _mount(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
+def _mount(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
     axis = rng.standard_normal(3)
     R_SE = Rotation.from_rotvec(np.radians(amount) * axis / np.linalg.norm(axis)).as_matrix()
     bias, noise, R_WE = _bias(), _pose_noise(), _orientations()
@@ -137,7 +139,7 @@ def _mount(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.ra
     )
 
 
-def _drift(record: Record, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
+def _drift(record: SceneRecord, amount: float, drawn: NDArray[np.float64], rng: np.random.Generator) -> Read:
     drift, bias, noise = preset(SENSOR).drift, _bias(), _pose_noise()
     R = _orientations()
     still = WEIGHT.predict(R) + bias + noise.sigmas * rng.standard_normal((_POSES, 6))

@@ -32,7 +32,7 @@ _SPIKE_N, _SPIKE_NM = 4.0, 0.4  # off the median of the last five: no tissue pus
 _UNUSABLE = Status.INVALID | Status.ERROR
 
 
-class Fault(StrEnum):
+class SensingFault(StrEnum):
     """Why there is nothing to believe."""
 
     STALE = "stale"
@@ -48,7 +48,7 @@ class Sensed:
     time: float  # mean time of the samples, s; of the newest good one where there is none now
     wrench: NDArray[np.float64]  # (6,) compensated, on the probe, S, N and N·m; NaN without a fresh sample
     contact: Contact | None  # where it acts; None: too little force, or no method says
-    fault: Fault | None
+    fault: SensingFault | None
     age: float  # s since the newest good sample
     count: int  # samples that the wrench is the mean of
 
@@ -58,7 +58,7 @@ class Sensed:
         return self.fault is None and self.count > 0
 
 
-class Intake:
+class SampleIntake:
     """
     Takes raw samples, leaves out what is no measurement, and locates the rest.
 
@@ -197,13 +197,13 @@ class Intake:
         age = max(self._clock - self._good, 0.0)
         fault = None
         if back:
-            fault = Fault.CLOCK
+            fault = SensingFault.CLOCK
         elif self._equal >= _STUCK - 1:
-            fault = Fault.STUCK
+            fault = SensingFault.STUCK
         elif age > self._stale:
-            fault = Fault.STALE
+            fault = SensingFault.STALE
         elif saturated:
-            fault = Fault.SATURATED
+            fault = SensingFault.SATURATED
         if not rows or fault is not None:
             return Sensed(self._good, np.full(6, np.nan), None, fault, age, 0)
         wrench = np.add.reduce(rows) / len(rows) + added

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import hashlib
 from datetime import datetime
+from importlib import import_module
+from importlib.util import find_spec
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from contactbench.pipeline.report.errors import ReportError
+from contactbench.pipeline.errors import InputError
 from contactbench.pipeline.verification.known import TOUCH, WEIGHT, read_check
 
 if TYPE_CHECKING:
@@ -44,12 +46,11 @@ def report(
     from contactbench.pipeline.calibration.files.calibration_file import load_record
     from contactbench.pipeline.mesh.sidecar import load_probe_file
     from contactbench.pipeline.report.page import ReportContent, report_html
-    from contactbench.pipeline.report.pdf import report_pdf
-    from contactbench.pipeline.report.reading import read_verification
+    from contactbench.pipeline.report.verification_file import read_verification
 
     given = _parameters(parameters)
     if not {"verification", "probe"} <= set(inputs) <= set(_ROLES):
-        raise ReportError(
+        raise InputError(
             f"inputs: verification and probe are needed, and perhaps {', '.join(_ROLES[2:])}; there are"
             f" {', '.join(inputs) or 'none'}."
         )
@@ -71,6 +72,31 @@ def report(
     return {given.name: report_pdf(page) if given.name.endswith(".pdf") else page.encode()}
 
 
+def report_pdf(html: str) -> bytes:
+    """
+    Print a report's page to PDF, A4.
+
+    Raises
+    ------
+    InputError
+        WeasyPrint, an optional package, is missing or cannot work here.
+    """
+    remedy = "pip install 'contactbench[pdf]', or print the HTML file with a browser."
+    if find_spec("weasyprint") is None:
+        raise InputError(f"a PDF needs the package WeasyPrint: {remedy}")
+    try:
+        weasyprint = import_module("weasyprint")
+    except OSError as error:  # it loads Pango, a library of the system
+        raise InputError(
+            f"WeasyPrint cannot load Pango ({error}): on Debian and Ubuntu apt-get install libpango-1.0-0"
+            " libpangoft2-1.0-0; or print the HTML file with a browser."
+        ) from error
+    # Pictures stand in the page itself; nothing is fetched from outside.
+    fetcher = weasyprint.urls.URLFetcher(allowed_protocols=["data"])
+    data: bytes = weasyprint.HTML(string=html, url_fetcher=fetcher).write_pdf()
+    return data
+
+
 def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: Mapping[str, Path]) -> None:
     """
     Refuse files that are not those of a verification.
@@ -86,12 +112,12 @@ def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: 
 
     Raises
     ------
-    ReportError
+    InputError
         A probe or a calibration is another one. What the verification does not tell cannot be compared.
     """
     for role in ("probe", "calibration"):
         if role in hashes and sources.get(role, hashes[role]) != hashes[role]:
-            raise ReportError(
+            raise InputError(
                 f"{files[role]}: this is not the {role} that was verified (SHA-256 {hashes[role][:12]}, verified:"
                 f" {sources[role][:12]}): give the {role} that {files['verification'].name} was made with, or verify"
                 " again with this one."
@@ -99,12 +125,12 @@ def check_sources(sources: Mapping[str, str], hashes: Mapping[str, str], files: 
 
 
 def sha256_of(file: Path) -> str:
-    """Return the SHA-256 of a file, hexadecimal; ReportError if it cannot be read."""
+    """Return the SHA-256 of a file, hexadecimal; InputError if it cannot be read."""
     try:
         with file.open("rb") as stream:
             return hashlib.file_digest(stream, "sha256").hexdigest()
     except (OSError, ValueError) as error:
-        raise ReportError(f"{file}: the file cannot be read ({error}): check the path.") from error
+        raise InputError(f"{file}: the file cannot be read ({error}): check the path.") from error
 
 
 def _parameters(parameters: Mapping[str, Any]) -> ReportParameters:
@@ -113,7 +139,7 @@ def _parameters(parameters: Mapping[str, Any]) -> ReportParameters:
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         where = ".".join(map(str, first["loc"]))
-        raise ReportError(f"parameter {where}: {first['msg']}: correct it.") from error
+        raise InputError(f"parameter {where}: {first['msg']}: correct it.") from error
     if PurePath(given.name).name != given.name or not given.name.endswith((".html", ".pdf")):
-        raise ReportError(f"{given.name}: a report is a file whose name ends in .html or .pdf.")
+        raise InputError(f"{given.name}: a report is a file whose name ends in .html or .pdf.")
     return given

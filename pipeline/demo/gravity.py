@@ -17,17 +17,17 @@ from contactbench.pipeline.calibration.files.pose_csv import read_poses, write_p
 from contactbench.pipeline.calibration.reachable import by_hand
 from contactbench.pipeline.calibration.report.page import write_report
 from contactbench.pipeline.calibration.suggest import plan_poses
-from contactbench.pipeline.demo.tape import STEP_S, Tape
+from contactbench.pipeline.demo.tape import STEP_S, DemoTape
+from contactbench.pipeline.simulation.loads import bump, weigh
 from contactbench.pipeline.simulation.scenes import BenchScene
-from contactbench.pipeline.simulation.weighing import bump, weigh
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from contactbench.pipeline.demo.tool import Tool
-    from contactbench.pipeline.simulation.scenes import Truth
+    from contactbench.pipeline.demo.tool import DemoTool
+    from contactbench.pipeline.simulation.scenes import TrueSurface
 
 POSES = 9
 _HOLD_S = 2.5
@@ -38,13 +38,15 @@ _LEVER_M = (0.08, 0.16)
 _POSE_NOISE = PoseNoise(0.02, 0.0008)  # what a second of averaging leaves: drift and hum, not white noise
 
 
-def weigh_on_bench(folder: Path, tool: Tool, truth: Truth, rng: np.random.Generator) -> tuple[str, ...]:
+def weigh_on_bench(
+    folder: Path, tool: DemoTool, truth: TrueSurface, rng: np.random.Generator
+) -> tuple[str, ...]:
     """
     Turn the wrist to planned poses while somebody leans on one of them: gravity.mcap, and poses.csv out of it.
 
     Parameters
     ----------
-    truth : Truth
+    truth : TrueSurface
         The probe.
 
     Returns
@@ -59,7 +61,7 @@ def weigh_on_bench(folder: Path, tool: Tool, truth: Truth, rng: np.random.Genera
     """
     # What the robot is told is in its own base.
     planned = tool.R_BW.T @ _planned()
-    tape, pushed = Tape(), int(rng.integers(POSES))
+    tape, pushed = DemoTape(), int(rng.integers(POSES))
     spans: list[tuple[float, float]] = []
     scene = BenchScene(truth, payload=tool.payload, R_WS=planned[0], step=_STEP_S)
     for number, R_WS in enumerate(planned):
@@ -82,7 +84,7 @@ def weigh_on_bench(folder: Path, tool: Tool, truth: Truth, rng: np.random.Genera
     )
 
 
-def weigh_by_formula(folder: Path, tool: Tool, rng: np.random.Generator) -> tuple[str, ...]:
+def weigh_by_formula(folder: Path, tool: DemoTool, rng: np.random.Generator) -> tuple[str, ...]:
     """
     Write poses.csv as a calm bench would give it, with noise and one pose bumped.
 

@@ -8,7 +8,7 @@ from weighing_files import draw_noise, draw_weighing
 from contactbench.pipeline.calibration import GravityModel, PoseNoise
 from contactbench.pipeline.calibration.model import STANDARD_GRAVITY, cross_matrix
 from contactbench.pipeline.calibration.poses import stack
-from contactbench.pipeline.simulation.weighing import Weighing, bump, draw_load, weigh
+from contactbench.pipeline.simulation.loads import Weighing, bump, draw_load, weigh
 
 
 @pytest.fixture

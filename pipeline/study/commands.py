@@ -345,7 +345,7 @@ def ablation(
     from contactbench.pipeline.study.ablation.verdicts import about_choices
     from contactbench.pipeline.study.pages import publish
 
-    sizes = _sized(study.QUICK if quick else study.ConfidenceSizes(), probes=probe, scenes=scene, seeds=seeds)
+    sizes = _sized(study.QUICK if quick else study.AblationSizes(), probes=probe, scenes=scene, seeds=seeds)
     make_folder(out)
     rows = study.run(sizes, seed=seed, progress=say)
     command = _typed("ablation", quick=quick, probe=probe, scene=scene, seeds=sizes.seeds, seed=seed)
@@ -378,7 +378,7 @@ def rivals(
     from contactbench.pipeline.study.rivals import run as study
     from contactbench.pipeline.study.rivals.rows import duels
 
-    sizes = _sized(study.QUICK if quick else study.ConfidenceSizes(), probes=probe, rounds=rounds)
+    sizes = _sized(study.QUICK if quick else study.RivalsSizes(), probes=probe, rounds=rounds)
     make_folder(out)
     rows = study.run(sizes, seed=seed, progress=say)
     command = _typed("rivals", quick=quick, probe=probe, rounds=sizes.rounds, seed=seed)
